@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace arfm_vo {
+
+/// The one source of randomness: always seeded, so that the same input gives the same bytes.
+using RandomEngine = std::mt19937;
+
+/// An integer in [0, bound), the same on every platform (std::uniform_int_distribution is not).
+inline uint32_t RandomBelow(uint32_t bound, RandomEngine& engine) {
+  return static_cast<uint32_t>((static_cast<uint64_t>(engine()) * bound) >> 32);
+}
+
+/// A number in [0, 1), the same on every platform.
+inline double RandomUnit(RandomEngine& engine) { return engine() * (1.0 / 4294967296.0); }
+
+}  // namespace arfm_vo

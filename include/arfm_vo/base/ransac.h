@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/random.h"
+
+namespace arfm_vo {
+
+struct RansacOptions {
+  int max_iterations = 500;
+  int min_iterations = 10;
+  double confidence = 0.999;  ///< probability that at least one sample holds no outlier
+  int seed = 1;
+
+  void Check() const {
+    Require(max_iterations >= 1, "ransac.max_iterations must be at least 1");
+    Require(min_iterations >= 1 && min_iterations <= max_iterations,
+            "ransac.min_iterations must be in 1..max_iterations");
+    Require(confidence > 0 && confidence < 1, "ransac.confidence must be in (0, 1)");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_iterations", max_iterations);
+    visit("min_iterations", min_iterations);
+    visit("confidence", confidence);
+    visit("seed", seed);
+  }
+};
+
+template <class Model>
+struct RansacReport {
+  Model model;
+  std::vector<char> is_inlier;  ///< [N], 1 where the datum agrees with `model`
+  int num_inliers = 0;
+  int num_iterations = 0;
+};
+
+/// The one RANSAC loop (Fischler and Bolles 1981) with the adaptive number of iterations.
+///   estimate(const std::vector<int>& sample) -> std::optional<Model>   from `sample_size` distinct
+///   indices below N classify(const Model&, std::vector<char>& is_inlier) -> double     fills [N]
+///   flags, returns a score: the sum
+///       over all data of a truncated quality in [0, 1] (MSAC); the highest wins
+/// Nothing is returned where N < sample_size or no sample gave a model.
+template <class Model, class Estimate, class Classify>
+std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
+                                          const RansacOptions& options, Estimate&& estimate,
+                                          Classify&& classify) {
+  if (num_data < sample_size) return std::nullopt;
+  RandomEngine engine(options.seed);
+  std::optional<RansacReport<Model>> best;
+  double best_score = -1;
+  std::vector<int> sample(sample_size);
+  std::vector<char> is_inlier(num_data);
+  int needed = options.max_iterations;
+  for (int iteration = 0; iteration < needed; ++iteration) {
+    for (int i = 0; i < sample_size; ++i) {  // distinct by redraw: samples are tiny
+      do sample[i] = static_cast<int>(RandomBelow(num_data, engine));
+      while (std::find(sample.begin(), sample.begin() + i, sample[i]) != sample.begin() + i);
+    }
+    const std::optional<Model> model = estimate(sample);
+    if (!model) continue;
+    const double score = classify(*model, is_inlier);
+    if (score <= best_score) continue;
+    best_score = score;
+    const int num_inliers = static_cast<int>(std::count(is_inlier.begin(), is_inlier.end(), 1));
+    best = RansacReport<Model>{*model, is_inlier, num_inliers, iteration + 1};
+    const double good_sample = std::pow(static_cast<double>(num_inliers) / num_data, sample_size);
+    if (good_sample >= 1 - 1e-12) {
+      needed = options.min_iterations;
+    } else if (good_sample > 1e-12) {
+      const double wanted = std::log(1 - options.confidence) / std::log(1 - good_sample);
+      needed = std::clamp(static_cast<int>(std::min(wanted, 1e9)) + 1, options.min_iterations,
+                          options.max_iterations);
+    }
+  }
+  return best;
+}
+
+}  // namespace arfm_vo

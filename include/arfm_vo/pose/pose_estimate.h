@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+/// Why a frame has a pose or has none.
+enum class PoseStatus {
+  kTracked,         ///< pose found
+  kTooFewFeatures,  ///< too few keypoints or stereo points in the pair
+  kTooFewMatches,   ///< too few of the map's points were found again
+  kNoConsensus,     ///< matches, but no motion that enough of them agree with
+};
+
+/// The name of a status as messages and files show it, such as "too few matches".
+const char* ToString(PoseStatus status);
+
+/// The pose of one frame. Where status is not kTracked, pose and covariance hold nothing.
+struct PoseEstimate {
+  PoseStatus status = PoseStatus::kTooFewFeatures;
+  Rigid3 camera_from_world;
+  /// Covariance of the tangent step of BoxPlus(camera_from_world, .): (rotation rad, translation
+  /// m), camera frame.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int num_matches = 0;
+  int num_inliers = 0;
+  double rms_px = 0;  ///< root mean square of the inliers' reprojection errors
+
+  bool IsTracked() const { return status == PoseStatus::kTracked; }
+};
+
+}  // namespace arfm_vo

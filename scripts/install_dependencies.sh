@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs everything that arfm_vo needs to build, test and run, from Debian's own packages (reference: Debian 12).
+# Usage: scripts/install_dependencies.sh        as root, or as a user who may use sudo
+set -euo pipefail
+
+build=(g++ cmake ninja-build make git ca-certificates catkin ccache)
+# libX-msgs-dev holds the headers, ros-X-msgs the .msg files; both are needed.
+ros=(libroscpp-dev ros-message-generation ros-message-runtime
+     libstd-msgs-dev ros-std-msgs libstd-srvs-dev ros-std-srvs libsensor-msgs-dev ros-sensor-msgs
+     libnav-msgs-dev ros-nav-msgs libgeometry-msgs-dev ros-geometry-msgs
+     libdiagnostic-msgs-dev ros-diagnostic-msgs libvisualization-msgs-dev ros-visualization-msgs
+     libimage-transport-dev libcamera-info-manager-dev libcv-bridge-dev libmessage-filters-dev
+     libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-eigen-dev
+     libnodelet-dev libnodeletlib-dev pluginlib-dev
+     libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
+     libdiagnostic-updater-dev librosbag-dev librosbag-storage-dev)
+libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev libv4l-dev)
+tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
+runtime=(python3-roslaunch python3-rostest rosbash libnodeletlib-tools tf2-tools
+         python3-rosbag python3-rospy topic-tools python3-cv-bridge rviz ros-image-view
+         ros-stereo-image-proc ros-robot-state-publisher ros-camera-calibration
+         xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
+# A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
+hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2)
+
+as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
+
+packages=("${build[@]}" "${ros[@]}" "${libraries[@]}" "${tests[@]}" "${runtime[@]}" "${hardware[@]}")
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}"
+fi
+# roslaunch and rostest need localhost to resolve; a bare chroot has no such line.
+grep -qw localhost /etc/hosts 2>/dev/null || echo '127.0.0.1 localhost' | as_root tee -a /etc/hosts >/dev/null
+echo "install_dependencies: ${#packages[@]} packages present, ${#missing[@]} newly installed"

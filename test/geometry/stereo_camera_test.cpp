@@ -1,0 +1,35 @@
+#include "arfm_vo/geometry/stereo_camera.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{700, 710, 600, 180, 0.5, 1226, 370};
+
+TEST(StereoCamera, DepthIsBaselineTimesFocalLengthOverDisparity) {
+  EXPECT_DOUBLE_EQ(kCamera.Depth(35), 10.0);  // eq 6: 0.5 * 700 / 35
+  EXPECT_DOUBLE_EQ(kCamera.Disparity(10), 35.0);
+}
+
+TEST(StereoCamera, TriangulateUndoesProject) {
+  const Eigen::Vector3d x(1, -2, 20);
+  const Eigen::Vector3d uv = kCamera.ProjectStereo(x);
+  EXPECT_LT((kCamera.Triangulate(uv.x(), uv.y(), uv.x() - uv.z()) - x).norm(), 1e-12);
+}
+
+TEST(StereoCamera, CheckNamesABadBaseline) {
+  for (const double baseline : {0.0, -0.5, 10.0, double(NAN)}) {
+    StereoCamera camera = kCamera;
+    camera.baseline_m = baseline;
+    try {
+      camera.Check();
+      ADD_FAILURE() << "accepted baseline " << baseline;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("baseline"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo
