@@ -1,16 +1,13 @@
-#include <boost/program_options.hpp>
 #include <iostream>
 
+#include "arfm_vo/configuration/program.h"
 #include "arfm_vo/evaluation/trajectory_plot.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/odometry/trajectory_error.h"
 
 namespace {
 
-namespace po = boost::program_options;
 using namespace arfm_vo;
-
-constexpr char kUsage[] = "usage: evaluate_trajectory ESTIMATE TRUTH [--plot PNG]\n";
 
 void Evaluate(const std::string& estimate_path, const std::string& truth_path,
               const std::string& plot_path) {
@@ -32,32 +29,15 @@ void Evaluate(const std::string& estimate_path, const std::string& truth_path,
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string plot_path;
-  po::options_description options("Options");
-  options.add_options()("help,h", "show this and leave")(
-      "plot", po::value(&plot_path)->value_name("PNG"), "draw both paths and the error");
-  po::options_description all;
-  all.add(options).add_options()("path", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("path", 2);
-  try {
-    po::variables_map given;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
-    po::notify(given);
-    if (given.count("help")) {
-      std::cout << kUsage << "The error of a KITTI pose file against the true one.\n" << options;
-      return 0;
-    }
-    const auto paths = given.count("path") ? given["path"].as<std::vector<std::string>>()
-                                           : std::vector<std::string>();
-    if (paths.size() != 2) throw po::error("ESTIMATE and TRUTH must be given");
-    Evaluate(paths[0], paths[1], plot_path);
-    return 0;
-  } catch (const po::error& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << "\n" << kUsage;
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << "\n";
-    return 1;
-  }
+  std::string estimate, truth, plot;
+  Program program;
+  program.name = "evaluate_trajectory";
+  program.description =
+      "Prints the error of a KITTI pose file against the true one. Where one is shorter, the\n"
+      "frames that both have are compared.";
+  program.inputs = {{"ESTIMATE", &estimate}, {"TRUTH", &truth}};
+  program.options.add_options()("plot", boost::program_options::value(&plot)->value_name("PNG"),
+                                "draw both paths and the error");
+  program.run = [&] { Evaluate(estimate, truth, plot); };
+  return RunProgram(argc, argv, program);
 }

@@ -19,6 +19,23 @@ std::string Quote(const std::string& text) {
   return quoted + "'";
 }
 
+/// `set xrange` and `set yrange` to a square, seen from above, that holds all paths and 5 % more.
+std::string FormatSquareRange(const std::vector<Rigid3>& path, const std::vector<Rigid3>& other) {
+  Eigen::AlignedBox2d box;
+  for (const auto* poses : {&path, &other}) {
+    for (const Rigid3& pose : *poses)
+      box.extend(Eigen::Vector2d(pose.translation.x(), pose.translation.z()));
+  }
+  const double half_side = std::max(0.55 * box.sizes().maxCoeff(), 0.1);
+  std::string text;
+  for (const int axis : {0, 1}) {
+    text += std::string("set ") + (axis ? "y" : "x") + "range [" +
+            FormatNumber(box.center()[axis] - half_side) + ":" +
+            FormatNumber(box.center()[axis] + half_side) + "]\n";
+  }
+  return text;
+}
+
 /// A gnuplot data block of positions seen from above: x right, z forward.
 std::string FormatBlock(const std::string& name, const std::vector<Rigid3>& path) {
   std::string block = "$" + name + " << END\n";
@@ -45,14 +62,15 @@ std::string MakeScript(const std::vector<Rigid3>& estimate, const std::vector<Ri
                        Quote(png_path) + "\nset grid\nset key top left\n" +
                        FormatBlock("estimate", estimate);
   const std::string from_above =
-      "set size ratio -1\nset title 'From above'\nset xlabel 'x right, m'\n"
-      "set ylabel 'z forward, m'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+      FormatSquareRange(estimate, truth) +
+      "set size square\nset title 'From above'\nset xlabel 'x right, m'\n"
+      "set ylabel 'z forward, m'\n"
       "plot $estimate with lines lw 2 lc rgb '#1f77b4' title 'estimate'";
   if (truth.empty()) return script + from_above + "\n";
   return script + FormatBlock("truth", truth) + FormatErrorBlock(estimate, truth) +
          "set multiplot layout 1,2\n" + from_above +
          ", $truth with lines dt 2 lw 2 lc rgb '#d62728' title 'truth'\n"
-         "set size noratio\nset offsets 0, 0, 0, 0\nset title 'Error of the position'\n"
+         "set size nosquare\nset autoscale\nset title 'Error of the position'\n"
          "set xlabel 'distance driven, m'\nset ylabel 'error, m'\nset yrange [0:*]\n"
          "plot $error with lines lw 2 lc rgb '#2ca02c' notitle\nunset multiplot\n";
 }
