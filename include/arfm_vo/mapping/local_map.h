@@ -51,6 +51,8 @@ class LocalMap {
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
   const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
   const Keyframe* FindKeyframe(KeyframeId id) const;
+  /// The id that the next new landmark will have; ids grow.
+  LandmarkId next_landmark() const { return next_landmark_; }
 
   /// Moves a keyframe or landmark to its refined place; unknown ids are passed over.
   void MoveKeyframe(KeyframeId id, const Rigid3& camera_from_world);
