@@ -55,7 +55,8 @@ void ApplyLocalBundle(const LocalBundle& bundle, const BundleResult& result, Loc
   }
   for (size_t i = 0; i < bundle.landmarks.size(); ++i) {
     if (!result.point_is_used[i]) continue;
-    map.MoveLandmark(bundle.landmarks[i], result.points[i], result.point_covariances[i]);
+    map.MoveLandmark(bundle.landmarks[i], result.points[i],
+                     result.point_covariances.empty() ? map.landmarks().at(bundle.landmarks[i]).covariance : result.point_covariances[i]);
   }
   for (size_t i = 0; i < bundle.problem.observations.size(); ++i) {
     if (result.is_inlier[i]) continue;
