@@ -1,9 +1,9 @@
 #include "arfm_vo/datasets/kitti_sequence.h"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/kitti_calibration.h"
 #include "arfm_vo/datasets/kitti_times.h"
 #include "arfm_vo/datasets/png_image.h"
@@ -69,12 +69,6 @@ template <class Rows>
 void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
   Require(rows.size() == num_pairs, path.string() + ": holds " + std::to_string(rows.size()) +
                                         " lines for " + std::to_string(num_pairs) + " pairs");
-}
-
-double GetThreadCpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
