@@ -10,14 +10,14 @@
 namespace arfm_vo {
 namespace {
 
-/// A 3x2 image whose bytes are all `value`.
+/// An 8x6 image whose bytes are all `value`.
 sensor_msgs::ImagePtr MakeImage(const std::string& encoding, int bytes_a_pixel, uint8_t value) {
   const auto image = boost::make_shared<sensor_msgs::Image>();
   image->encoding = encoding;
-  image->width = 3;
-  image->height = 2;
-  image->step = 3 * bytes_a_pixel;
-  image->data.assign(2 * image->step, value);
+  image->width = 8;
+  image->height = 6;
+  image->step = 8 * bytes_a_pixel;
+  image->data.assign(6 * image->step, value);
   return image;
 }
 
@@ -25,7 +25,7 @@ TEST(ImageConversion, Mono8IsSharedNotCopied) {
   const auto image = MakeImage("mono8", 1, 77);
   const cv::Mat grey = ToGrey(image, "left");
   EXPECT_EQ(grey.data, image->data.data());
-  EXPECT_EQ(grey.size(), cv::Size(3, 2));
+  EXPECT_EQ(grey.size(), cv::Size(8, 6));
   EXPECT_EQ(grey.type(), CV_8UC1);
 }
 
@@ -34,7 +34,7 @@ TEST(ImageConversion, ColourAndDeepImagesBecomeGrey) {
        {std::pair("bgr8", 3), {"rgb8", 3}, {"bgra8", 4}, {"mono16", 2}, {"bayer_rggb8", 1}}) {
     const cv::Mat grey = ToGrey(MakeImage(encoding, bytes, 77), "left");
     ASSERT_EQ(grey.type(), CV_8UC1) << encoding;
-    EXPECT_NEAR(grey.at<uint8_t>(1, 1), 77, 1) << encoding;
+    EXPECT_NEAR(grey.at<uint8_t>(3, 4), 77, 1) << encoding;
   }
 }
 
