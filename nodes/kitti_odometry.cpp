@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       "times.txt\n"
       "and poses.txt; or raw data), in process and repeatable.";
   program.open = [](const std::string& folder, const PairSelection& selection) {
-    return std::make_unique<KittiSequence>(folder, selection);
+    return std::make_unique<KittiSequence>(folder, selection, KittiSequence::Loading::kOnDemand);
   };
   return RunOdometryProgram(argc, argv, program);
 }

@@ -73,7 +73,9 @@ void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
 
 }  // namespace
 
-KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection) {
+KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection,
+                             Loading loading)
+    : loading_(loading) {
   selection.Check();
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
@@ -119,8 +121,8 @@ SequencePair KittiSequence::Load(const Frame& frame) {
 
 void KittiSequence::StartLoading() {
   if (num_started_ == frames_.size()) return;
-  ahead_ = std::async(std::launch::async,
-                      [this, frame = frames_[num_started_++]] { return Load(frame); });
+  const auto policy = loading_ == Loading::kAhead ? std::launch::async : std::launch::deferred;
+  ahead_ = std::async(policy, [this, frame = frames_[num_started_++]] { return Load(frame); });
 }
 
 std::optional<SequencePair> KittiSequence::Next() {
