@@ -10,5 +10,6 @@ struct Match {
   int second = 0;      ///< index of the keypoint in the second (right) image
   float distance = 0;  ///< Euclidean distance of the descriptors, 0..2
 };
+using Matches = std::vector<Match>;
 
 }  // namespace arfm_vo

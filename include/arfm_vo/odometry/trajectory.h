@@ -16,4 +16,8 @@ struct TrajectoryPose {
 };
 using Trajectory = std::vector<TrajectoryPose>;
 
+/// Sets the poses of the lost frames: between their tracked neighbours by stamp (slerp), held at an
+/// end. Where no frame was tracked nothing changes.
+void InterpolateLostPoses(Trajectory& trajectory);
+
 }  // namespace arfm_vo

@@ -1,31 +1,29 @@
 #pragma once
 
-#include <memory>
-#include <string>
-#include <utility>
+#include <map>
 #include <vector>
 
-#include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/odometry/global_map.h"
+#include "arfm_vo/odometry/local_odometry.h"
+#include "arfm_vo/odometry/stereo_frontend.h"
 #include "arfm_vo/odometry/trajectory.h"
-#include "arfm_vo/pose/pose_estimate.h"
 
 namespace arfm_vo {
 
 struct OdometryOptions {
-  void Check() const {}
-  template <class Visitor>
-  void VisitFields(Visitor&&) {}
-};
+  FrontendOptions frontend;
+  LocalOdometryOptions odometry;
+  bool adjust_globally = true;  ///< at the end
+  GlobalMapOptions global;
 
-/// What one pair brought.
-struct OdometryUpdate {
-  double stamp_s = 0;
-  PoseEstimate pose;  ///< as known at once, before any later correction
-  bool is_keyframe = false;
-  int num_keypoints_left = 0, num_keypoints_right = 0, num_stereo_points = 0;
-  std::vector<std::pair<std::string, double>>
-      stage_ms;  ///< wall time of each stage, in their order
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("frontend", frontend);
+    visit("odometry", odometry);
+    visit("adjust_globally", adjust_globally);
+    visit("global", global);
+  }
 };
 
 /// Stereo visual odometry in process: the same floors as the node chain, without ROS. Repeatable:
@@ -34,7 +32,6 @@ class VisualOdometry {
  public:
   /// Throws std::invalid_argument where the camera or an option is wrong.
   VisualOdometry(const StereoCamera& camera, const OdometryOptions& options);
-  ~VisualOdometry();
 
   /// Takes the next pair, later than the one before. Throws std::invalid_argument where the images
   /// do not fit the camera.
@@ -45,8 +42,22 @@ class VisualOdometry {
   Trajectory Finish();
 
  private:
-  class Pipeline;
-  std::unique_ptr<Pipeline> pipeline_;
+  /// A frame's pose relative to the keyframe it was localised beside.
+  struct Frame {
+    double stamp_s;
+    bool is_tracked;
+    KeyframeId keyframe;
+    Rigid3 camera_from_keyframe;
+  };
+
+  void Remember(const OdometryUpdate& update);
+
+  OdometryOptions options_;
+  StereoFrontend frontend_;
+  LocalOdometry local_;
+  GlobalMap global_;
+  std::vector<Frame> frames_;
+  std::map<KeyframeId, Rigid3> keyframe_from_world_;
 };
 
 }  // namespace arfm_vo

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "arfm_vo/configuration/option_traits.h"
+
+namespace arfm_vo {
+
+/// The only document of a YAML file (a null node where it is empty). Throws std::invalid_argument
+/// naming file and line where it cannot be read or parsed.
+YAML::Node LoadYamlFile(const std::string& path);
+
+/// A node and its name in messages.
+struct YamlValue {
+  YAML::Node node;
+  std::string source;  ///< file, or whatever else the node was made from
+  std::string key;     ///< full dotted name, empty for the whole document
+
+  /// Throws std::invalid_argument: "source:line: key: what" (no line for a node made in memory).
+  [[noreturn]] void Fail(const std::string& what) const;
+  YamlValue Child(const YAML::Node& child, const std::string& name) const;
+};
+
+void ReadYamlValue(const YamlValue& value, bool& field);
+void ReadYamlValue(const YamlValue& value, double& field);
+void ReadYamlValue(const YamlValue& value, std::string& field);
+/// A plain decimal integer in [min, max].
+int64_t ReadYamlInteger(const YamlValue& value, int64_t min, int64_t max);
+/// The index in `names` of the one that a scalar holds.
+size_t ReadYamlName(const YamlValue& value, const std::vector<std::string>& names);
+
+/// The visitor that reads the fields of one options struct from one YAML map.
+class YamlMapReader {
+ public:
+  /// Fails unless the value is a map (or null: no keys) in which no key stands twice.
+  explicit YamlMapReader(const YamlValue& map);
+
+  template <class Field>
+  void operator()(const char* name, Field& field);
+  /// Fails where the map holds a key that was not asked for.
+  void CheckAllKeysKnown() const;
+
+ private:
+  YamlValue map_;
+  std::vector<std::string> known_;
+};
+
+template <class Field>
+void ReadYamlField(const YamlValue& value, Field& field) {
+  if constexpr (kHasFields<Field>) {
+    YamlMapReader reader(value);
+    field.VisitFields(reader);
+    reader.CheckAllKeysKnown();
+  } else if constexpr (std::is_enum_v<Field>) {
+    const auto names = ListNames(Field{});
+    field = names[ReadYamlName(value, FirstsOf(names))].second;
+  } else if constexpr (std::is_integral_v<Field> && !std::is_same_v<Field, bool>) {
+    static_assert(sizeof(Field) < 8 || std::is_signed_v<Field>, "no 64 bit unsigned options");
+    using Limits = std::numeric_limits<Field>;
+    field = static_cast<Field>(ReadYamlInteger(value, Limits::min(), Limits::max()));
+  } else if constexpr (kIsVector<Field> || kIsArray<Field>) {
+    if (!value.node.IsSequence()) value.Fail("must be a list");
+    if constexpr (kIsVector<Field>) field.assign(value.node.size(), {});
+    if (value.node.size() != field.size())
+      value.Fail("must be a list of " + std::to_string(field.size()));
+    for (size_t i = 0; i < field.size(); ++i)
+      ReadYamlField(value.Child(value.node[i], "[" + std::to_string(i) + "]"), field[i]);
+  } else {
+    ReadYamlValue(value, field);
+  }
+}
+
+template <class Field>
+void YamlMapReader::operator()(const char* name, Field& field) {
+  known_.emplace_back(name);
+  if (!map_.node.IsMap()) return;
+  if (const YAML::Node& child = map_.node[name]) ReadYamlField(map_.Child(child, name), field);
+}
+
+/// Reads options strictly: each key of the map must be a field (VisitFields) of the right type, or
+/// std::invalid_argument names the key with its full dotted name and where it stands. Keys left out
+/// keep the value that they have. Ends with options.Check(). Where it throws, `options` is as
+/// before. A quoted scalar is a string and nothing else.
+template <class Options>
+void ReadYaml(const YAML::Node& node, const std::string& source, Options& options) {
+  Options read = options;
+  ReadYamlField(YamlValue{node, source, ""}, read);
+  try {
+    read.Check();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(source + ": " + error.what());
+  }
+  options = read;
+}
+
+template <class Options>
+Options ReadYamlFile(const std::string& path) {
+  Options options;
+  ReadYaml(LoadYamlFile(path), path, options);
+  return options;
+}
+
+}  // namespace arfm_vo

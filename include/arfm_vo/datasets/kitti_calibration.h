@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+
+namespace arfm_vo {
+
+/// The grey cameras of a KITTI calibration file: projection matrices `P0:` and `P1:` (odometry) or
+/// `P_rect_00:` and `P_rect_01:` (raw data), 12 numbers each. Throws std::invalid_argument naming
+/// file and key where one is missing or stands twice, is not 12 finite numbers, where the two are
+/// not a rectified pair, or the baseline is not in (0, 10) m. `width` and `height` are those given.
+StereoCamera ReadKittiCalibration(const std::string& path, int width, int height);
+
+}  // namespace arfm_vo

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "arfm_vo/datasets/stereo_sequence.h"
+
+namespace arfm_vo {
+
+/// A folder of a KITTI stereo sequence with grey images, in one of the layouts
+///   odometry   image_0/000000.png.. image_1/.. calib.txt [times.txt] [poses.txt]
+///              (of the official sequences/NN also ../../poses/NN.txt)
+///   raw, sync  image_00/data/0000000000.png.. image_01/data/.. [image_00/timestamps.txt]
+///              calib_cam_to_cam.txt, here or in the folder above
+/// Without times the pairs are 0.1 s apart. The images are read when asked for, one pair ahead on a
+/// thread of its own.
+class KittiSequence : public StereoSequence {
+ public:
+  /// Reads everything but the images. Throws std::invalid_argument naming file or key for: a
+  /// missing folder, images without partner, a wrong calibration, times that do not increase,
+  /// numbers of times or poses other than that of the pairs, anything not finite.
+  explicit KittiSequence(const std::string& folder, const PairSelection& selection = {});
+
+  const StereoCamera& camera() const override { return camera_; }
+  int size() const override { return static_cast<int>(frames_.size()); }
+  /// Throws std::invalid_argument naming the file where an image cannot be read, is truncated or
+  /// differs in size from the first.
+  std::optional<SequencePair> Next() override;
+  double loading_cpu_s() const override { return loading_cpu_s_; }
+
+ private:
+  struct Frame {
+    std::string left_path, right_path;
+    double stamp_s = 0;
+    std::optional<Rigid3> true_world_from_camera;
+  };
+  SequencePair Load(const Frame& frame);
+  void StartLoading();
+
+  StereoCamera camera_;
+  std::vector<Frame> frames_;
+  size_t num_started_ = 0;
+  std::atomic<double> loading_cpu_s_ = 0;
+  std::future<SequencePair> ahead_;  ///< last: joined before the rest goes
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/features/surf_descriptor.h"
+#include "arfm_vo/features/surf_detector.h"
+
+namespace arfm_vo {
+
+struct SurfOptions {
+  SurfDetectorOptions detector;
+  SurfDescriptorOptions descriptor;
+  bool use_fast_path = true;  ///< false: the readable reference, same result
+  int threads = 1;            ///< for one image, with the fast path
+
+  /// Throws std::invalid_argument naming the key that is out of range.
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("detector", detector);
+    visit("descriptor", descriptor);
+    visit("use_fast_path", use_fast_path);
+    visit("threads", threads);
+  }
+};
+
+/// Grey image to SURF features. Memory is kept from call to call, nothing else: the same image
+/// gives the same features, whatever came before and however many threads work. Not to be shared
+/// between threads: one object each.
+class Surf {
+ public:
+  /// Throws std::invalid_argument where an option is wrong.
+  explicit Surf(const SurfOptions& options);
+  ~Surf();
+
+  /// Features ordered by row, then column, of their maxima. Throws std::invalid_argument unless
+  /// `grey` is CV_8UC1 and not empty.
+  Features Extract(const cv::Mat& grey);
+
+ private:
+  class Workspace;
+  SurfOptions options_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/image/integral_image.h"
+
+namespace arfm_vo {
+
+struct SurfDetectorOptions {
+  /// Least determinant of the Hessian (eq 3) of a keypoint, of second derivatives in grey levels
+  /// 0..255 divided by the filter's area. 650 times OpenSURF's; 30 gives some 1000 to 2000 points
+  /// on a street scene. With a target it is the floor, below which nothing but noise is found.
+  double hessian_threshold = 1.0;
+  int octaves = 3;
+  int layers = 4;        ///< filters an octave, the outer two for comparison only
+  int initial_step = 1;  ///< px between samples of the first octave; doubles with each octave
+  int target_keypoints = 1000;  ///< keypoints wanted an image, 0: all above the threshold
+  int bucket_px = 64;  ///< edge of the cells over which the wanted keypoints are spread, 0: none
+
+  /// Throws std::invalid_argument naming the key that is out of range.
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("hessian_threshold", hessian_threshold);
+    visit("octaves", octaves);
+    visit("layers", layers);
+    visit("initial_step", initial_step);
+    visit("target_keypoints", target_keypoints);
+    visit("bucket_px", bucket_px);
+  }
+};
+
+/// Fast-Hessian detector (Bay, Ess, Tuytelaars, Van Gool, SURF, CVIU 2008), the readable reference:
+/// determinants of box-filtered Hessians (eq 3) over octaves and layers, maxima of 3 x 3 x 3
+/// neighbours, position and scale from the quadratic fit of Brown and Lowe (BMVC 2002).
+class SurfDetector {
+ public:
+  /// Throws std::invalid_argument where an option is wrong.
+  explicit SurfDetector(const SurfDetectorOptions& options);
+
+  /// Keypoints ordered by row, then column; angles are 0. The same image gives the same keypoints,
+  /// whatever came before.
+  std::vector<Keypoint> Detect(const IntegralImage& integral) const;
+
+ private:
+  SurfDetectorOptions options_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/matx.hpp>
+#include <opencv2/core/types.hpp>
+#include <optional>
+
+#include "arfm_vo/image/patch.h"
+
+namespace arfm_vo {
+
+struct PatchAlignmentOptions {
+  int max_iterations = 12;
+  double convergence_px = 0.005;  ///< the last step is shorter than this
+  double max_shift_px = 3;        ///< from the initial guess, after the search
+  int search_radius_px = 0;       ///< best of the whole pixels around the guess first; 0: none
+  double min_zncc = 0.8;          ///< correlation at the aligned position
+  double max_sigma_px = 0.5;      ///< predicted; more means too little texture
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_iterations", max_iterations);
+    visit("convergence_px", convergence_px);
+    visit("max_shift_px", max_shift_px);
+    visit("search_radius_px", search_radius_px);
+    visit("min_zncc", min_zncc);
+    visit("max_sigma_px", max_sigma_px);
+  }
+};
+
+enum class AlignmentStatus {
+  kAligned,
+  kOutOfImage,
+  kLowTexture,
+  kNotConverged,
+  kMovedTooFar,
+  kLowCorrelation,
+};
+
+/// Where a patch was found. All but `status` is set where the status is kAligned only.
+struct PatchAlignment {
+  AlignmentStatus status = AlignmentStatus::kNotConverged;
+  cv::Point2f position;    ///< px, of the patch's point in the other image
+  float zncc = 0;          ///< weighted correlation, -1..1
+  float residual_rms = 0;  ///< grey levels, after brightness and contrast are fitted
+  cv::Vec3f covariance;    ///< of `position` (xx, xy, yy), px^2, from residual and texture
+  int num_iterations = 0;
+
+  bool IsAligned() const { return status == AlignmentStatus::kAligned; }
+};
+
+/// Finds a patch in another image to a fraction of a pixel: inverse compositional Lucas-Kanade
+/// (Baker and Matthews 2004) over translation, brightness and contrast; the latter two are
+/// eliminated beforehand. The image is interpolated bicubically: bilinear interpolation pulls
+/// positions towards whole pixels.
+class PatchAligner {
+ public:
+  explicit PatchAligner(const PatchAlignmentOptions& options);
+
+  /// Searches `grey` (CV_8UC1) around `guess`.
+  PatchAlignment Align(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess) const;
+  /// The same with y held at guess.y; covariance of y is 0.
+  PatchAlignment AlignAlongRow(const Patch& patch, const cv::Mat& grey,
+                               const cv::Point2f& guess) const;
+
+ private:
+  cv::Point2f Search(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess,
+                     int radius_x, int radius_y) const;
+  PatchAlignment Refine(const Patch& patch, const cv::Mat& grey, const cv::Point2f& start,
+                        const cv::Vec3f& inverse_hessian) const;
+  void Judge(const Patch& patch, const Patch::Samples& samples, float gain,
+             const cv::Vec3f& inverse_hessian, PatchAlignment& alignment) const;
+
+  PatchAlignmentOptions options_;
+};
+
+}  // namespace arfm_vo

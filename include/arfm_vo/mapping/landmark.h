@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "arfm_vo/features/features.h"
+
+namespace arfm_vo {
+
+using LandmarkId = int64_t;
+using KeyframeId = int32_t;
+
+/// A point of the map. Its appearance is that in the keyframe that saw it first.
+struct Landmark {
+  LandmarkId id = 0;
+  Eigen::Vector3d x_in_world;
+  Eigen::Matrix3d covariance;  ///< of x_in_world, m^2, relative to the keyframes that see it
+
+  KeyframeId reference = 0;  ///< keyframe that holds the template of its patch
+  Keypoint keypoint;         ///< in the reference's left image
+  std::array<float, 64> descriptor;
+
+  int num_keyframes = 0;  ///< keyframes that observe it
+  int num_missed = 0;     ///< frames in a row that should have seen it and did not
+};
+
+/// Where a frame saw a landmark.
+struct LandmarkObservation {
+  LandmarkId landmark = 0;
+  Eigen::Vector4d pixels;  ///< (u_left, v_left, u_right, v_right), as measured
+  bool has_right = true;   ///< false: u_right, v_right hold nothing
+  double sigma_px = 1;     ///< standard deviation of each coordinate
+};
+using LandmarkObservations = std::vector<LandmarkObservation>;
+
+}  // namespace arfm_vo

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/image/patch_alignment.h"
+#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/mapping/keyframe.h"
+
+namespace arfm_vo {
+
+struct LandmarkAlignerOptions {
+  PatchAlignmentOptions patch;
+  double max_magnification = 3;  ///< size of the landmark now over that in its reference
+  double min_sigma_px = 0.1;     ///< no observation is trusted more than this
+  double max_right_row_px = 2;   ///< |v_right - v_left|; more is a wrong match
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("patch", patch);
+    visit("max_magnification", max_magnification);
+    visit("min_sigma_px", min_sigma_px);
+    visit("max_right_row_px", max_right_row_px);
+  }
+};
+
+/// Measures where landmarks are in a new pair, to a fraction of a pixel: the patch around the
+/// landmark in its reference keyframe is warped to how it should look now and aligned with both
+/// images (Lucas-Kanade).
+class LandmarkAligner {
+ public:
+  LandmarkAligner(const StereoCamera& camera, const LandmarkAlignerOptions& options);
+
+  /// `camera_from_world` must predict the landmark's place to some 3 px. Nothing is returned where
+  /// the left image does not show the patch there; has_right is false where the right one does not.
+  std::optional<LandmarkObservation> Align(const Landmark& landmark, const Keyframe& reference,
+                                           const StereoImages& images,
+                                           const Rigid3& camera_from_world) const;
+
+ private:
+  StereoCamera camera_;
+  LandmarkAlignerOptions options_;
+  PatchAligner aligner_;
+};
+
+/// The 2 x 2 matrix that takes small pixel steps around a landmark from `target` to `source`, for a
+/// patch of surface that faces the source camera. Nothing where the landmark is behind a camera.
+/// target_from_world and source_from_world are the poses of two cameras of the same intrinsics.
+std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera,
+                                            const Eigen::Vector3d& x_in_world,
+                                            const Rigid3& source_from_world,
+                                            const Rigid3& target_from_world);
+
+}  // namespace arfm_vo

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <vector>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/mapping/keyframe.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
+namespace arfm_vo {
+
+struct LocalMapOptions {
+  int max_keyframes = 12;           ///< older ones leave the map with the points only they see
+  int max_missed_frames = 8;        ///< in view, in a row: then a point is looked for no more
+  int max_landmarks_in_view = 700;  ///< new points are added up to this number
+  int grid_cell_px = 40;            ///< new points are spread over cells of this size
+  double min_separation_px = 6;     ///< a new point keeps this distance from the known ones
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_keyframes", max_keyframes);
+    visit("max_missed_frames", max_missed_frames);
+    visit("max_landmarks_in_view", max_landmarks_in_view);
+    visit("grid_cell_px", grid_cell_px);
+    visit("min_separation_px", min_separation_px);
+  }
+};
+
+/// The points that the newest keyframes saw, and those keyframes (Fig. 3). A frame is localised
+/// against all points in its field of view, whichever keyframe they come from.
+class LocalMap {
+ public:
+  LocalMap(const StereoCamera& camera, const LocalMapOptions& options);
+
+  /// Adds a keyframe of a localised frame. `tracked` are its observations of known landmarks,
+  /// sorted by landmark; new landmarks are made from the stereo points that lie apart from them.
+  const Keyframe& AddKeyframe(const StereoFrame& frame, const cv::Mat& left,
+                              const Rigid3& camera_from_world, const LandmarkObservations& tracked);
+
+  /// The landmarks in the field of view of a camera, in front of it, sorted by id; without those
+  /// that were missed too often of late.
+  std::vector<const Landmark*> LandmarksInView(const Rigid3& camera_from_world,
+                                               double border_px) const;
+
+  /// Counts for each of the `expected` landmarks whether it is among `tracked` (sorted by
+  /// landmark).
+  void CountSightings(const std::vector<LandmarkId>& expected, const LandmarkObservations& tracked);
+
+  const std::deque<Keyframe>& keyframes() const { return keyframes_; }
+  const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  const Keyframe* FindKeyframe(KeyframeId id) const;
+  /// The id that the next new landmark will have; ids grow.
+  LandmarkId next_landmark() const { return next_landmark_; }
+
+  /// Moves a keyframe or landmark to its refined place; unknown ids are passed over.
+  void MoveKeyframe(KeyframeId id, const Rigid3& camera_from_world);
+  void MoveLandmark(LandmarkId id, const Eigen::Vector3d& x_in_world,
+                    const Eigen::Matrix3d& covariance);
+  /// Forgets that a keyframe saw a landmark; a landmark that nobody sees leaves the map.
+  void RemoveObservation(KeyframeId keyframe, LandmarkId landmark);
+  /// Applies `new_from_old` to the whole map: all poses and points.
+  void Transform(const Rigid3& new_from_old);
+  void Clear();
+
+ private:
+  void AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe);
+  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe);
+  void RemoveOldestKeyframe();
+  void MoveReference(Landmark& landmark) const;
+
+  StereoCamera camera_;
+  LocalMapOptions options_;
+  std::deque<Keyframe> keyframes_;
+  std::map<LandmarkId, Landmark> landmarks_;
+  KeyframeId next_keyframe_ = 0;
+  LandmarkId next_landmark_ = 0;
+};
+
+/// Covariance of a point triangulated from a left pixel with disparity (eq 6), m^2, camera frame.
+Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
+                                        const Eigen::Vector3d& x_in_camera, double sigma_px);
+
+}  // namespace arfm_vo

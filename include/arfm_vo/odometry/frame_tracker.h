@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/mapping/landmark_aligner.h"
+#include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/matching/match.h"
+#include "arfm_vo/pose/pose_estimator.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
+namespace arfm_vo {
+
+struct FrameTrackerOptions {
+  double search_radius_px = 40;  ///< around the predicted place, for descriptors
+  double max_scale_ratio = 1.6;  ///< of a keypoint's scale against the expected one
+  double guided_ratio = 0.9;     ///< nearest / second-nearest distance near the prediction
+  double unguided_ratio = 0.8;   ///< the same among all keypoints
+  int min_guided_inliers = 40;   ///< fewer call for a search among all keypoints
+  double keypoint_sigma = 0.4;   ///< of a keypoint's position, in units of its scale
+  PoseEstimatorOptions pose;
+  bool align_patches = true;  ///< false: the keypoints' own positions
+  LandmarkAlignerOptions alignment;
+  PoseRefinementOptions refinement;  ///< of the pose on aligned patches
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("search_radius_px", search_radius_px);
+    visit("max_scale_ratio", max_scale_ratio);
+    visit("guided_ratio", guided_ratio);
+    visit("unguided_ratio", unguided_ratio);
+    visit("min_guided_inliers", min_guided_inliers);
+    visit("keypoint_sigma", keypoint_sigma);
+    visit("pose", pose);
+    visit("align_patches", align_patches);
+    visit("alignment", alignment);
+    visit("refinement", refinement);
+  }
+};
+
+/// A frame found again in the map.
+struct TrackedFrame {
+  PoseEstimate pose;
+  LandmarkObservations observations;  ///< those that agree with the pose, sorted by landmark
+  std::vector<LandmarkId> expected;   ///< landmarks that should have been seen
+};
+
+/// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
+/// among all keypoints where there is no prediction or it fails; EPnP in RANSAC; then every
+/// landmark in view is measured by its patch, and the pose refined on these.
+class FrameTracker {
+ public:
+  FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
+
+  TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
+                     const std::optional<Rigid3>& predicted_camera_from_world) const;
+
+ private:
+  struct Correspondences;
+  Correspondences MatchNear(const StereoFrame& frame, const LocalMap& map,
+                            const Rigid3& predicted) const;
+  Correspondences MatchAll(const StereoFrame& frame, const LocalMap& map) const;
+  Correspondences Correspond(const StereoFrame& frame,
+                             const std::vector<const Landmark*>& landmarks,
+                             const Matches& matches) const;
+  TrackedFrame Localise(const Correspondences& correspondences,
+                        const std::optional<Rigid3>& predicted) const;
+  TrackedFrame Align(const StereoImages& images, const LocalMap& map,
+                     const PoseEstimate& coarse) const;
+
+  StereoCamera camera_;
+  FrameTrackerOptions options_;
+  LandmarkAligner aligner_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/mapping/keyframe_record.h"
+
+namespace arfm_vo {
+
+struct GlobalMapOptions {
+  BundleOptions solver;
+  int min_observations = 2;      ///< keyframes that must see a landmark for it to take part
+  int max_keyframes = 2000;      ///< the newest so many move; older ones are held where they are
+  double stereo_rotation_sigma_rad = 1e-3;  ///< prior of the right camera's error; 0: frozen
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("solver", solver);
+    visit("min_observations", min_observations);
+    visit("max_keyframes", max_keyframes);
+    visit("stereo_rotation_sigma_rad", stereo_rotation_sigma_rad);
+  }
+};
+
+/// All keyframes and points, for the global bundle adjustment (Fig. 4). What ba_node runs.
+class GlobalMap {
+ public:
+  GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options);
+
+  /// Takes the next keyframe, which must be newer than all before.
+  void Add(const KeyframeRecord& keyframe);
+
+  /// Adjusts everything. Nothing where there are fewer than two keyframes or no solution.
+  /// `progress(iteration, cost)` is called after each iteration; false from it cancels.
+  std::optional<MapUpdate> Adjust(const std::function<bool(int, double)>& progress = {});
+
+  /// Takes the newest keyframe's pose in odom to that in the map.
+  Rigid3 MapFromOdom() const { return map_from_odom_; }
+
+  int num_keyframes() const { return static_cast<int>(keyframes_.size()); }
+  int num_landmarks() const { return static_cast<int>(landmarks_.size()); }
+  void Clear();
+
+ private:
+  struct Point {
+    Eigen::Vector3d x_in_map;
+    int num_observations = 0;
+    int row = -1;  ///< in the bundle problem being solved
+  };
+  struct Node {
+    KeyframeId id;
+    Rigid3 camera_from_map;
+    LandmarkObservations observations;
+  };
+
+  BundleProblem MakeProblem();
+
+  StereoCamera camera_;
+  GlobalMapOptions options_;
+  std::vector<Node> keyframes_;
+  std::map<LandmarkId, Point> landmarks_;
+  Rigid3 map_from_odom_;
+};
+
+}  // namespace arfm_vo

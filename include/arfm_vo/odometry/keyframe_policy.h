@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/mapping/keyframe.h"
+
+namespace arfm_vo {
+
+struct KeyframePolicyOptions {
+  double min_parallax_px = 20;       ///< median over the shared points, rotation taken out
+  double min_shared_fraction = 0.6;  ///< of the newest keyframe's points still tracked
+  int min_tracked_points = 150;      ///< fewer tracked points call for a keyframe
+
+  void Check() const {
+    Require(min_parallax_px >= 0, "keyframes.min_parallax_px must not be negative");
+    Require(min_shared_fraction >= 0 && min_shared_fraction <= 1,
+            "keyframes.min_shared_fraction must be in [0, 1]");
+    Require(min_tracked_points >= 0, "keyframes.min_tracked_points must not be negative");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("min_parallax_px", min_parallax_px);
+    visit("min_shared_fraction", min_shared_fraction);
+    visit("min_tracked_points", min_tracked_points);
+  }
+};
+
+/// Whether a frame becomes a keyframe: by parallax and overlap with the newest one, not by count.
+/// `observations` are the frame's, sorted by landmark.
+bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
+                   const Rigid3& camera_from_world, const LandmarkObservations& observations,
+                   const KeyframePolicyOptions& options);
+
+}  // namespace arfm_vo

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
+#include "arfm_vo/mapping/local_map.h"
+
+namespace arfm_vo {
+
+struct LocalBundleOptions {
+  bool enabled = true;
+  int num_keyframes = 8;   ///< newest keyframes that move
+  BundleOptions solver;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("enabled", enabled);
+    visit("num_keyframes", num_keyframes);
+    visit("solver", solver);
+  }
+};
+
+/// The newest keyframes of a local map and their points as a bundle problem, with the names of its
+/// rows, so that the result finds its way back however the map has changed meanwhile.
+struct LocalBundle {
+  BundleProblem problem;
+  std::vector<KeyframeId> keyframes;  ///< [poses]
+  std::vector<LandmarkId> landmarks;  ///< [points]
+};
+
+/// Takes the newest `num_keyframes` keyframes, and, held fixed, the older ones that see the same
+/// points; the oldest of all is fixed in any case.
+LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int num_keyframes);
+
+/// Moves keyframes and landmarks to where the adjustment put them, and forgets the observations
+/// that disagree.
+void ApplyLocalBundle(const LocalBundle& bundle, const BundleResult& result, LocalMap& map);
+
+}  // namespace arfm_vo

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/mapping/keyframe_record.h"
+#include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/odometry/frame_tracker.h"
+#include "arfm_vo/odometry/keyframe_policy.h"
+#include "arfm_vo/odometry/local_bundle.h"
+#include "arfm_vo/odometry/odometry_update.h"
+#include "arfm_vo/odometry/standstill_lock.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
+namespace arfm_vo {
+
+struct LocalOdometryOptions {
+  FrameTrackerOptions tracker;
+  KeyframePolicyOptions keyframes;
+  LocalMapOptions map;
+  LocalBundleOptions bundle;
+  StandstillOptions standstill;
+  bool predict_motion = true;  ///< constant velocity; never required
+  int min_points_to_start = 30;  ///< stereo points of the first frame
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("tracker", tracker);
+    visit("keyframes", keyframes);
+    visit("map", map);
+    visit("bundle", bundle);
+    visit("standstill", standstill);
+    visit("predict_motion", predict_motion);
+    visit("min_points_to_start", min_points_to_start);
+  }
+};
+
+/// The pose of each frame against the local map, which it keeps up and refines by windowed bundle
+/// adjustment on a thread of its own (floors pose to bundle_adjustment). What pose_node runs.
+/// The world is the left camera of the first frame after construction or Reset.
+class LocalOdometry {
+ public:
+  LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options);
+  ~LocalOdometry();
+
+  /// Localises the next frame, later than the one before; `images` are those it was made from.
+  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images);
+
+  /// The record of the newest keyframe, once: nothing where no keyframe was added since.
+  std::optional<KeyframeRecord> TakeKeyframe();
+
+  /// Improves the local map by a global adjustment. The newest keyframe that both know stays where
+  /// it is, so that the pose does not jump.
+  void Apply(const MapUpdate& update);
+
+  /// Forgets the map; the next frame starts a new world.
+  void Reset();
+
+  const LocalMap& map() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace arfm_vo

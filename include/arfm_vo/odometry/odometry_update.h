@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arfm_vo/mapping/landmark.h"
+#include "arfm_vo/pose/pose_estimate.h"
+
+namespace arfm_vo {
+
+/// Wall time of each stage in ms, in their order.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+/// What one pair brought.
+struct OdometryUpdate {
+  double stamp_s = 0;
+  PoseEstimate pose;  ///< as known at once, before any later correction
+  bool is_keyframe = false;
+  LandmarkObservations observations;  ///< of the map's landmarks that agree with the pose
+  double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
+  StageTimes stage_ms;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace arfm_vo {
+
+/// Probability that a chi-square variable of `dof` degrees of freedom (>= 1) is at most `x`.
+double ChiSquareProbability(int dof, double x);
+
+/// The x with ChiSquareProbability(dof, x) = `probability`, which must lie in [0, 1); to 1e-9.
+/// Throws std::invalid_argument outside.
+double ChiSquareQuantile(int dof, double probability);
+
+}  // namespace arfm_vo

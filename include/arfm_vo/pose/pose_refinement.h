@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/pose/point_observation.h"
+#include "arfm_vo/pose/robust_loss.h"
+
+namespace arfm_vo {
+
+/// Whether a step that raises the cost is shortened (Levenberg-Marquardt) or ends the search.
+enum class StepKind { kGaussNewton, kLevenbergMarquardt };
+
+inline std::vector<std::pair<std::string, StepKind>> ListNames(StepKind) {
+  return {{"gauss_newton", StepKind::kGaussNewton},
+          {"levenberg_marquardt", StepKind::kLevenbergMarquardt}};
+}
+
+struct PoseRefinementOptions {
+  StepKind step = StepKind::kLevenbergMarquardt;
+  int max_iterations = 10;  ///< of each round
+  int max_rounds = 4;       ///< a round measures scale and inliers anew, then iterates
+  LossKind loss = LossKind::kCauchy;
+  double loss_threshold_sigma = 2.4;  ///< of a residual of one coordinate, in measured scale;
+                                      ///< customary: Huber 1.3, Cauchy 2.4, Tukey 4.7
+  double inlier_probability = 0.99;   ///< of the chi-square test, at the measured scale
+  double min_scale = 0.3;             ///< the measured scale of the residuals is kept in
+  double max_scale = 3;               ///< min_scale..max_scale, in stated standard deviations
+  double scale_prior_weight = 10;     ///< observations' worth of trust in the stated sigma_px
+  int min_inliers = 4;                ///< points, at least 3
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("step", step);
+    visit("max_iterations", max_iterations);
+    visit("max_rounds", max_rounds);
+    visit("loss", loss);
+    visit("loss_threshold_sigma", loss_threshold_sigma);
+    visit("inlier_probability", inlier_probability);
+    visit("min_scale", min_scale);
+    visit("max_scale", max_scale);
+    visit("scale_prior_weight", scale_prior_weight);
+    visit("min_inliers", min_inliers);
+  }
+};
+
+enum class RefinementStatus {
+  kConverged,
+  kTooFewPoints,   ///< fewer than min_inliers agree with the pose
+  kRankDeficient,  ///< the points do not fix all six directions
+};
+
+struct PoseRefinement {
+  RefinementStatus status = RefinementStatus::kTooFewPoints;
+  Rigid3 camera_from_world;
+  /// Of the step of BoxPlus(camera_from_world, .): (rad, m), camera frame; zero unless kConverged.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<char> is_inlier;  ///< [N]
+  int num_inliers = 0;
+  int num_iterations = 0;
+  double scale = 1;   ///< measured size of the residuals in stated standard deviations
+  double rms_px = 0;  ///< of the inliers' reprojection errors, a coordinate
+};
+
+/// The pose that minimises the robust reprojection error
+///   sum_i rho(r_i^T S_i^-1 r_i / scale^2),  r_i = (u_left, v, u_right)_i - ProjectStereo(R x_i +
+///   t)
+/// with S_i = sigma_i^2 I + J_i P_i J_i^T, P_i the covariance of the point and J_i the derivative
+/// of its projection; (u, v) alone where the right image does not see the point. `scale` is
+/// measured from the residuals (median), and observations beyond the chi-square bound are left out.
+/// The covariance is that of an M-estimator (Huber, Robust Statistics, 1981, 7.6).
+/// `is_inlier` [N]: what to start with; empty = all. Observations must be IsValid().
+PoseRefinement RefinePose(const StereoCamera& camera,
+                          const std::vector<PointObservation>& observations,
+                          const Rigid3& camera_from_world, const PoseRefinementOptions& options,
+                          const std::vector<char>& is_inlier = {});
+
+}  // namespace arfm_vo

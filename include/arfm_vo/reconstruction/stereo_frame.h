@@ -1,0 +1,20 @@
+#pragma once
+
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/image/grey_statistics.h"
+#include "arfm_vo/reconstruction/stereo_point.h"
+
+namespace arfm_vo {
+
+/// What one pair holds for the odometry: the left image's features and the points that both eyes
+/// see.
+struct StereoFrame {
+  double stamp_s = 0;
+  Features features;    ///< of the left image
+  StereoPoints points;  ///< in the order of their keypoints
+  int num_right_keypoints = 0;
+  GreyStatistics grey;         ///< of the left image, eqs 4, 5
+  double ratio_threshold = 0;  ///< nearest / second-nearest distance that was allowed
+};
+
+}  // namespace arfm_vo

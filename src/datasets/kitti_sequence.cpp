@@ -1,0 +1,140 @@
+#include "arfm_vo/datasets/kitti_sequence.h"
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+#include "arfm_vo/datasets/kitti_calibration.h"
+#include "arfm_vo/datasets/kitti_times.h"
+#include "arfm_vo/datasets/png_image.h"
+#include "arfm_vo/geometry/kitti_poses.h"
+
+namespace arfm_vo {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the parts of a sequence lie; `times` and `poses` may not exist.
+struct Layout {
+  fs::path left, right, calibration, times, poses;
+};
+
+Layout FindLayout(const fs::path& folder) {
+  Require(fs::is_directory(folder), folder.string() + ": no such folder");
+  const fs::path full = fs::canonical(folder);
+  Layout layout{folder / "image_0", folder / "image_1", folder / "calib.txt", folder / "times.txt",
+                folder / "poses.txt"};
+  if (!fs::exists(layout.left) && fs::exists(folder / "image_00" / "data")) {
+    layout.left = folder / "image_00" / "data";
+    layout.right = folder / "image_01" / "data";
+    layout.times = folder / "image_00" / "timestamps.txt";
+  }
+  if (!fs::exists(layout.calibration)) {
+    for (const fs::path& place : {folder, full.parent_path()}) {
+      const fs::path raw = place / "calib_cam_to_cam.txt";
+      if (fs::exists(raw)) layout.calibration = raw;
+    }
+  }
+  if (!fs::exists(layout.poses) && full.parent_path().filename() == "sequences") {
+    layout.poses = full.parent_path().parent_path() / "poses" / (full.filename().string() + ".txt");
+  }
+  return layout;
+}
+
+/// The names of the PNG files of a folder, in order.
+std::vector<std::string> ListImages(const fs::path& folder) {
+  Require(fs::is_directory(folder), folder.string() + ": no such folder");
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
+  }
+  Require(!names.empty(), folder.string() + ": holds no PNG images");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> ListPairs(const Layout& layout) {
+  const auto left = ListImages(layout.left), right = ListImages(layout.right);
+  Require(left.size() == right.size(),
+          layout.left.string() + " holds " + std::to_string(left.size()) + " images, " +
+              layout.right.string() + " " + std::to_string(right.size()));
+  for (size_t i = 0; i < left.size(); ++i) {
+    Require(left[i] == right[i],
+            (layout.left / left[i]).string() + ": has no partner in " + layout.right.string());
+  }
+  return left;
+}
+
+template <class Rows>
+void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
+  Require(rows.size() == num_pairs, path.string() + ": holds " + std::to_string(rows.size()) +
+                                        " lines for " + std::to_string(num_pairs) + " pairs");
+}
+
+double GetThreadCpuSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection) {
+  selection.Check();
+  const Layout layout = FindLayout(folder);
+  const std::vector<std::string> names = ListPairs(layout);
+  const cv::Size size = ReadPngSize((layout.left / names[0]).string());
+  camera_ = ReadKittiCalibration(layout.calibration.string(), size.width, size.height);
+
+  std::vector<double> stamps;
+  if (fs::exists(layout.times)) {
+    stamps = ReadKittiTimes(layout.times.string());
+    RequireOneEach(stamps, names.size(), layout.times);
+  } else {
+    for (size_t i = 0; i < names.size(); ++i) stamps.push_back(static_cast<double>(i) / 10);
+  }
+  std::vector<Rigid3> poses;
+  if (fs::exists(layout.poses)) {
+    poses = ReadKittiPoses(layout.poses.string());
+    RequireOneEach(poses, names.size(), layout.poses);
+  }
+  for (size_t i = 0; i < names.size(); i += selection.stride) {
+    if (size_t(selection.max_pairs) == frames_.size()) break;
+    frames_.push_back({(layout.left / names[i]).string(), (layout.right / names[i]).string(),
+                       stamps[i], poses.empty() ? std::nullopt : std::optional<Rigid3>(poses[i])});
+  }
+}
+
+SequencePair KittiSequence::Load(const Frame& frame) {
+  const double start_s = GetThreadCpuSeconds();
+  SequencePair pair;
+  pair.true_world_from_camera = frame.true_world_from_camera;
+  pair.images = {frame.stamp_s, ReadGreyPng(frame.left_path), ReadGreyPng(frame.right_path)};
+  const cv::Size expected(camera_.width, camera_.height);
+  const auto check_size = [&](const cv::Mat& image, const std::string& path) {
+    Require(image.size() == expected, path + ": is " + std::to_string(image.cols) + "x" +
+                                          std::to_string(image.rows) + ", the first image " +
+                                          std::to_string(expected.width) + "x" +
+                                          std::to_string(expected.height));
+  };
+  check_size(pair.images.left, frame.left_path);
+  check_size(pair.images.right, frame.right_path);
+  loading_cpu_s_ = loading_cpu_s_ + GetThreadCpuSeconds() - start_s;
+  return pair;
+}
+
+void KittiSequence::StartLoading() {
+  if (num_started_ == frames_.size()) return;
+  ahead_ = std::async(std::launch::async,
+                      [this, frame = frames_[num_started_++]] { return Load(frame); });
+}
+
+std::optional<SequencePair> KittiSequence::Next() {
+  if (!ahead_.valid()) StartLoading();  // the first, or the end
+  if (!ahead_.valid()) return std::nullopt;
+  SequencePair pair = ahead_.get();
+  StartLoading();
+  return pair;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,66 @@
+#include "arfm_vo/features/scale_space_maximum.h"
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "arfm_vo/features/box_hessian.h"
+
+namespace arfm_vo {
+namespace {
+
+using Neighbours = float[3][3][3];  ///< determinants by layer, row, column
+
+void ComputeNeighbours(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
+                       Neighbours& values) {
+  for (int layer = 0; layer < 3; ++layer) {
+    const int size = BoxFilterSize(maximum.octave, maximum.layer + layer - 1);
+    const float inverse_area = 1.0f / static_cast<float>(size * size);
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col < 3; ++col) {
+        values[layer][row][col] =
+            ComputeDeterminant(ComputeBoxHessian(integral, maximum.x + (col - 1) * step,
+                                                 maximum.y + (row - 1) * step, size),
+                               inverse_area);
+      }
+    }
+  }
+}
+
+/// Offset (x, y, layer) of the top in samples, from central differences.
+cv::Vec3d FindTop(const Neighbours& v) {
+  const double centre = v[1][1][1];
+  const cv::Vec3d gradient(0.5 * (v[1][1][2] - v[1][1][0]), 0.5 * (v[1][2][1] - v[1][0][1]),
+                           0.5 * (v[2][1][1] - v[0][1][1]));
+  const double xx = v[1][1][2] + v[1][1][0] - 2 * centre;
+  const double yy = v[1][2][1] + v[1][0][1] - 2 * centre;
+  const double ss = v[2][1][1] + v[0][1][1] - 2 * centre;
+  const double xy = 0.25 * (v[1][2][2] + v[1][0][0] - v[1][2][0] - v[1][0][2]);
+  const double xs = 0.25 * (v[2][1][2] + v[0][1][0] - v[2][1][0] - v[0][1][2]);
+  const double ys = 0.25 * (v[2][2][1] + v[0][0][1] - v[2][0][1] - v[0][2][1]);
+  const cv::Matx33d hessian(xx, xy, xs, xy, yy, ys, xs, ys, ss);
+  return hessian.solve(-gradient, cv::DECOMP_LU);
+}
+
+}  // namespace
+
+std::optional<Keypoint> InterpolateMaximum(const IntegralImage& integral,
+                                           const ScaleSpaceMaximum& maximum, int step) {
+  Neighbours values;
+  ComputeNeighbours(integral, maximum, step, values);
+  const cv::Vec3d top = FindTop(values);
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(top[i]) <= 1)) return std::nullopt;
+  }
+  const int size = BoxFilterSize(maximum.octave, maximum.layer);
+  const int size_step = BoxFilterSize(maximum.octave, 1) - BoxFilterSize(maximum.octave, 0);
+  const BoxHessian sums = ComputeBoxHessian(integral, maximum.x, maximum.y, size);
+  Keypoint keypoint;
+  keypoint.x = static_cast<float>(maximum.x + top[0] * step);
+  keypoint.y = static_cast<float>(maximum.y + top[1] * step);
+  keypoint.scale = ScaleOfFilter(static_cast<float>(size + top[2] * size_step));
+  keypoint.response = maximum.response;
+  keypoint.laplacian_sign = sums.xx + sums.yy >= 0 ? 1 : -1;
+  return keypoint;
+}
+
+}  // namespace arfm_vo

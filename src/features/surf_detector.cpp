@@ -1,0 +1,105 @@
+#include "arfm_vo/features/surf_detector.h"
+
+#include <opencv2/core/mat.hpp>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/features/box_hessian.h"
+#include "arfm_vo/features/keypoint_budget.h"
+#include "arfm_vo/features/scale_space_maximum.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Determinants at every `step`-th pixel of every `step`-th row, for one filter size. 0 where the
+/// filter does not fit into the image.
+cv::Mat_<float> ComputeResponses(const IntegralImage& integral, int size, int step) {
+  const int half = size / 2;
+  const float inverse_area = 1.0f / static_cast<float>(size * size);
+  cv::Mat_<float> responses((integral.rows() + step - 1) / step,
+                            (integral.cols() + step - 1) / step, 0.0f);
+  for (int row = 0; row < responses.rows; ++row) {
+    const int y = row * step;
+    if (y < half || y + half >= integral.rows()) continue;
+    for (int col = 0; col < responses.cols; ++col) {
+      const int x = col * step;
+      if (x < half || x + half >= integral.cols()) continue;
+      responses(row, col) =
+          ComputeDeterminant(ComputeBoxHessian(integral, x, y, size), inverse_area);
+    }
+  }
+  return responses;
+}
+
+/// Greater than all 26 neighbours; of equal neighbours the first in order of layer, row and column
+/// wins, so that a plateau gives one maximum.
+bool IsMaximum(const cv::Mat_<float>* layers, int row, int col) {
+  const float centre = layers[1](row, col);
+  for (int layer = 0; layer < 3; ++layer) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int order = 9 * (layer - 1) + 3 * dy + dx;
+        const float other = layers[layer](row + dy, col + dx);
+        if (order < 0 ? other >= centre : order > 0 && other > centre) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Appends the maxima of the middle one of three layers, where the largest filter still fits.
+void FindMaxima(const cv::Mat_<float>* layers, int octave, int layer, int step, cv::Size image,
+                float threshold, std::vector<ScaleSpaceMaximum>& maxima) {
+  const int margin = BoxFilterSize(octave, layer + 1) / 2 + step;
+  const int first = (margin + step - 1) / step;
+  for (int row = first; row * step + margin < image.height; ++row) {
+    for (int col = first; col * step + margin < image.width; ++col) {
+      const float response = layers[1](row, col);
+      if (response > threshold && IsMaximum(layers, row, col)) {
+        maxima.push_back({col * step, row * step, octave, layer, response});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void SurfDetectorOptions::Check() const {
+  Require(hessian_threshold > 0, "detector.hessian_threshold must be positive");
+  Require(octaves >= 1 && octaves <= 5, "detector.octaves must be in 1..5");
+  Require(layers >= 3 && layers <= 6, "detector.layers must be in 3..6");
+  Require(initial_step >= 1 && initial_step <= 4, "detector.initial_step must be in 1..4");
+  Require(target_keypoints >= 0, "detector.target_keypoints must not be negative");
+  Require(bucket_px >= 0, "detector.bucket_px must not be negative");
+}
+
+SurfDetector::SurfDetector(const SurfDetectorOptions& options) : options_(options) {
+  options_.Check();
+}
+
+std::vector<Keypoint> SurfDetector::Detect(const IntegralImage& integral) const {
+  const cv::Size image(integral.cols(), integral.rows());
+  std::vector<ScaleSpaceMaximum> maxima;
+  for (int octave = 0; octave < options_.octaves; ++octave) {
+    const int step = options_.initial_step << octave;
+    std::vector<cv::Mat_<float>> layers;
+    for (int layer = 0; layer < options_.layers; ++layer) {
+      layers.push_back(ComputeResponses(integral, BoxFilterSize(octave, layer), step));
+    }
+    for (int layer = 1; layer + 1 < options_.layers; ++layer) {
+      FindMaxima(&layers[layer - 1], octave, layer, step, image,
+                 static_cast<float>(options_.hessian_threshold), maxima);
+    }
+  }
+  const int target =
+      options_.target_keypoints > 0 ? options_.target_keypoints : static_cast<int>(maxima.size());
+  std::vector<Keypoint> keypoints;
+  for (const ScaleSpaceMaximum& maximum :
+       SelectSpread(maxima, image.height, image.width, target, options_.bucket_px)) {
+    const auto keypoint =
+        InterpolateMaximum(integral, maximum, options_.initial_step << maximum.octave);
+    if (keypoint) keypoints.push_back(*keypoint);
+  }
+  return keypoints;
+}
+
+}  // namespace arfm_vo

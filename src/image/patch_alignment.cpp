@@ -1,0 +1,147 @@
+#include "arfm_vo/image/patch_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+#include "cubic_interpolation.h"
+#include "patch_window.h"
+#include "symmetric.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kSize = Patch::kSize;
+const cv::Point2f kToCorner(Patch::kHalfSpan, Patch::kHalfSpan);
+
+/// The image must have at least this share of the patch's contrast, and not the opposite one.
+constexpr float kMinGain = 0.1f;
+
+/// Brightness, contrast and translation are fitted to the samples.
+constexpr float kNumParameters = 4;
+
+float Length(const cv::Point2f& vector) {
+  return std::sqrt(vector.x * vector.x + vector.y * vector.y);
+}
+
+float WeightedVariance(const Patch::Samples& samples) {
+  const float mean = Dot(kPatchWindow.weights, samples);
+  Patch::Samples deviations, weighted;
+  for (int i = 0; i < Patch::kNumSamples; ++i) {
+    deviations[i] = samples[i] - mean;
+    weighted[i] = kPatchWindow.weights[i] * deviations[i];
+  }
+  return Dot(weighted, deviations);
+}
+
+}  // namespace
+
+void PatchAlignmentOptions::Check() const {
+  Require(max_iterations >= 1, "alignment.max_iterations must be at least 1");
+  Require(convergence_px > 0, "alignment.convergence_px must be positive");
+  Require(max_shift_px > 0, "alignment.max_shift_px must be positive");
+  Require(search_radius_px >= 0 && search_radius_px <= 16,
+          "alignment.search_radius_px must be in 0..16");
+  Require(min_zncc > -1 && min_zncc < 1, "alignment.min_zncc must be in (-1, 1)");
+  Require(max_sigma_px > 0, "alignment.max_sigma_px must be positive");
+}
+
+PatchAligner::PatchAligner(const PatchAlignmentOptions& options) : options_(options) {
+  options.Check();
+}
+
+PatchAlignment PatchAligner::Align(const Patch& patch, const cv::Mat& grey,
+                                   const cv::Point2f& guess) const {
+  const int radius = options_.search_radius_px;
+  const cv::Point2f start = radius > 0 ? Search(patch, grey, guess, radius, radius) : guess;
+  return Refine(patch, grey, start, InvertSymmetric(patch.hessian_));
+}
+
+PatchAlignment PatchAligner::AlignAlongRow(const Patch& patch, const cv::Mat& grey,
+                                           const cv::Point2f& guess) const {
+  const int radius = options_.search_radius_px;
+  cv::Point2f start = radius > 0 ? Search(patch, grey, guess, radius, 0) : guess;
+  start.y = guess.y;
+  return Refine(patch, grey, start, {1 / patch.hessian_[0], 0, 0});
+}
+
+cv::Point2f PatchAligner::Search(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess,
+                                 int radius_x, int radius_y) const {
+  cv::Point2f best = guess;
+  float best_zncc = -1;
+  const cv::Point2f corner = guess - kToCorner;
+  if (!cv::Rect2f(0, 0, grey.cols, grey.rows).contains(guess)) return guess;
+  const int x = cvRound(corner.x), y = cvRound(corner.y);
+  Patch::Samples samples;
+  for (int top = y - radius_y; top <= y + radius_y; ++top) {
+    if (top < 0 || top + kSize > grey.rows) continue;
+    for (int left = x - radius_x; left <= x + radius_x; ++left) {
+      if (left < 0 || left + kSize > grey.cols) continue;
+      for (int r = 0; r < kSize; ++r) {
+        const uint8_t* row = grey.ptr(top + r) + left;
+        for (int c = 0; c < kSize; ++c) samples[r * kSize + c] = row[c];
+      }
+      const float variance = WeightedVariance(samples);
+      const float zncc = Dot(patch.values_, samples) / std::sqrt(variance * patch.squared_values_);
+      if (zncc <= best_zncc || !(variance > 0)) continue;
+      best_zncc = zncc;
+      best = cv::Point2f(static_cast<float>(left), static_cast<float>(top)) + kToCorner;
+    }
+  }
+  return best;
+}
+
+PatchAlignment PatchAligner::Refine(const Patch& patch, const cv::Mat& grey,
+                                    const cv::Point2f& start,
+                                    const cv::Vec3f& inverse_hessian) const {
+  PatchAlignment alignment;
+  const auto stop = [&](AlignmentStatus status) {
+    alignment.status = status;
+    return alignment;
+  };
+  if (!std::isfinite(inverse_hessian[0])) return stop(AlignmentStatus::kLowTexture);
+  alignment.position = start;
+  Patch::Samples samples;
+  while (alignment.num_iterations < options_.max_iterations) {
+    ++alignment.num_iterations;
+    if (!Interpolate<kSize, kSize>(grey, alignment.position - kToCorner, samples.data())) {
+      return stop(AlignmentStatus::kOutOfImage);
+    }
+    const float gain = Dot(patch.values_, samples) / patch.squared_values_;
+    if (!(gain > kMinGain)) return stop(AlignmentStatus::kLowCorrelation);
+    const float x = Dot(patch.gradient_x_, samples) / gain;
+    const float y = Dot(patch.gradient_y_, samples) / gain;
+    const cv::Point2f step(inverse_hessian[0] * x + inverse_hessian[1] * y,
+                           inverse_hessian[1] * x + inverse_hessian[2] * y);
+    alignment.position -= step;
+    if (!(Length(alignment.position - start) <= options_.max_shift_px)) {
+      return stop(AlignmentStatus::kMovedTooFar);
+    }
+    if (Length(step) < options_.convergence_px) {
+      Judge(patch, samples, gain, inverse_hessian, alignment);
+      return alignment;
+    }
+  }
+  return stop(AlignmentStatus::kNotConverged);
+}
+
+void PatchAligner::Judge(const Patch& patch, const Patch::Samples& samples, float gain,
+                         const cv::Vec3f& inverse_hessian, PatchAlignment& alignment) const {
+  const float variance = WeightedVariance(samples);
+  alignment.zncc = gain * std::sqrt(patch.squared_values_ / variance);
+  const float num_samples = 1 / kPatchWindow.squared_sum;
+  const float squared_residual = std::max(0.0f, variance / (gain * gain) - patch.squared_values_) *
+                                 num_samples / (num_samples - kNumParameters);
+  alignment.residual_rms = std::sqrt(squared_residual);
+  alignment.covariance = squared_residual * Sandwich(inverse_hessian, patch.squared_gradients_);
+  const auto max_variance = static_cast<float>(options_.max_sigma_px * options_.max_sigma_px);
+  if (!(alignment.zncc >= options_.min_zncc)) {
+    alignment.status = AlignmentStatus::kLowCorrelation;
+  } else if (!(std::max(alignment.covariance[0], alignment.covariance[2]) <= max_variance)) {
+    alignment.status = AlignmentStatus::kLowTexture;
+  } else {
+    alignment.status = AlignmentStatus::kAligned;
+  }
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,82 @@
+#include "arfm_vo/mapping/landmark_aligner.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+
+void LandmarkAlignerOptions::Check() const {
+  patch.Check();
+  Require(max_magnification > 1, "alignment.max_magnification must be above 1");
+  Require(min_sigma_px > 0, "alignment.min_sigma_px must be positive");
+  Require(max_right_row_px > 0, "alignment.max_right_row_px must be positive");
+}
+
+std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera,
+                                            const Eigen::Vector3d& x_in_world,
+                                            const Rigid3& source_from_world,
+                                            const Rigid3& target_from_world) {
+  const Eigen::Vector3d x_in_source = source_from_world * x_in_world;
+  const Eigen::Vector3d x_in_target = target_from_world * x_in_world;
+  if (x_in_source.z() <= 0 || x_in_target.z() <= 0) return std::nullopt;
+  // One pixel step in the source is z / f metres along its x or y at the same depth.
+  const Eigen::Matrix3d rotation =
+      (target_from_world.rotation * source_from_world.rotation.conjugate()).toRotationMatrix();
+  const double x = x_in_target.x(), y = x_in_target.y(), z = x_in_target.z();
+  Eigen::Matrix<double, 2, 3> projection;
+  projection << camera.fx / z, 0, -camera.fx * x / (z * z), 0, camera.fy / z,
+      -camera.fy * y / (z * z);
+  Eigen::Matrix2d target_from_source = projection * rotation.leftCols<2>() * x_in_source.z();
+  target_from_source.col(0) /= camera.fx;
+  target_from_source.col(1) /= camera.fy;
+  if (target_from_source.determinant() < 1e-6) return std::nullopt;
+  const Eigen::Matrix2f inverse = target_from_source.inverse().cast<float>();
+  return cv::Matx22f(inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1));
+}
+
+LandmarkAligner::LandmarkAligner(const StereoCamera& camera, const LandmarkAlignerOptions& options)
+    : camera_(camera), options_(options), aligner_(options.patch) {
+  camera.Check();
+  options.Check();
+}
+
+std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
+                                                          const Keyframe& reference,
+                                                          const StereoImages& images,
+                                                          const Rigid3& camera_from_world) const {
+  const auto warp = SourceFromTarget(camera_, landmark.x_in_world, reference.camera_from_world,
+                                     camera_from_world);
+  if (!warp) return std::nullopt;
+  const double shrinkage = std::sqrt(cv::determinant(*warp));
+  if (shrinkage * options_.max_magnification < 1 || shrinkage > options_.max_magnification) {
+    return std::nullopt;
+  }
+  const auto patch =
+      Patch::Sample(reference.left, {landmark.keypoint.x, landmark.keypoint.y}, *warp);
+  if (!patch) return std::nullopt;
+
+  const Eigen::Vector3d predicted = camera_.ProjectStereo(camera_from_world * landmark.x_in_world);
+  const PatchAlignment left = aligner_.Align(
+      *patch, images.left, {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
+  if (!left.IsAligned()) return std::nullopt;
+
+  LandmarkObservation observation;
+  observation.landmark = landmark.id;
+  float variance = left.covariance[0] + left.covariance[2];
+  const float disparity = static_cast<float>(predicted.x() - predicted.z());
+  const PatchAlignment right =
+      aligner_.Align(*patch, images.right, {left.position.x - disparity, left.position.y});
+  observation.has_right =
+      right.IsAligned() && std::abs(right.position.y - left.position.y) < options_.max_right_row_px;
+  if (observation.has_right) {
+    variance = 0.5f * (variance + right.covariance[0] + right.covariance[2]);
+  }
+  observation.pixels << left.position.x, left.position.y, right.position.x, right.position.y;
+  observation.sigma_px = std::max(options_.min_sigma_px, std::sqrt(0.5 * variance));
+  return observation;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,267 @@
+#include "arfm_vo/mapping/local_map.h"
+
+#include <algorithm>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+bool ComesBefore(const LandmarkObservation& observation, LandmarkId id) {
+  return observation.landmark < id;
+}
+
+const LandmarkObservation* FindObservation(const LandmarkObservations& observations,
+                                           LandmarkId id) {
+  const auto found = std::lower_bound(observations.begin(), observations.end(), id, ComesBefore);
+  return found != observations.end() && found->landmark == id ? &*found : nullptr;
+}
+
+/// The picture in square cells: which pixels are taken, and how many points each cell holds.
+class OccupancyGrid {
+ public:
+  OccupancyGrid(int width, int height, int cell_px, double separation_px)
+      : cell_px_(cell_px),
+        separation_px_(separation_px),
+        columns_(width / cell_px + 1),
+        cells_(static_cast<size_t>(columns_) * (height / cell_px + 1)) {}
+
+  int Count(double u, double v) const { return static_cast<int>(cells_[Cell(u, v)].size()); }
+  void Add(double u, double v) { cells_[Cell(u, v)].push_back({u, v}); }
+
+  bool IsFree(double u, double v) const {
+    for (const double du : {-separation_px_, 0.0, separation_px_}) {
+      for (const double dv : {-separation_px_, 0.0, separation_px_}) {
+        for (const Eigen::Vector2d& taken : cells_[Cell(u + du, v + dv)]) {
+          if ((taken - Eigen::Vector2d(u, v)).norm() < separation_px_) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  size_t Cell(double u, double v) const {
+    const int column = std::clamp(static_cast<int>(u) / cell_px_, 0, columns_ - 1);
+    const int rows = static_cast<int>(cells_.size()) / columns_;
+    const int row = std::clamp(static_cast<int>(v) / cell_px_, 0, rows - 1);
+    return static_cast<size_t>(row) * columns_ + column;
+  }
+
+  int cell_px_;
+  double separation_px_;
+  int columns_;
+  std::vector<std::vector<Eigen::Vector2d>> cells_;
+};
+
+}  // namespace
+
+void LocalMapOptions::Check() const {
+  Require(max_keyframes >= 2, "local_map.max_keyframes must be at least 2");
+  Require(max_missed_frames >= 1, "local_map.max_missed_frames must be at least 1");
+  Require(max_landmarks_in_view >= 10, "local_map.max_landmarks_in_view must be at least 10");
+  Require(grid_cell_px >= 8, "local_map.grid_cell_px must be at least 8");
+  Require(min_separation_px > 0 && min_separation_px <= grid_cell_px,
+          "local_map.min_separation_px must be in (0, grid_cell_px]");
+}
+
+Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
+                                        const Eigen::Vector3d& x_in_camera, double sigma_px) {
+  // d(x, y, z) / d(u, v, disparity) of eq 6; left and right columns err independently.
+  const double z = x_in_camera.z();
+  const double dz = -z * z / (camera.fx * camera.baseline_m);
+  Eigen::Matrix3d jacobian;
+  jacobian << z / camera.fx, 0, x_in_camera.x() / z * dz,  //
+      0, z / camera.fy, x_in_camera.y() / z * dz,          //
+      0, 0, dz;
+  Eigen::Matrix3d pixels;
+  pixels << 1, 0, 1, 0, 1, 0, 1, 0, 2;
+  return sigma_px * sigma_px * jacobian * pixels * jacobian.transpose();
+}
+
+LocalMap::LocalMap(const StereoCamera& camera, const LocalMapOptions& options)
+    : camera_(camera), options_(options) {
+  camera.Check();
+  options.Check();
+}
+
+const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& left,
+                                      const Rigid3& camera_from_world,
+                                      const LandmarkObservations& tracked) {
+  Keyframe keyframe;
+  keyframe.id = next_keyframe_++;
+  keyframe.stamp_s = frame.stamp_s;
+  keyframe.camera_from_world = camera_from_world;
+  keyframe.left = left.clone();
+  for (const LandmarkObservation& observation : tracked) {
+    const auto landmark = landmarks_.find(observation.landmark);
+    if (landmark == landmarks_.end()) continue;
+    ++landmark->second.num_keyframes;
+    keyframe.observations.push_back(observation);
+  }
+  AddNewLandmarks(frame, keyframe);
+  keyframes_.push_back(std::move(keyframe));
+  if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) RemoveOldestKeyframe();
+  return keyframes_.back();
+}
+
+void LocalMap::AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe) {
+  OccupancyGrid grid(camera_.width, camera_.height, options_.grid_cell_px,
+                     options_.min_separation_px);
+  for (const LandmarkObservation& known : keyframe.observations) {
+    grid.Add(known.pixels.x(), known.pixels.y());
+  }
+  std::vector<const StereoPoint*> candidates;
+  for (const StereoPoint& point : frame.points) candidates.push_back(&point);
+  std::stable_sort(candidates.begin(), candidates.end(), [&](const auto* a, const auto* b) {
+    return frame.features.keypoints[a->keypoint].response >
+           frame.features.keypoints[b->keypoint].response;
+  });
+  // Emptier cells first: each round allows one point more in a cell.
+  int room = options_.max_landmarks_in_view - static_cast<int>(keyframe.observations.size());
+  for (int allowed = 1; room > 0 && !candidates.empty(); ++allowed) {
+    std::vector<const StereoPoint*> later;
+    for (const StereoPoint* point : candidates) {
+      const double u = point->observation.x(), v = point->observation.y();
+      if (!grid.IsFree(u, v)) continue;
+      if (room == 0 || grid.Count(u, v) >= allowed) {
+        later.push_back(point);
+        continue;
+      }
+      grid.Add(u, v);
+      AddLandmark(frame, *point, keyframe);
+      --room;
+    }
+    candidates = std::move(later);
+  }
+}
+
+void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe) {
+  const Rigid3 world_from_camera = keyframe.camera_from_world.Inverse();
+  const Eigen::Matrix3d rotation = world_from_camera.RotationMatrix();
+  Landmark landmark;
+  landmark.id = next_landmark_++;
+  landmark.x_in_world = world_from_camera * point.x_in_camera;
+  landmark.covariance = rotation *
+                        TriangulationCovariance(camera_, point.x_in_camera, point.sigma_px) *
+                        rotation.transpose();
+  landmark.reference = keyframe.id;
+  landmark.keypoint = frame.features.keypoints[point.keypoint];
+  landmark.keypoint.x = static_cast<float>(point.observation.x());
+  landmark.keypoint.y = static_cast<float>(point.observation.y());
+  std::copy_n(frame.features.descriptors.ptr<float>(point.keypoint), 64,
+              landmark.descriptor.begin());
+  landmark.num_keyframes = 1;
+
+  LandmarkObservation observation;
+  observation.landmark = landmark.id;
+  observation.pixels << point.observation.x(), point.observation.y(), point.observation.z(),
+      point.observation.y() + point.row_residual_px;
+  observation.sigma_px = point.sigma_px;
+  keyframe.observations.push_back(observation);
+  landmarks_.emplace_hint(landmarks_.end(), landmark.id, landmark);
+}
+
+void LocalMap::RemoveOldestKeyframe() {
+  const Keyframe removed = std::move(keyframes_.front());
+  keyframes_.pop_front();
+  for (const LandmarkObservation& observation : removed.observations) {
+    const auto found = landmarks_.find(observation.landmark);
+    if (found == landmarks_.end()) continue;
+    if (--found->second.num_keyframes == 0) {
+      landmarks_.erase(found);
+    } else if (found->second.reference == removed.id) {
+      MoveReference(found->second);
+    }
+  }
+}
+
+void LocalMap::MoveReference(Landmark& landmark) const {
+  for (const Keyframe& keyframe : keyframes_) {
+    const auto* observation = FindObservation(keyframe.observations, landmark.id);
+    if (observation == nullptr) continue;
+    landmark.reference = keyframe.id;
+    landmark.keypoint.x = static_cast<float>(observation->pixels.x());
+    landmark.keypoint.y = static_cast<float>(observation->pixels.y());
+    return;
+  }
+}
+
+std::vector<const Landmark*> LocalMap::LandmarksInView(const Rigid3& camera_from_world,
+                                                       double border_px) const {
+  std::vector<const Landmark*> in_view;
+  for (const auto& [id, landmark] : landmarks_) {
+    if (landmark.num_missed >= options_.max_missed_frames) continue;
+    const Eigen::Vector3d x = camera_from_world * landmark.x_in_world;
+    if (x.z() <= camera_.baseline_m) continue;
+    if (camera_.Contains(camera_.Project(x), border_px)) in_view.push_back(&landmark);
+  }
+  return in_view;
+}
+
+void LocalMap::CountSightings(const std::vector<LandmarkId>& expected,
+                              const LandmarkObservations& tracked) {
+  for (const LandmarkId id : expected) {
+    const auto found = landmarks_.find(id);
+    if (found == landmarks_.end()) continue;
+    int& num_missed = found->second.num_missed;
+    num_missed = FindObservation(tracked, id) != nullptr ? 0 : num_missed + 1;
+  }
+}
+
+const Keyframe* LocalMap::FindKeyframe(KeyframeId id) const {
+  for (const Keyframe& keyframe : keyframes_) {
+    if (keyframe.id == id) return &keyframe;
+  }
+  return nullptr;
+}
+
+void LocalMap::MoveKeyframe(KeyframeId id, const Rigid3& camera_from_world) {
+  for (Keyframe& keyframe : keyframes_) {
+    if (keyframe.id == id) keyframe.camera_from_world = camera_from_world;
+  }
+}
+
+void LocalMap::MoveLandmark(LandmarkId id, const Eigen::Vector3d& x_in_world,
+                            const Eigen::Matrix3d& covariance) {
+  const auto found = landmarks_.find(id);
+  if (found == landmarks_.end()) return;
+  found->second.x_in_world = x_in_world;
+  found->second.covariance = covariance;
+}
+
+void LocalMap::RemoveObservation(KeyframeId keyframe_id, LandmarkId landmark_id) {
+  const auto landmark = landmarks_.find(landmark_id);
+  if (landmark == landmarks_.end()) return;
+  for (Keyframe& keyframe : keyframes_) {
+    if (keyframe.id != keyframe_id) continue;
+    const auto* observation = FindObservation(keyframe.observations, landmark_id);
+    if (observation == nullptr) return;
+    keyframe.observations.erase(keyframe.observations.begin() +
+                                (observation - keyframe.observations.data()));
+    if (--landmark->second.num_keyframes == 0) {
+      landmarks_.erase(landmark);
+    } else if (landmark->second.reference == keyframe_id) {
+      MoveReference(landmark->second);
+    }
+  }
+}
+
+void LocalMap::Transform(const Rigid3& new_from_old) {
+  const Rigid3 old_from_new = new_from_old.Inverse();
+  const Eigen::Matrix3d rotation = new_from_old.RotationMatrix();
+  for (Keyframe& keyframe : keyframes_) {
+    keyframe.camera_from_world = keyframe.camera_from_world * old_from_new;
+  }
+  for (auto& [id, landmark] : landmarks_) {
+    landmark.x_in_world = new_from_old * landmark.x_in_world;
+    landmark.covariance = rotation * landmark.covariance * rotation.transpose();
+  }
+}
+
+void LocalMap::Clear() {
+  keyframes_.clear();
+  landmarks_.clear();
+}
+
+}  // namespace arfm_vo

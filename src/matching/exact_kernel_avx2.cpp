@@ -1,0 +1,28 @@
+// Compiled with AVX2 and FMA where the compiler has them (see CMakeLists.txt).
+#if defined(__AVX2__)
+
+#include "exact_kernel.inl"
+
+namespace arfm_vo {
+
+void SearchExactlyAvx2(const ExactSearch& search) { SearchExactly(search); }
+
+bool CanSearchExactlyAvx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+
+}  // namespace arfm_vo
+
+#else
+
+#include "exact_kernel.h"
+
+namespace arfm_vo {
+
+void SearchExactlyAvx2(const ExactSearch& search) { SearchExactlyBaseline(search); }
+
+bool CanSearchExactlyAvx2() { return false; }
+
+}  // namespace arfm_vo
+
+#endif

@@ -1,0 +1,115 @@
+#include "arfm_vo/matching/exact_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core/utility.hpp>
+
+#include "arfm_vo/base/check.h"
+#include "exact_kernel.h"
+
+namespace arfm_vo {
+namespace {
+
+/// The keypoints of one image that may match those of the same group in the other.
+using Group = std::vector<int>;
+
+bool IsFinite(const float* descriptor) {
+  float sum = 0;
+  for (int k = 0; k < kDescriptorSize; ++k) sum += descriptor[k];
+  return std::isfinite(sum);
+}
+
+std::vector<Group> SplitIntoGroups(const Features& features, bool use_laplacian_sign) {
+  std::vector<Group> groups(use_laplacian_sign ? 2 : 1);
+  for (int i = 0; i < features.size(); ++i) {
+    if (!IsFinite(features.descriptors.ptr<float>(i))) continue;
+    const bool is_dark = features.keypoints[i].laplacian_sign > 0;
+    groups[use_laplacian_sign && is_dark].push_back(i);
+  }
+  return groups;
+}
+
+/// The state of one ScoreSpans.
+struct Scores {
+  std::vector<float> best, second;
+  std::vector<int32_t> index;
+
+  explicit Scores(size_t size) : best(size), second(size), index(size) {}
+  ScoreSpans Spans() { return {best.data(), second.data(), index.data()}; }
+};
+
+std::vector<float> PackPanels(const cv::Mat& descriptors, const Group& group) {
+  const size_t num_panels = (group.size() + kPanelColumns - 1) / kPanelColumns;
+  std::vector<float> panels(num_panels * kPanelColumns * kDescriptorSize);
+  for (size_t i = 0; i < group.size(); ++i) {
+    const float* from = descriptors.ptr<float>(group[i]);
+    float* to = &panels[i / kPanelColumns * kPanelColumns * kDescriptorSize + i % kPanelColumns];
+    for (int k = 0; k < kDescriptorSize; ++k) to[k * kPanelColumns] = from[k];
+  }
+  return panels;
+}
+
+float SquaredDistance(float score) {
+  return score > kNoScore / 2 ? std::max(0.0f, 2 - 2 * score) : Neighbours::kNone;
+}
+
+void Scatter(const Scores& scores, const Group& from, const Group& to,
+             std::vector<Neighbours>& neighbours) {
+  for (size_t i = 0; i < from.size(); ++i) {
+    if (scores.index[i] < 0) continue;
+    neighbours[from[i]] = {to[scores.index[i]], SquaredDistance(scores.best[i]),
+                           SquaredDistance(scores.second[i])};
+  }
+}
+
+void SearchGroup(const cv::Mat& first, const Group& first_group, const cv::Mat& second,
+                 const Group& second_group, bool use_simd, TwoWayNeighbours& neighbours) {
+  if (first_group.empty() || second_group.empty()) return;
+  std::vector<const float*> rows;
+  for (const int i : first_group) rows.push_back(first.ptr<float>(i));
+  const std::vector<float> panels = PackPanels(second, second_group);
+  Scores of_rows(rows.size());
+  Scores of_columns(panels.size() / kDescriptorSize);
+  const ExactSearch search{rows.data(),     static_cast<int>(rows.size()),
+                           panels.data(),   static_cast<int>(second_group.size()),
+                           of_rows.Spans(), of_columns.Spans()};
+  static const bool can_search_avx2 = CanSearchExactlyAvx2();
+  if (use_simd && can_search_avx2) {
+    SearchExactlyAvx2(search);
+  } else {
+    SearchExactlyBaseline(search);
+  }
+  Scatter(of_rows, first_group, second_group, neighbours.of_first);
+  Scatter(of_columns, second_group, first_group, neighbours.of_second);
+}
+
+void CheckDescriptors(const Features& features) {
+  Require(features.descriptors.rows == features.size(),
+          "exact matcher: as many descriptors as keypoints are needed");
+  Require(features.size() == 0 || (features.descriptors.type() == CV_32FC1 &&
+                                   features.descriptors.cols == kDescriptorSize),
+          "exact matcher: descriptors must be [N x 64] CV_32FC1");
+}
+
+}  // namespace
+
+TwoWayNeighbours FindNeighboursExactly(const Features& first, const Features& second,
+                                       const ExactMatcherOptions& options) {
+  CheckDescriptors(first);
+  CheckDescriptors(second);
+  TwoWayNeighbours neighbours;
+  neighbours.of_first.resize(first.size());
+  neighbours.of_second.resize(second.size());
+  const auto first_groups = SplitIntoGroups(first, options.use_laplacian_sign);
+  const auto second_groups = SplitIntoGroups(second, options.use_laplacian_sign);
+  // The groups are disjoint, so that threads write to different elements.
+  cv::parallel_for_(cv::Range(0, static_cast<int>(first_groups.size())), [&](const cv::Range& r) {
+    for (int g = r.start; g < r.end; ++g) {
+      SearchGroup(first.descriptors, first_groups[g], second.descriptors, second_groups[g],
+                  options.use_simd, neighbours);
+    }
+  });
+  return neighbours;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,148 @@
+#include "arfm_vo/matching/guided_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/matching/descriptor_distance.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr float kSmallestScale = 1.2f;
+
+/// Keypoints sorted into the cells of a grid, so that those near a place are found at once.
+class KeypointGrid {
+ public:
+  KeypointGrid(const std::vector<Keypoint>& keypoints, float cell_width, float cell_height)
+      : cell_width_(cell_width), cell_height_(cell_height) {
+    float max_x = 0, max_y = 0;
+    for (const Keypoint& keypoint : keypoints) {
+      max_x = std::max(max_x, keypoint.x);
+      max_y = std::max(max_y, keypoint.y);
+    }
+    columns_ = static_cast<int>(max_x / cell_width_) + 1;
+    rows_ = static_cast<int>(max_y / cell_height_) + 1;
+    begins_.assign(columns_ * rows_ + 1, 0);
+    std::vector<int> cells(keypoints.size());
+    for (size_t i = 0; i < keypoints.size(); ++i) {
+      cells[i] = Row(keypoints[i].y) * columns_ + Column(keypoints[i].x);
+      ++begins_[cells[i] + 1];
+    }
+    for (size_t cell = 1; cell < begins_.size(); ++cell) begins_[cell] += begins_[cell - 1];
+    sorted_.resize(keypoints.size());
+    std::vector<int> next(begins_.begin(), begins_.end() - 1);
+    for (size_t i = 0; i < keypoints.size(); ++i) sorted_[next[cells[i]]++] = static_cast<int>(i);
+  }
+
+  /// Calls visit(index) for every keypoint in the cells that the rectangle touches.
+  template <class Visit>
+  void VisitCells(float min_x, float max_x, float min_y, float max_y, Visit&& visit) const {
+    if (!(max_x >= 0 && max_y >= 0)) return;
+    const int first_column = Column(min_x), last_column = Column(max_x);
+    for (int row = Row(min_y); row <= Row(max_y); ++row) {
+      const int end = begins_[row * columns_ + last_column + 1];
+      for (int i = begins_[row * columns_ + first_column]; i < end; ++i) visit(sorted_[i]);
+    }
+  }
+
+ private:
+  static int Cell(float position, float size, int count) {
+    return static_cast<int>(std::clamp(position / size, 0.0f, static_cast<float>(count - 1)));
+  }
+  int Column(float x) const { return Cell(x, cell_width_, columns_); }
+  int Row(float y) const { return Cell(y, cell_height_, rows_); }
+
+  float cell_width_, cell_height_;
+  int columns_, rows_;
+  std::vector<int> begins_;  ///< [cells + 1], into sorted_
+  std::vector<int> sorted_;
+};
+
+/// Looks at a pair of descriptors once for both directions.
+void AddPair(const float* first_descriptor, int first, const cv::Mat& second_descriptors,
+             int second, TwoWayNeighbours& neighbours) {
+  const float squared_distance =
+      SquaredDescriptorDistance(first_descriptor, second_descriptors.ptr<float>(second));
+  neighbours.of_first[first].Add(second, squared_distance);
+  neighbours.of_second[second].Add(first, squared_distance);
+}
+
+bool IsScaleWithin(float a, float b, float max_ratio) {
+  return a <= b * max_ratio && b <= a * max_ratio;
+}
+
+void CheckDescriptors(const cv::Mat& descriptors, size_t count, const char* whose) {
+  Require(static_cast<size_t>(descriptors.rows) == count &&
+              (count == 0 || (descriptors.type() == CV_32FC1 && descriptors.cols == 64)),
+          std::string("guided matcher: descriptors of ") + whose + " must be [N x 64] CV_32FC1");
+}
+
+}  // namespace
+
+void StereoSearchOptions::Check() const {
+  Require(max_row_difference_px > 0, "search.max_row_difference_px must be positive");
+  Require(min_disparity_px < max_disparity_px,
+          "search.min_disparity_px must be less than search.max_disparity_px");
+  Require(max_scale_ratio >= 1, "search.max_scale_ratio must be at least 1");
+}
+
+TwoWayNeighbours FindStereoNeighbours(const Features& left, const Features& right,
+                                      const StereoSearchOptions& options) {
+  CheckDescriptors(left.descriptors, left.keypoints.size(), "the left image");
+  CheckDescriptors(right.descriptors, right.keypoints.size(), "the right image");
+  const auto rows_per_scale = static_cast<float>(options.max_row_difference_px / kSmallestScale);
+  const auto max_scale_ratio = static_cast<float>(options.max_scale_ratio);
+  const auto min_disparity = static_cast<float>(options.min_disparity_px);
+  const auto max_disparity = static_cast<float>(options.max_disparity_px);
+  TwoWayNeighbours neighbours;
+  neighbours.of_first.resize(left.keypoints.size());
+  neighbours.of_second.resize(right.keypoints.size());
+  const KeypointGrid grid(right.keypoints, 32, 4);
+  for (int i = 0; i < left.size(); ++i) {
+    const Keypoint& from = left.keypoints[i];
+    const float* descriptor = left.descriptors.ptr<float>(i);
+    const float reach = rows_per_scale * from.scale * max_scale_ratio;
+    grid.VisitCells(
+        from.x - max_disparity, from.x - min_disparity, from.y - reach, from.y + reach, [&](int j) {
+          const Keypoint& to = right.keypoints[j];
+          const float disparity = from.x - to.x;
+          if (to.laplacian_sign == from.laplacian_sign && disparity >= min_disparity &&
+              disparity <= max_disparity && IsScaleWithin(from.scale, to.scale, max_scale_ratio) &&
+              std::abs(from.y - to.y) <= rows_per_scale * std::max(from.scale, to.scale)) {
+            AddPair(descriptor, i, right.descriptors, j, neighbours);
+          }
+        });
+  }
+  return neighbours;
+}
+
+TwoWayNeighbours FindPredictedNeighbours(const std::vector<Prediction>& predictions,
+                                         const cv::Mat& descriptors, const Features& features,
+                                         double max_scale_ratio) {
+  CheckDescriptors(descriptors, predictions.size(), "the predictions");
+  CheckDescriptors(features.descriptors, features.keypoints.size(), "the image");
+  Require(max_scale_ratio >= 1, "guided matcher: max_scale_ratio must be at least 1");
+  const auto ratio = static_cast<float>(max_scale_ratio);
+  TwoWayNeighbours neighbours;
+  neighbours.of_first.resize(predictions.size());
+  neighbours.of_second.resize(features.keypoints.size());
+  const KeypointGrid grid(features.keypoints, 16, 16);
+  for (int i = 0; i < static_cast<int>(predictions.size()); ++i) {
+    const Prediction& from = predictions[i];
+    const float* descriptor = descriptors.ptr<float>(i);
+    const float radius = from.radius;
+    if (!std::isfinite(from.x) || !std::isfinite(from.y) || !(radius > 0)) continue;
+    grid.VisitCells(from.x - radius, from.x + radius, from.y - radius, from.y + radius, [&](int j) {
+      const Keypoint& to = features.keypoints[j];
+      const float dx = to.x - from.x, dy = to.y - from.y;
+      if (to.laplacian_sign == from.laplacian_sign && dx * dx + dy * dy <= radius * radius &&
+          (from.scale <= 0 || IsScaleWithin(from.scale, to.scale, ratio))) {
+        AddPair(descriptor, i, features.descriptors, j, neighbours);
+      }
+    });
+  }
+  return neighbours;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,40 @@
+#include "arfm_vo/matching/neighbours.h"
+
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Squared distances of unit descriptors from float scores are good to about this much.
+constexpr float kFloatNoise = 1e-6f;
+
+}  // namespace
+
+float Neighbours::Ratio() const {
+  if (nearest < 0) return 1;
+  if (second_squared_distance == kNone) return 0;
+  return std::sqrt((squared_distance + kFloatNoise) / (second_squared_distance + kFloatNoise));
+}
+
+void MatchSelectionOptions::Check() const {
+  Require(max_distance > 0 && max_distance <= 2, "selection.max_distance must be in (0, 2]");
+}
+
+Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold,
+                      const MatchSelectionOptions& options) {
+  const float max_squared_distance =
+      static_cast<float>(options.max_distance * options.max_distance);
+  Matches matches;
+  for (int first = 0; first < static_cast<int>(neighbours.of_first.size()); ++first) {
+    const Neighbours& found = neighbours.of_first[first];
+    if (found.nearest < 0 || found.squared_distance > max_squared_distance) continue;
+    if (options.cross_check && neighbours.of_second[found.nearest].nearest != first) continue;
+    if (found.Ratio() > ratio_threshold) continue;
+    matches.push_back({first, found.nearest, std::sqrt(found.squared_distance)});
+  }
+  return matches;
+}
+
+}  // namespace arfm_vo

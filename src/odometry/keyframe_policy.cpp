@@ -1,0 +1,43 @@
+#include "arfm_vo/odometry/keyframe_policy.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace arfm_vo {
+namespace {
+
+/// How far a pixel of the newest keyframe moves in the frame beyond what the rotation explains.
+double Parallax(const StereoCamera& camera, const Eigen::Matrix3d& frame_from_newest,
+                const Eigen::Vector4d& in_newest, const Eigen::Vector4d& in_frame) {
+  const Eigen::Vector3d ray((in_newest.x() - camera.cx) / camera.fx,
+                            (in_newest.y() - camera.cy) / camera.fy, 1);
+  const Eigen::Vector3d turned = frame_from_newest * ray;
+  if (turned.z() < 0.1) return 0;
+  return (camera.Project(turned) - in_frame.head<2>()).norm();
+}
+
+}  // namespace
+
+bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
+                   const Rigid3& camera_from_world, const LandmarkObservations& observations,
+                   const KeyframePolicyOptions& options) {
+  if (static_cast<int>(observations.size()) < options.min_tracked_points) return true;
+  const Eigen::Matrix3d frame_from_newest =
+      (camera_from_world.rotation * newest.camera_from_world.rotation.conjugate())
+          .toRotationMatrix();
+  std::vector<double> parallax;
+  auto seen = newest.observations.begin();
+  for (const LandmarkObservation& observation : observations) {
+    while (seen != newest.observations.end() && seen->landmark < observation.landmark) ++seen;
+    if (seen == newest.observations.end()) break;
+    if (seen->landmark != observation.landmark) continue;
+    parallax.push_back(Parallax(camera, frame_from_newest, seen->pixels, observation.pixels));
+  }
+  if (parallax.size() < options.min_shared_fraction * newest.observations.size()) return true;
+  if (parallax.empty()) return true;
+  const auto middle = parallax.begin() + parallax.size() / 2;
+  std::nth_element(parallax.begin(), middle, parallax.end());
+  return *middle >= options.min_parallax_px;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,64 @@
+#include "arfm_vo/odometry/local_bundle.h"
+
+#include <unordered_map>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+
+void LocalBundleOptions::Check() const {
+  Require(num_keyframes >= 2, "bundle.num_keyframes must be at least 2");
+  solver.Check();
+}
+
+LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int num_keyframes) {
+  LocalBundle bundle;
+  bundle.problem.camera = camera;
+  const auto& keyframes = map.keyframes();
+  const int first_moving =
+      std::max(1, static_cast<int>(keyframes.size()) - num_keyframes);  // the oldest is fixed
+
+  std::unordered_map<LandmarkId, int> rows;
+  for (int k = first_moving; k < static_cast<int>(keyframes.size()); ++k) {
+    for (const LandmarkObservation& observation : keyframes[k].observations) {
+      const Landmark& landmark = map.landmarks().at(observation.landmark);
+      if (landmark.num_keyframes < 2) continue;  // fits whatever the poses are
+      if (!rows.emplace(landmark.id, rows.size()).second) continue;
+      bundle.landmarks.push_back(landmark.id);
+      bundle.problem.points.push_back(landmark.x_in_world);
+    }
+  }
+  for (int k = 0; k < static_cast<int>(keyframes.size()); ++k) {
+    const int pose = static_cast<int>(bundle.keyframes.size());
+    bool sees_any = k >= first_moving;
+    for (const LandmarkObservation& observation : keyframes[k].observations) {
+      const auto row = rows.find(observation.landmark);
+      if (row == rows.end()) continue;
+      sees_any = true;
+      bundle.problem.observations.push_back({pose, row->second, observation.pixels,
+                                             observation.has_right, observation.sigma_px});
+    }
+    if (!sees_any) continue;
+    bundle.keyframes.push_back(keyframes[k].id);
+    bundle.problem.camera_from_world.push_back(keyframes[k].camera_from_world);
+    bundle.problem.pose_is_fixed.push_back(k < first_moving);
+  }
+  return bundle;
+}
+
+void ApplyLocalBundle(const LocalBundle& bundle, const BundleResult& result, LocalMap& map) {
+  if (!result.IsUsable()) return;
+  for (size_t i = 0; i < bundle.keyframes.size(); ++i) {
+    map.MoveKeyframe(bundle.keyframes[i], result.camera_from_world[i]);
+  }
+  for (size_t i = 0; i < bundle.landmarks.size(); ++i) {
+    map.MoveLandmark(bundle.landmarks[i], result.points[i], result.point_covariances[i]);
+  }
+  for (size_t i = 0; i < bundle.problem.observations.size(); ++i) {
+    if (!result.is_outlier[i]) continue;
+    const BundleObservation& observation = bundle.problem.observations[i];
+    map.RemoveObservation(bundle.keyframes[observation.pose], bundle.landmarks[observation.point]);
+  }
+}
+
+}  // namespace arfm_vo

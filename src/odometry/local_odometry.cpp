@@ -1,0 +1,209 @@
+#include "arfm_vo/odometry/local_odometry.h"
+
+#include <algorithm>
+#include <future>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/stopwatch.h"
+
+namespace arfm_vo {
+
+void LocalOdometryOptions::Check() const {
+  tracker.Check();
+  keyframes.Check();
+  map.Check();
+  bundle.Check();
+  standstill.Check();
+  Require(bundle.num_keyframes <= map.max_keyframes,
+          "odometry.bundle.num_keyframes must not exceed odometry.map.max_keyframes");
+  Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
+}
+
+class LocalOdometry::Implementation {
+ public:
+  Implementation(const StereoCamera& camera, const LocalOdometryOptions& options)
+      : camera_(camera),
+        options_(options),
+        tracker_(camera, options.tracker),
+        map_(camera, options.map),
+        standstill_(options.standstill) {
+    options.Check();
+  }
+
+  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images) {
+    Stopwatch stopwatch;
+    OdometryUpdate update;
+    update.stamp_s = frame.stamp_s;
+    update.median_row_residual_px = MedianRowResidual(frame.points);
+    FinishBundle();
+    update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
+    if (map_.keyframes().empty()) {
+      Start(frame, images, update);
+    } else {
+      Continue(frame, images, update);
+    }
+    update.stage_ms.emplace_back("track", stopwatch.LapMs());
+    if (update.is_keyframe) AddKeyframe(frame, images, update);
+    update.stage_ms.emplace_back("map", stopwatch.LapMs());
+    return update;
+  }
+
+  std::optional<KeyframeRecord> TakeKeyframe() { return std::exchange(record_, std::nullopt); }
+
+  void Apply(const MapUpdate& update) {
+    FinishBundle();
+    // The newest keyframe that both know stays: odom_from_map there undoes the correction.
+    const Keyframe* anchor = nullptr;
+    Rigid3 anchor_in_map;
+    for (const auto& keyframe : update.keyframes) {
+      const Keyframe* known = map_.FindKeyframe(keyframe.id);
+      if (known == nullptr) continue;
+      anchor = known;
+      anchor_in_map = keyframe.camera_from_world;
+    }
+    if (anchor == nullptr) return;
+    const Rigid3 odom_from_map = anchor->camera_from_world.Inverse() * anchor_in_map;
+    const Rigid3 map_from_odom = odom_from_map.Inverse();
+    for (const auto& keyframe : update.keyframes) {
+      map_.MoveKeyframe(keyframe.id, keyframe.camera_from_world * map_from_odom);
+    }
+    for (const auto& landmark : update.landmarks) {
+      const auto known = map_.landmarks().find(landmark.id);
+      if (known == map_.landmarks().end()) continue;
+      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world,
+                        known->second.covariance);
+    }
+  }
+
+  void Reset() {
+    FinishBundle();
+    map_.Clear();
+    standstill_.Reset();
+    last_.reset();
+    record_.reset();
+  }
+
+  const LocalMap& map() const { return map_; }
+
+ private:
+  struct Motion {
+    double stamp_s;
+    Rigid3 camera_from_world;
+    std::optional<Rigid3> velocity;  ///< camera_from_camera a second ago: (rotation, translation)
+    double interval_s;
+  };
+
+  static double MedianRowResidual(const StereoPoints& points) {
+    if (points.empty()) return 0;
+    std::vector<double> residuals;
+    for (const StereoPoint& point : points) residuals.push_back(point.row_residual_px);
+    const auto middle = residuals.begin() + residuals.size() / 2;
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    return *middle;
+  }
+
+  void Start(const StereoFrame& frame, const StereoImages&, OdometryUpdate& update) {
+    update.pose.num_matches = static_cast<int>(frame.points.size());
+    if (update.pose.num_matches < options_.min_points_to_start) {
+      update.pose.status = PoseStatus::kTooFewFeatures;
+      return;
+    }
+    update.pose.status = PoseStatus::kTracked;
+    update.pose.num_inliers = update.pose.num_matches;
+    update.pose.covariance.setIdentity();
+    update.pose.covariance *= 1e-12;  // the world is this camera
+    update.is_keyframe = true;
+    last_ = Motion{frame.stamp_s, update.pose.camera_from_world, std::nullopt, 0};
+  }
+
+  void Continue(const StereoFrame& frame, const StereoImages& images, OdometryUpdate& update) {
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, Predict(frame.stamp_s));
+    update.pose = tracked.pose;
+    if (!tracked.pose.IsTracked()) {
+      last_.reset();
+      standstill_.Reset();
+      return;
+    }
+    map_.CountSightings(tracked.expected, tracked.observations);
+    const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
+    if (resting) update.pose.camera_from_world = *resting;
+    update.is_keyframe =
+        !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
+                                  tracked.observations, options_.keyframes);
+    update.observations = std::move(tracked.observations);
+    Remember(frame.stamp_s, update.pose.camera_from_world);
+  }
+
+  std::optional<Rigid3> Predict(double stamp_s) const {
+    if (!options_.predict_motion || !last_) return std::nullopt;
+    if (!last_->velocity || last_->interval_s <= 0) return last_->camera_from_world;
+    const double ratio = (stamp_s - last_->stamp_s) / last_->interval_s;
+    const Rigid3 motion(ExpSO3(ratio * LogSO3(last_->velocity->rotation)),
+                        Eigen::Vector3d(ratio * last_->velocity->translation));
+    return motion * last_->camera_from_world;
+  }
+
+  void Remember(double stamp_s, const Rigid3& camera_from_world) {
+    Motion now{stamp_s, camera_from_world, std::nullopt, 0};
+    if (last_) {
+      now.velocity = camera_from_world * last_->camera_from_world.Inverse();
+      now.interval_s = stamp_s - last_->stamp_s;
+    }
+    last_ = now;
+  }
+
+  void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
+                   const OdometryUpdate& update) {
+    const LandmarkId first_new = map_.next_landmark();
+    const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
+                                                update.observations);
+    record_ = KeyframeRecord{keyframe.id, keyframe.stamp_s, keyframe.camera_from_world,
+                             keyframe.observations, {}};
+    for (auto landmark = map_.landmarks().lower_bound(first_new);
+         landmark != map_.landmarks().end(); ++landmark) {
+      record_->landmarks.push_back({landmark->second.id, landmark->second.x_in_world,
+                                    landmark->second.keypoint.laplacian_sign,
+                                    landmark->second.descriptor});
+    }
+    if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
+    LocalBundle bundle = MakeLocalBundle(camera_, map_, options_.bundle.num_keyframes);
+    pending_ = std::async(std::launch::async,
+                          [bundle = std::move(bundle), solver = options_.bundle.solver]() mutable {
+                            BundleResult result = AdjustBundle(bundle.problem, solver);
+                            return std::make_pair(std::move(bundle), std::move(result));
+                          });
+  }
+
+  /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
+  /// that the result does not depend on how fast threads run.
+  void FinishBundle() {
+    if (!pending_.valid()) return;
+    const auto [bundle, result] = pending_.get();
+    ApplyLocalBundle(bundle, result, map_);
+  }
+
+  StereoCamera camera_;
+  LocalOdometryOptions options_;
+  FrameTracker tracker_;
+  LocalMap map_;
+  StandstillLock standstill_;
+  std::optional<Motion> last_;
+  std::optional<KeyframeRecord> record_;
+  std::future<std::pair<LocalBundle, BundleResult>> pending_;
+};
+
+LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options)
+    : implementation_(std::make_unique<Implementation>(camera, options)) {}
+LocalOdometry::~LocalOdometry() = default;
+
+OdometryUpdate LocalOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
+  return implementation_->Process(frame, images);
+}
+std::optional<KeyframeRecord> LocalOdometry::TakeKeyframe() {
+  return implementation_->TakeKeyframe();
+}
+void LocalOdometry::Apply(const MapUpdate& update) { implementation_->Apply(update); }
+void LocalOdometry::Reset() { implementation_->Reset(); }
+const LocalMap& LocalOdometry::map() const { return implementation_->map(); }
+
+}  // namespace arfm_vo

@@ -1,0 +1,68 @@
+#include "arfm_vo/odometry/visual_odometry.h"
+
+#include "arfm_vo/base/stopwatch.h"
+
+namespace arfm_vo {
+
+void OdometryOptions::Check() const {
+  frontend.Check();
+  odometry.Check();
+  global.Check();
+}
+
+VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions& options)
+    : options_(options),
+      frontend_(camera, options.frontend),
+      local_(camera, options.odometry),
+      global_(camera, options.global) {
+  options.Check();
+}
+
+OdometryUpdate VisualOdometry::Process(const StereoImages& images) {
+  StageTimes frontend_ms;
+  const StereoFrame frame = frontend_.Process(images, &frontend_ms);
+  OdometryUpdate update = local_.Process(frame, images);
+  if (const auto keyframe = local_.TakeKeyframe()) global_.Add(*keyframe);
+  Remember(update);
+  update.stage_ms.insert(update.stage_ms.begin(), frontend_ms.begin(), frontend_ms.end());
+  return update;
+}
+
+void VisualOdometry::Remember(const OdometryUpdate& update) {
+  for (const Keyframe& keyframe : local_.map().keyframes()) {
+    keyframe_from_world_[keyframe.id] = keyframe.camera_from_world;
+  }
+  Frame frame{update.stamp_s, update.pose.IsTracked(), 0, Rigid3()};
+  if (frame.is_tracked) {
+    const Keyframe& keyframe = local_.map().keyframes().back();
+    frame.keyframe = keyframe.id;
+    frame.camera_from_keyframe =
+        update.pose.camera_from_world * keyframe.camera_from_world.Inverse();
+  }
+  frames_.push_back(frame);
+}
+
+Trajectory VisualOdometry::Finish() {
+  if (options_.adjust_globally) {
+    if (const auto update = global_.Adjust()) {
+      for (const auto& keyframe : update->keyframes) {
+        keyframe_from_world_[keyframe.id] = keyframe.camera_from_world;
+      }
+    }
+  }
+  Trajectory trajectory;
+  for (const Frame& frame : frames_) {
+    TrajectoryPose pose;
+    pose.stamp_s = frame.stamp_s;
+    pose.is_tracked = frame.is_tracked;
+    if (frame.is_tracked) {
+      const Rigid3& keyframe_from_world = keyframe_from_world_.at(frame.keyframe);
+      pose.world_from_camera = (frame.camera_from_keyframe * keyframe_from_world).Inverse();
+    }
+    trajectory.push_back(pose);
+  }
+  InterpolateLostPoses(trajectory);
+  return trajectory;
+}
+
+}  // namespace arfm_vo

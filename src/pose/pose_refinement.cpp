@@ -1,0 +1,292 @@
+#include "arfm_vo/pose/pose_refinement.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/pose/reprojection.h"
+
+namespace arfm_vo {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kBehindCamera = 1e12;  ///< squared error of a point that cannot be seen
+
+/// What the loss needs to know for residuals of one number of coordinates.
+struct ResidualModel {
+  RobustLoss loss;
+  double bound;        ///< of the chi-square test
+  double median;       ///< of the squared norm of a residual within the bound
+  double lost_weight;  ///< what the hard bound takes from the mean slope of the influence function
+
+  ResidualModel(const PoseRefinementOptions& options, int num_coordinates)
+      : loss(options.loss, options.loss_threshold_sigma, num_coordinates),
+        bound(ChiSquareQuantile(num_coordinates, options.inlier_probability)),
+        median(ChiSquareQuantile(num_coordinates, options.inlier_probability / 2)),
+        lost_weight(loss.Weight(bound) * (1 - ChiSquareProbability(num_coordinates + 2, bound) /
+                                                  options.inlier_probability)) {}
+};
+
+struct NormalEquations {
+  Matrix6d hessian = Matrix6d::Zero();   ///< J^T W J
+  Vector6d gradient = Vector6d::Zero();  ///< J^T W r
+  double cost = 0;
+};
+
+/// Whether a normal matrix fixes all six directions, to working precision; NaN does not.
+bool IsFullRank(const Matrix6d& hessian) {
+  const Vector6d diagonal = hessian.diagonal();
+  if (!(diagonal.minCoeff() > 0) || !diagonal.allFinite()) return false;
+  const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Matrix6d scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
+  return scaled.ldlt().vectorD().minCoeff() > 1e-11;
+}
+
+class Refiner {
+ public:
+  Refiner(const StereoCamera& camera, const std::vector<PointObservation>& observations,
+          const Rigid3& camera_from_world, const PoseRefinementOptions& options,
+          const std::vector<char>& is_inlier)
+      : camera_(camera),
+        observations_(observations),
+        options_(options),
+        models_{ResidualModel(options, 2), ResidualModel(options, 3)},
+        information_(observations.size()),
+        squared_(observations.size()) {
+    result_.camera_from_world = camera_from_world;
+    result_.is_inlier = is_inlier;
+    if (is_inlier.empty()) result_.is_inlier.assign(observations.size(), 1);
+    CountInliers();
+  }
+
+  PoseRefinement Run() {
+    UpdateInformation();
+    MeasureScale(std::numeric_limits<double>::infinity());  // the first pose may be far off
+    for (int round = 0; round < options_.max_rounds; ++round) {
+      if (!HasEnoughInliers() || !Iterate()) return result_;
+      const double last_scale = result_.scale;
+      UpdateInformation();
+      MeasureScale(options_.max_scale);
+      const bool is_same = Classify();
+      if (is_same && std::abs(result_.scale - last_scale) < 0.01 * last_scale) break;
+    }
+    if (HasEnoughInliers() && FindCovariance()) result_.status = RefinementStatus::kConverged;
+    return result_;
+  }
+
+ private:
+  const ResidualModel& ModelOf(int i) const { return models_[observations_[i].has_right]; }
+
+  bool HasEnoughInliers() {
+    result_.status = RefinementStatus::kTooFewPoints;
+    return result_.num_inliers >= options_.min_inliers;
+  }
+
+  void CountInliers() {
+    result_.num_inliers =
+        static_cast<int>(std::count(result_.is_inlier.begin(), result_.is_inlier.end(), 1));
+  }
+
+  /// The information of each residual, and its squared norm, at the present pose.
+  void UpdateInformation() {
+    const Eigen::Matrix3d rotation = result_.camera_from_world.RotationMatrix();
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      const Eigen::Vector3d x =
+          rotation * observations_[i].x_in_world + result_.camera_from_world.translation;
+      squared_[i] = kBehindCamera;
+      information_[i].setZero();
+      if (!(x.z() > kMinDepth)) continue;
+      information_[i] = ReprojectionInformation(camera_, observations_[i], rotation, x);
+      const Eigen::Vector3d error = ReprojectionError(camera_, observations_[i], x);
+      squared_[i] = error.dot(information_[i] * error);
+    }
+  }
+
+  void MeasureScale(double max_scale) {
+    std::vector<double>& ratios = scratch_;
+    ratios.clear();
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      if (result_.is_inlier[i]) ratios.push_back(squared_[i] / ModelOf(i).median);
+    }
+    if (ratios.empty()) return;
+    const auto middle = ratios.begin() + ratios.size() / 2;
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    const double prior = options_.scale_prior_weight;
+    const double variance = (ratios.size() * *middle + prior) / (ratios.size() + prior);
+    result_.scale = std::clamp(std::sqrt(variance), options_.min_scale, max_scale);
+  }
+
+  /// Returns whether the inliers stay the same.
+  bool Classify() {
+    bool is_same = true;
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      const char is_inlier = squared_[i] <= ModelOf(i).bound * result_.scale * result_.scale;
+      is_same &= is_inlier == result_.is_inlier[i];
+      result_.is_inlier[i] = is_inlier;
+    }
+    CountInliers();
+    return is_same;
+  }
+
+  NormalEquations Linearize(const Rigid3& camera_from_world) const {
+    NormalEquations equations;
+    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
+    const double inverse_variance = 1 / (result_.scale * result_.scale);
+    Eigen::Matrix3d rotation_block = Eigen::Matrix3d::Zero(), mixed_block = rotation_block,
+                    translation_block = rotation_block;
+    Eigen::Vector3d torque = Eigen::Vector3d::Zero(), force = torque;
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      if (!result_.is_inlier[i]) continue;
+      const Eigen::Vector3d x =
+          rotation * observations_[i].x_in_world + camera_from_world.translation;
+      const RobustLoss& loss = ModelOf(i).loss;
+      if (!(x.z() > kMinDepth)) {
+        equations.cost += loss.Rho(kBehindCamera);
+        continue;
+      }
+      const Eigen::Vector3d error = ReprojectionError(camera_, observations_[i], x);
+      const Eigen::Vector3d whitened = information_[i] * error;
+      const double s = error.dot(whitened) * inverse_variance;
+      equations.cost += loss.Rho(s);
+      const double weight = loss.Weight(s) * inverse_variance;
+      // With A the derivative by the point and M = A^T S^-1 A, the derivative by the step is
+      // A [-x]x for the rotation and A for the translation.
+      const Eigen::Matrix3d a = ProjectionJacobian(camera_, x);
+      const Eigen::Vector3d pull = weight * (a.transpose() * whitened);
+      const Eigen::Matrix3d m = weight * (a.transpose() * (information_[i] * a));
+      const Eigen::Matrix3d skew = Skew(x);
+      const Eigen::Matrix3d mixed = skew * m;
+      force += pull;
+      torque += x.cross(pull);
+      translation_block += m;
+      mixed_block += mixed;
+      rotation_block += mixed * skew.transpose();
+    }
+    equations.hessian << rotation_block, mixed_block, mixed_block.transpose(), translation_block;
+    equations.gradient << torque, force;
+    return equations;
+  }
+
+  /// Iterates to the minimum for fixed inliers, scale and information. Returns false, with the
+  /// status, where the points do not fix the pose.
+  bool Iterate() {
+    NormalEquations equations = Linearize(result_.camera_from_world);
+    double damping = 0;
+    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      const std::optional<Vector6d> step = Solve(equations, damping);
+      if (!step) {
+        result_.status = RefinementStatus::kRankDeficient;
+        return false;
+      }
+      ++result_.num_iterations;
+      const Rigid3 moved = BoxPlus(result_.camera_from_world, *step);
+      const double expected = equations.gradient.dot(*step);
+      const NormalEquations moved_equations = Linearize(moved);
+      if (moved_equations.cost <= equations.cost) {
+        result_.camera_from_world = moved;
+        equations = moved_equations;
+        damping = damping > 1e-6 ? damping / 10 : 0;
+      } else if (options_.step == StepKind::kLevenbergMarquardt) {
+        damping = std::max(1e-3, 10 * damping);
+      } else {
+        break;
+      }
+      if (expected < 1e-10) break;
+    }
+    return true;
+  }
+
+  /// The step of the damped equations, scaled to a unit diagonal.
+  std::optional<Vector6d> Solve(const NormalEquations& equations, double damping) const {
+    if (!IsFullRank(equations.hessian)) return std::nullopt;
+    const Vector6d scale = equations.hessian.diagonal().cwiseSqrt().cwiseInverse();
+    Matrix6d scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
+    scaled.diagonal().array() += damping;
+    const Vector6d step = scaled.ldlt().solve(scale.cwiseProduct(equations.gradient));
+    return Vector6d(scale.cwiseProduct(step));
+  }
+
+  /// (b / a^2) (J^T S^-1 J)^-1 with a the mean slope and b the mean square of the influence
+  /// function (Huber 1981, 7.6), both for a coordinate, and n - 6 degrees of freedom.
+  bool FindCovariance() {
+    const Eigen::Matrix3d rotation = result_.camera_from_world.RotationMatrix();
+    const double inverse_variance = 1 / (result_.scale * result_.scale);
+    Matrix6d hessian = Matrix6d::Zero();
+    double slope = 0, square = 0, num_coordinates = 0, squared_px = 0;
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      if (!result_.is_inlier[i]) continue;
+      const ResidualModel& model = ModelOf(i);
+      const int k = observations_[i].NumCoordinates();
+      const double s = squared_[i] * inverse_variance;
+      const double weight = model.loss.Weight(s);
+      slope += k * (weight - model.lost_weight) + 2 * s * model.loss.WeightSlope(s);
+      square += weight * weight * s;
+      num_coordinates += k;
+      const Eigen::Vector3d x =
+          rotation * observations_[i].x_in_world + result_.camera_from_world.translation;
+      squared_px += ReprojectionError(camera_, observations_[i], x).squaredNorm();
+      const Eigen::Matrix3d a = ProjectionJacobian(camera_, x);
+      Eigen::Matrix<double, 3, 6> jacobian;
+      jacobian << -a * Skew(x), a;
+      hessian += inverse_variance * jacobian.transpose() * information_[i] * jacobian;
+    }
+    result_.rms_px = std::sqrt(squared_px / num_coordinates);
+    const double freedom = std::max(1.0, num_coordinates - 6);
+    // The stated noise stands in where the residuals are too small or too few to tell.
+    const double least = options_.min_scale * options_.min_scale * inverse_variance;
+    const double b = std::max(square / freedom, least);
+    const double a = std::max(slope / num_coordinates, 0.1);
+    if (!IsFullRank(hessian)) {
+      result_.status = RefinementStatus::kRankDeficient;
+      return false;
+    }
+    const Vector6d scale = hessian.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix6d scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
+    result_.covariance = b / (a * a) * (scale.asDiagonal() * scaled.inverse() * scale.asDiagonal());
+    result_.covariance = (result_.covariance + result_.covariance.transpose()).eval() / 2;
+    return true;
+  }
+
+  const StereoCamera& camera_;
+  const std::vector<PointObservation>& observations_;
+  const PoseRefinementOptions& options_;
+  const ResidualModel models_[2];
+  std::vector<Eigen::Matrix3d> information_;
+  std::vector<double> squared_;
+  std::vector<double> scratch_;
+  PoseRefinement result_;
+};
+
+}  // namespace
+
+void PoseRefinementOptions::Check() const {
+  Require(max_iterations >= 1, "refinement.max_iterations must be at least 1");
+  Require(max_rounds >= 1, "refinement.max_rounds must be at least 1");
+  Require(loss_threshold_sigma > 0, "refinement.loss_threshold_sigma must be positive");
+  Require(inlier_probability > 0 && inlier_probability < 1,
+          "refinement.inlier_probability must be in (0, 1)");
+  Require(min_scale > 0 && min_scale <= 1, "refinement.min_scale must be in (0, 1]");
+  Require(max_scale >= 1, "refinement.max_scale must be at least 1");
+  Require(scale_prior_weight >= 0, "refinement.scale_prior_weight must not be negative");
+  Require(min_inliers >= 3, "refinement.min_inliers must be at least 3");
+}
+
+PoseRefinement RefinePose(const StereoCamera& camera,
+                          const std::vector<PointObservation>& observations,
+                          const Rigid3& camera_from_world, const PoseRefinementOptions& options,
+                          const std::vector<char>& is_inlier) {
+  options.Check();
+  Require(is_inlier.empty() || is_inlier.size() == observations.size(),
+          "pose refinement: is_inlier must have one flag an observation");
+  Require(camera_from_world.IsFinite(), "pose refinement: the first pose is not finite");
+  RequireValid(observations);
+  return Refiner(camera, observations, camera_from_world, options, is_inlier).Run();
+}
+
+}  // namespace arfm_vo

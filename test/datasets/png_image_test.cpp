@@ -1,0 +1,79 @@
+#include "arfm_vo/datasets/png_image.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "arfm_vo/base/whole_file.h"
+
+namespace arfm_vo {
+namespace {
+
+class PngImageTest : public testing::Test {
+ protected:
+  PngImageTest() {
+    cv::Mat image(40, 50, CV_8UC1);
+    for (int i = 0; i < 2000; ++i) image.data[i] = static_cast<uint8_t>(i * i);
+    cv::imwrite(path_, image);
+    bytes_ = ReadWholeFile(path_);
+  }
+  ~PngImageTest() override { std::filesystem::remove(path_); }
+
+  /// What reading a file of these bytes complains of, without the file's name.
+  std::string ErrorOf(const std::string& bytes) {
+    WriteWholeFile(path_, bytes);
+    try {
+      ReadGreyPng(path_);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, path_.size()), path_);
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "no error";
+  }
+
+  const std::string path_ =
+      (std::filesystem::temp_directory_path() / "arfm_vo_png_image_test.png").string();
+  std::string bytes_;
+};
+
+TEST_F(PngImageTest, ReadsPixelsAndSize) {
+  EXPECT_EQ(ReadPngSize(path_), cv::Size(50, 40));
+  const cv::Mat image = ReadGreyPng(path_);
+  ASSERT_EQ(image.type(), CV_8UC1);
+  EXPECT_EQ(image.at<uint8_t>(0, 15), 225);
+}
+
+TEST_F(PngImageTest, TruncationAnywhereIsAnError) {
+  for (size_t size = 0; size<bytes_.size(); size += bytes_.size() - size> 30 ? 7 : 1) {
+    const std::string error = ErrorOf(bytes_.substr(0, size));
+    EXPECT_EQ(error, size == 0  ? ": is empty"
+                     : size < 8 ? ": is not a PNG file"
+                                : ": PNG file is truncated")
+        << size;
+  }
+}
+
+TEST_F(PngImageTest, AFlippedBitIsAnError) {
+  for (size_t at = 0; at < bytes_.size(); at += 11) {
+    std::string flipped = bytes_;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    EXPECT_NE(ErrorOf(flipped), "no error") << at;
+  }
+}
+
+TEST_F(PngImageTest, OtherFilesAreNoPng) {
+  EXPECT_EQ(ErrorOf("P5 2 2 255 abcd and some more bytes than a header has"),
+            ": is not a PNG file");
+  std::filesystem::remove(path_);
+  EXPECT_THROW(ReadPngSize(path_), std::invalid_argument);
+}
+
+TEST_F(PngImageTest, RefusesSixteenBits) {
+  cv::imwrite(path_, cv::Mat(4, 4, CV_16UC1, cv::Scalar(3000)));
+  EXPECT_EQ(ErrorOf(ReadWholeFile(path_)),
+            ": has 16 bits a sample; convert it to 8 bit grey first");
+}
+
+}  // namespace
+}  // namespace arfm_vo

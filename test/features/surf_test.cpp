@@ -1,0 +1,110 @@
+#include "arfm_vo/features/surf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A dark or bright Gaussian blob on grey, at the sub-pixel place (x, y).
+cv::Mat RenderBlob(int rows, int cols, double x, double y, double sigma, double height) {
+  cv::Mat grey(rows, cols, CV_8UC1);
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < cols; ++col) {
+      const double square = (col - x) * (col - x) + (row - y) * (row - y);
+      grey.at<uint8_t>(row, col) =
+          cv::saturate_cast<uint8_t>(128 + height * std::exp(-square / (2 * sigma * sigma)));
+    }
+  }
+  return grey;
+}
+
+/// The strongest keypoint.
+Keypoint FindBlob(const cv::Mat& grey, const SurfOptions& options = {}) {
+  const Features features = Surf(options).Extract(grey);
+  Keypoint strongest;
+  for (const Keypoint& keypoint : features.keypoints) {
+    if (keypoint.response > strongest.response) strongest = keypoint;
+  }
+  return strongest;
+}
+
+TEST(SurfTest, FindsBlobsAtTheirSubPixelPlaceWithoutBias) {
+  double sum_x = 0, sum_y = 0;
+  int num = 0;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) {
+      const double x = 40 + i / 8.0, y = 35 + j / 8.0;
+      const Keypoint found = FindBlob(RenderBlob(80, 90, x, y, 2.5, 100));
+      EXPECT_NEAR(found.x, x, 0.1);
+      EXPECT_NEAR(found.y, y, 0.1);
+      EXPECT_EQ(found.laplacian_sign, -1);
+      sum_x += found.x - x;
+      sum_y += found.y - y;
+      ++num;
+    }
+  }
+  EXPECT_NEAR(sum_x / num, 0, 0.01);
+  EXPECT_NEAR(sum_y / num, 0, 0.01);
+}
+
+TEST(SurfTest, ScaleDoublesWithTheBlob) {
+  const Keypoint small = FindBlob(RenderBlob(160, 160, 80, 80, 2.5, -100));
+  const Keypoint large = FindBlob(RenderBlob(160, 160, 80, 80, 5.0, -100));
+  EXPECT_EQ(small.laplacian_sign, 1);
+  EXPECT_NEAR(large.scale / small.scale, 2.0, 0.1);
+}
+
+TEST(SurfTest, AngleFollowsAQuarterTurn) {
+  cv::Mat grey = RenderBlob(100, 100, 50, 50, 3, 100);
+  const cv::Mat side = RenderBlob(100, 100, 60, 52, 3, 60);
+  grey += side - 128;
+  cv::Mat turned;
+  cv::rotate(grey, turned, cv::ROTATE_90_CLOCKWISE);  // +x becomes +y
+  const Keypoint before = FindBlob(grey), after = FindBlob(turned);
+  EXPECT_NEAR(after.x, 99 - before.y, 0.01);
+  EXPECT_NEAR(after.y, before.x, 0.01);
+  EXPECT_NEAR(std::remainder(after.angle - before.angle - kPi / 2, 2 * kPi), 0, 0.03);
+}
+
+TEST(SurfTest, DescriptorsHaveUnitLength) {
+  const Features features = Surf({}).Extract(RenderBlob(80, 90, 44, 41, 2.5, 100));
+  ASSERT_GT(features.size(), 0);
+  ASSERT_EQ(features.descriptors.size(), cv::Size(64, features.size()));
+  for (int i = 0; i < features.size(); ++i) {
+    EXPECT_NEAR(cv::norm(features.descriptors.row(i)), 1, 1e-5);
+  }
+}
+
+TEST(SurfTest, FindsNothingInFlatAndTinyImages) {
+  for (const cv::Size size :
+       {cv::Size(1, 1), cv::Size(3, 50), cv::Size(15, 15), cv::Size(64, 64)}) {
+    const Features features = Surf({}).Extract(cv::Mat(size, CV_8UC1, cv::Scalar(90)));
+    EXPECT_EQ(features.size(), 0);
+    EXPECT_EQ(features.descriptors.rows, 0);
+  }
+}
+
+TEST(SurfTest, RefusesAnythingButGrey) {
+  EXPECT_THROW(Surf({}).Extract(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(Surf({}).Extract(cv::Mat(50, 50, CV_8UC3)), std::invalid_argument);
+}
+
+TEST(SurfTest, RefusesWrongOptionsByName) {
+  SurfOptions options;
+  options.detector.layers = 2;
+  try {
+    Surf surf(options);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("detector.layers"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,44 @@
+#include "arfm_vo/geometry/kitti_poses.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "arfm_vo/base/whole_file.h"
+
+namespace arfm_vo {
+namespace {
+
+class KittiPosesTest : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::string ErrorOf(const std::string& text) {
+    WriteWholeFile(path_, text);
+    try {
+      ReadKittiPoses(path_);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "no error";
+  }
+  const std::string path_ =
+      (std::filesystem::temp_directory_path() / "arfm_vo_kitti_poses_test.txt").string();
+};
+
+TEST_F(KittiPosesTest, ReadsTheRowsOfRotationAndTranslation) {
+  WriteWholeFile(path_, "1 0 0 7 0 1 0 8 0 0 1 9\n0 -1 0 1 1 0 0 2 0 0 1 3\n");
+  const auto poses = ReadKittiPoses(path_);
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].translation, Eigen::Vector3d(7, 8, 9));
+  EXPECT_LT((poses[1] * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
+}
+
+TEST_F(KittiPosesTest, NamesTheLineThatIsNoPose) {
+  EXPECT_EQ(ErrorOf("1 0 0 7 0 1 0 8 0 0 1 9\n1 0 0 7 0 1.01 0 8 0 0 1 9\n"),
+            ":2: the 3x3 part is not a rotation");
+  EXPECT_EQ(ErrorOf("1 0 0 7 0 1 0 8 0 0 -1 9\n"), ":1: the 3x3 part is not a rotation");
+  EXPECT_EQ(ErrorOf("1 0 0 nan 0 1 0 8 0 0 1 9\n"), ":1: 'nan' is not finite");
+}
+
+}  // namespace
+}  // namespace arfm_vo

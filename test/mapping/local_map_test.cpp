@@ -1,0 +1,161 @@
+#include "arfm_vo/mapping/local_map.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{700, 700, 320, 240, 0.5, 640, 480};
+const cv::Mat kImage(480, 640, CV_8UC1, cv::Scalar(0));
+
+/// A frame whose keypoint i has response i and lies at the given (u, v, disparity).
+StereoFrame MakeFrame(const std::vector<Eigen::Vector3d>& points) {
+  StereoFrame frame;
+  frame.features.descriptors =
+      cv::Mat(static_cast<int>(points.size()), 64, CV_32F, cv::Scalar(0.125));
+  for (size_t i = 0; i < points.size(); ++i) {
+    Keypoint keypoint;
+    keypoint.x = static_cast<float>(points[i].x());
+    keypoint.y = static_cast<float>(points[i].y());
+    keypoint.scale = 2;
+    keypoint.response = static_cast<float>(i);
+    frame.features.keypoints.push_back(keypoint);
+    StereoPoint point;
+    point.keypoint = static_cast<int>(i);
+    point.observation << points[i].x(), points[i].y(), points[i].x() - points[i].z();
+    point.sigma_px = 0.5;
+    point.x_in_camera = kCamera.Triangulate(points[i].x(), points[i].y(), points[i].z());
+    frame.points.push_back(point);
+  }
+  return frame;
+}
+
+LocalMapOptions SmallMap() {
+  LocalMapOptions options;
+  options.max_keyframes = 2;
+  options.max_missed_frames = 2;
+  return options;
+}
+
+TEST(LocalMap, PutsNewLandmarksWhereTheStereoPointsAre) {
+  LocalMap map(kCamera, SmallMap());
+  const Rigid3 camera_from_world(ExpSO3({0, 0.1, 0}), Eigen::Vector3d(1, 2, 3));
+  const auto frame = MakeFrame({{320, 240, 35}, {100, 100, 7}});
+  const Keyframe& keyframe = map.AddKeyframe(frame, kImage, camera_from_world, {});
+  ASSERT_EQ(map.landmarks().size(), 2u);
+  ASSERT_EQ(keyframe.observations.size(), 2u);
+  for (const LandmarkObservation& observation : keyframe.observations) {
+    const Landmark& landmark = map.landmarks().at(observation.landmark);
+    const Eigen::Vector3d seen = kCamera.ProjectStereo(camera_from_world * landmark.x_in_world);
+    EXPECT_LT((seen - observation.pixels.head<3>()).norm(), 1e-9);
+  }
+}
+
+TEST(LocalMap, KeepsNewLandmarksApartFromKnownOnes) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{320, 240, 35}}), kImage, Rigid3(), {});
+  const LandmarkObservations tracked = map.keyframes().back().observations;
+  map.AddKeyframe(MakeFrame({{322, 240, 35}, {350, 240, 35}}), kImage, Rigid3(), tracked);
+  EXPECT_EQ(map.landmarks().size(), 2u);  // 2 px beside the known one nothing is added
+  EXPECT_EQ(map.landmarks().begin()->second.num_keyframes, 2);
+}
+
+TEST(LocalMap, SpreadsNewLandmarksOverThePicture) {
+  LocalMapOptions options = SmallMap();
+  options.max_landmarks_in_view = 10;
+  std::vector<Eigen::Vector3d> points = {{600, 400, 10}};  // weak but alone in its cell
+  for (int i = 0; i < 40; ++i) points.push_back({10.0 + 7 * (i % 5), 10.0 + 7 * (i / 5), 10});
+  LocalMap map(kCamera, options);
+  const Keyframe& keyframe = map.AddKeyframe(MakeFrame(points), kImage, Rigid3(), {});
+  ASSERT_EQ(keyframe.observations.size(), 10u);
+  bool has_lonely = false;
+  for (const auto& observation : keyframe.observations) {
+    has_lonely |= observation.pixels.x() == 600;
+  }
+  EXPECT_TRUE(has_lonely);
+}
+
+TEST(LocalMap, ForgetsWhatOnlyOldKeyframesSaw) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{100, 100, 20}, {320, 240, 35}}), kImage, Rigid3(), {});
+  LandmarkObservations second = {map.keyframes().back().observations[1]};
+  const LandmarkId kept = second[0].landmark;
+  second[0].pixels.x() += 1;
+  map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), second);
+  map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), second);
+  ASSERT_EQ(map.keyframes().size(), 2u);
+  ASSERT_EQ(map.landmarks().size(), 1u);
+  const Landmark& landmark = map.landmarks().at(kept);
+  EXPECT_EQ(landmark.num_keyframes, 2);
+  EXPECT_EQ(landmark.reference, map.keyframes().front().id);  // its first keyframe is gone
+  EXPECT_EQ(landmark.keypoint.x, second[0].pixels.x());
+}
+
+TEST(LocalMap, LooksNoMoreForLandmarksMissedInARow) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{320, 240, 35}}), kImage, Rigid3(), {});
+  const LandmarkObservations seen = map.keyframes().back().observations;
+  const std::vector<LandmarkId> expected = {seen[0].landmark};
+  map.CountSightings(expected, {});
+  map.CountSightings(expected, seen);
+  map.CountSightings(expected, {});
+  EXPECT_EQ(map.LandmarksInView(Rigid3(), 0).size(), 1u);
+  map.CountSightings(expected, {});
+  EXPECT_TRUE(map.LandmarksInView(Rigid3(), 0).empty());
+}
+
+TEST(LocalMap, SeesOnlyWhatIsInFrontAndInsideThePicture) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{320, 240, 35}}), kImage, Rigid3(), {});
+  EXPECT_EQ(map.LandmarksInView(Rigid3(), 0).size(), 1u);
+  const Rigid3 turned_round(ExpSO3({0, M_PI, 0}), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(map.LandmarksInView(turned_round, 0).empty());
+  const Rigid3 turned_aside(ExpSO3({0, M_PI / 3, 0}), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(map.LandmarksInView(turned_aside, 0).empty());
+}
+
+TEST(LocalMap, TransformKeepsWhatTheKeyframesSee) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{320, 240, 35}, {10, 20, 5}}), kImage, Rigid3(), {});
+  map.Transform(Rigid3(ExpSO3({0.3, 0.2, 0.1}), Eigen::Vector3d(5, 6, 7)));
+  for (const auto& observation : map.keyframes().back().observations) {
+    const Eigen::Vector3d x = map.keyframes().back().camera_from_world *
+                              map.landmarks().at(observation.landmark).x_in_world;
+    EXPECT_LT((kCamera.ProjectStereo(x) - observation.pixels.head<3>()).norm(), 1e-9);
+  }
+}
+
+TEST(LocalMap, RemovingTheLastObservationRemovesTheLandmark) {
+  LocalMap map(kCamera, SmallMap());
+  map.AddKeyframe(MakeFrame({{320, 240, 35}}), kImage, Rigid3(), {});
+  map.RemoveObservation(map.keyframes().back().id, map.landmarks().begin()->first);
+  EXPECT_TRUE(map.landmarks().empty());
+  EXPECT_TRUE(map.keyframes().back().observations.empty());
+}
+
+TEST(TriangulationCovariance, AgreesWithNumericPropagation) {
+  const Eigen::Vector3d pixels(400, 300, 380);
+  const Eigen::Vector3d x = kCamera.Triangulate(pixels.x(), pixels.y(), pixels.x() - pixels.z());
+  Eigen::Matrix3d jacobian;
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Vector3d moved = pixels;
+    moved[i] += 1e-6;
+    jacobian.col(i) = (kCamera.Triangulate(moved.x(), moved.y(), moved.x() - moved.z()) - x) / 1e-6;
+  }
+  const Eigen::Matrix3d expected = 0.25 * jacobian * jacobian.transpose();
+  EXPECT_LT((TriangulationCovariance(kCamera, x, 0.5) - expected).norm(), 1e-4 * expected.norm());
+}
+
+TEST(LocalMapOptions, CheckNamesTheKey) {
+  LocalMapOptions options;
+  options.max_keyframes = 1;
+  try {
+    options.Check();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("max_keyframes"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,136 @@
+#include "arfm_vo/matching/exact_matcher.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "matching/random_features.h"
+
+namespace arfm_vo {
+namespace {
+
+/// The definition, in double.
+std::vector<Neighbours> FindOneByOne(const Features& from, const Features& to, bool use_sign) {
+  std::vector<Neighbours> all(from.size());
+  for (int i = 0; i < from.size(); ++i) {
+    for (int j = 0; j < to.size(); ++j) {
+      if (use_sign && from.keypoints[i].laplacian_sign != to.keypoints[j].laplacian_sign) continue;
+      double sum = 0;
+      for (int k = 0; k < 64; ++k) {
+        const double difference =
+            double(from.descriptors.at<float>(i, k)) - to.descriptors.at<float>(j, k);
+        sum += difference * difference;
+      }
+      all[i].Add(j, static_cast<float>(sum));
+    }
+  }
+  return all;
+}
+
+void ExpectSame(const std::vector<Neighbours>& found, const std::vector<Neighbours>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].nearest, expected[i].nearest) << i;
+    if (expected[i].nearest < 0) continue;
+    EXPECT_NEAR(found[i].squared_distance, expected[i].squared_distance, 2e-6) << i;
+    if (expected[i].second_squared_distance == Neighbours::kNone) {
+      EXPECT_EQ(found[i].second_squared_distance, Neighbours::kNone) << i;
+    } else {
+      EXPECT_NEAR(found[i].second_squared_distance, expected[i].second_squared_distance, 2e-6) << i;
+    }
+  }
+}
+
+/// Unit descriptors along single axes, so that distances are known by hand.
+Features AxisFeatures(const std::vector<int>& axes) {
+  Features features;
+  features.keypoints.resize(axes.size());
+  features.descriptors = cv::Mat::zeros(static_cast<int>(axes.size()), 64, CV_32FC1);
+  for (size_t i = 0; i < axes.size(); ++i) {
+    features.descriptors.at<float>(static_cast<int>(i), axes[i]) = 1;
+  }
+  return features;
+}
+
+TEST(ExactMatcher, FindsEqualDescriptorsAndTheirDistances) {
+  const auto found = FindNeighboursExactly(AxisFeatures({3, 63}), AxisFeatures({63, 7, 3}));
+  ASSERT_EQ(found.of_first.size(), 2u);
+  EXPECT_EQ(found.of_first[0].nearest, 2);
+  EXPECT_EQ(found.of_first[1].nearest, 0);
+  EXPECT_FLOAT_EQ(found.of_first[0].squared_distance, 0);
+  EXPECT_FLOAT_EQ(found.of_first[0].second_squared_distance, 2);
+  ASSERT_EQ(found.of_second.size(), 3u);
+  EXPECT_EQ(found.of_second[0].nearest, 1);
+  EXPECT_EQ(found.of_second[2].nearest, 0);
+  EXPECT_FLOAT_EQ(found.of_second[1].squared_distance, 2);
+}
+
+TEST(ExactMatcher, OfEqualCandidatesTheFirstWinsAndTheRatioIsOne) {
+  const Features many = AxisFeatures(std::vector<int>(40, 5));
+  const auto found = FindNeighboursExactly(AxisFeatures({5}), many);
+  EXPECT_EQ(found.of_first[0].nearest, 0);
+  EXPECT_FLOAT_EQ(found.of_first[0].Ratio(), 1);
+}
+
+class ExactMatcherSizes : public testing::TestWithParam<std::tuple<int, int, bool, bool>> {};
+
+TEST_P(ExactMatcherSizes, AgreesWithTheDefinitionBothWays) {
+  const auto [num_first, num_second, use_sign, use_simd] = GetParam();
+  const Features first = RandomFeatures(num_first, 1);
+  const Features second = RandomFeatures(num_second, 2);
+  const auto found = FindNeighboursExactly(first, second, {use_sign, use_simd});
+  ExpectSame(found.of_first, FindOneByOne(first, second, use_sign));
+  ExpectSame(found.of_second, FindOneByOne(second, first, use_sign));
+}
+
+INSTANTIATE_TEST_SUITE_P(AroundTileBorders, ExactMatcherSizes,
+                         testing::Combine(testing::Values(1, 2, 6, 7, 97),
+                                          testing::Values(1, 15, 16, 17, 130), testing::Bool(),
+                                          testing::Bool()));
+
+TEST(ExactMatcher, FindsAllOfNoisyCopies) {
+  const Features first = RandomFeatures(500, 3);
+  const Features second = ReversedWithNoise(first, 0.1, 4);
+  const auto found = FindNeighboursExactly(first, second);
+  for (int i = 0; i < first.size(); ++i) EXPECT_EQ(found.of_first[i].nearest, 499 - i);
+}
+
+TEST(ExactMatcher, TheLaplacianSignSplitsCandidates) {
+  Features first = AxisFeatures({1, 2}), second = AxisFeatures({1, 2});
+  second.keypoints[0].laplacian_sign = -1;
+  const auto found = FindNeighboursExactly(first, second);
+  EXPECT_EQ(found.of_first[0].nearest, 1);
+  EXPECT_EQ(found.of_second[0].nearest, -1);
+}
+
+TEST(ExactMatcher, EmptyInputFindsNothing) {
+  const Features none, some = AxisFeatures({1, 2});
+  const auto found = FindNeighboursExactly(none, some);
+  EXPECT_TRUE(found.of_first.empty());
+  ASSERT_EQ(found.of_second.size(), 2u);
+  EXPECT_EQ(found.of_second[0].nearest, -1);
+  EXPECT_TRUE(FindNeighboursExactly(some, none).of_second.empty());
+}
+
+TEST(ExactMatcher, DescriptorsThatAreNotFiniteAreNobodysNeighbours) {
+  Features first = AxisFeatures({1, 2, 3}), second = AxisFeatures({1, 2, 3});
+  first.descriptors.at<float>(1, 0) = std::numeric_limits<float>::quiet_NaN();
+  second.descriptors.at<float>(2, 9) = std::numeric_limits<float>::infinity();
+  const auto found = FindNeighboursExactly(first, second);
+  EXPECT_EQ(found.of_first[1].nearest, -1);
+  EXPECT_EQ(found.of_second[2].nearest, -1);
+  EXPECT_EQ(found.of_first[0].nearest, 0);
+  EXPECT_NE(found.of_first[2].nearest, 2);
+}
+
+TEST(ExactMatcher, WrongDescriptorShapeThrows) {
+  Features wrong = AxisFeatures({1, 2});
+  wrong.descriptors = wrong.descriptors.colRange(0, 32);
+  EXPECT_THROW(FindNeighboursExactly(wrong, AxisFeatures({1})), std::invalid_argument);
+  wrong = AxisFeatures({1, 2});
+  wrong.keypoints.pop_back();
+  EXPECT_THROW(FindNeighboursExactly(AxisFeatures({1}), wrong), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,161 @@
+#include "arfm_vo/pose/pose_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "pose/pose_scene.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Gives the first `count` observations pixels that have nothing to do with their points.
+void SpoilPixels(int count, RandomEngine& engine, std::vector<PointObservation>& observations) {
+  for (int i = 0; i < count; ++i) {
+    observations[i].pixels = kSceneCamera.ProjectStereo(RandomVisiblePoint(engine, 4, 40));
+  }
+}
+
+TEST(PoseEstimator, IsExactWithoutNoiseOrPrediction) {
+  RandomEngine engine(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    const auto observations = MakeObservations(truth, 40, 0, engine);
+    const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, std::nullopt, {});
+    ASSERT_TRUE(estimate.IsTracked());
+    EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 1e-6);
+    EXPECT_EQ(estimate.num_inliers, 40);
+  }
+}
+
+TEST(PoseEstimator, StandsSixtyPercentOutliers) {
+  RandomEngine engine(2);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    auto observations = MakeObservations(truth, 300, 0.5, engine);
+    SpoilPixels(180, engine, observations);
+    std::vector<char> is_inlier;
+    const PoseEstimate estimate =
+        EstimatePose(kSceneCamera, observations, std::nullopt, {}, &is_inlier);
+    ASSERT_TRUE(estimate.IsTracked());
+    EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
+    EXPECT_GE(estimate.num_inliers, 110);
+    EXPECT_LE(estimate.num_inliers, 124);
+    ASSERT_EQ(is_inlier.size(), 300u);
+    EXPECT_EQ(std::count(is_inlier.begin(), is_inlier.end(), 1), estimate.num_inliers);
+  }
+}
+
+TEST(PoseEstimator, DoesNotBelieveAWrongPrediction) {
+  RandomEngine engine(3);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  const auto observations = MakeObservations(truth, 100, 0.5, engine);
+  Rigid3 wrong = truth;
+  wrong.translation += Eigen::Vector3d(1, 0, 2);
+  const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, wrong, {});
+  ASSERT_TRUE(estimate.IsTracked());
+  EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
+}
+
+TEST(PoseEstimator, PassesOverAPredictionThatIsNotFinite) {
+  RandomEngine engine(4);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  const auto observations = MakeObservations(truth, 100, 0.5, engine);
+  Rigid3 nowhere;
+  nowhere.translation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(EstimatePose(kSceneCamera, observations, nowhere, {}).IsTracked());
+}
+
+TEST(PoseEstimator, AGoodPredictionFindsWhatSamplesCannot) {
+  RandomEngine engine(5);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  auto observations = MakeObservations(truth, 400, 0.5, engine);
+  SpoilPixels(340, engine, observations);
+  PoseEstimatorOptions options;
+  options.ransac.max_iterations = 20;
+  options.min_inlier_share = 0.1;
+  EXPECT_FALSE(EstimatePose(kSceneCamera, observations, std::nullopt, options).IsTracked());
+  EXPECT_TRUE(EstimatePose(kSceneCamera, observations, truth, options).IsTracked());
+}
+
+TEST(PoseEstimator, KeepsPointsOfWideSpreadThatMovedAsTheirCovarianceSays) {
+  RandomEngine engine(6);
+  auto observations = MakeObservations({}, 100, 0.5, engine);
+  for (int i = 0; i < 50; ++i) {  // 10 % of depth along the ray of an eye 3 m to the left
+    const Eigen::Vector3d ray = observations[i].x_in_world + Eigen::Vector3d(3, 0, 0);
+    observations[i].x_covariance = 0.01 * ray * ray.transpose();
+    observations[i].x_in_world += 0.1 * RandomNormal(engine) * ray;
+  }
+  const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, std::nullopt, {});
+  ASSERT_TRUE(estimate.IsTracked());
+  EXPECT_GE(estimate.num_inliers, 95);
+}
+
+TEST(PoseEstimator, SameInputGivesTheSameBytes) {
+  RandomEngine engine(7);
+  auto observations = MakeObservations(RandomPose(engine, 1, 5), 200, 0.5, engine);
+  SpoilPixels(80, engine, observations);
+  const PoseEstimate first = EstimatePose(kSceneCamera, observations, std::nullopt, {});
+  const PoseEstimate second = EstimatePose(kSceneCamera, observations, std::nullopt, {});
+  EXPECT_EQ(first.camera_from_world.Matrix(), second.camera_from_world.Matrix());
+  EXPECT_EQ(first.covariance, second.covariance);
+}
+
+TEST(PoseEstimator, SaysTooFewMatches) {
+  RandomEngine engine(8);
+  std::vector<char> is_inlier;
+  const auto observations = MakeObservations({}, 14, 0, engine);
+  const PoseEstimate estimate =
+      EstimatePose(kSceneCamera, observations, std::nullopt, {}, &is_inlier);
+  EXPECT_EQ(estimate.status, PoseStatus::kTooFewMatches);
+  EXPECT_EQ(estimate.num_matches, 14);
+  EXPECT_EQ(is_inlier, std::vector<char>(14, 0));
+  EXPECT_EQ(EstimatePose(kSceneCamera, {}, std::nullopt, {}).status, PoseStatus::kTooFewMatches);
+}
+
+TEST(PoseEstimator, SaysNoConsensusForRandomPixels) {
+  RandomEngine engine(9);
+  auto observations = MakeObservations({}, 100, 0, engine);
+  SpoilPixels(100, engine, observations);
+  EXPECT_EQ(EstimatePose(kSceneCamera, observations, Rigid3(), {}).status,
+            PoseStatus::kNoConsensus);
+}
+
+TEST(PoseEstimator, SaysNoConsensusForOnePointManyTimes) {
+  RandomEngine engine(10);
+  const std::vector<PointObservation> observations(50, MakeObservations({}, 1, 0, engine)[0]);
+  EXPECT_EQ(EstimatePose(kSceneCamera, observations, std::nullopt, {}).status,
+            PoseStatus::kNoConsensus);
+}
+
+TEST(PoseEstimator, RefusesObservationsThatAreNotFinite) {
+  RandomEngine engine(11);
+  auto observations = MakeObservations({}, 50, 0, engine);
+  observations[7].pixels.y() = std::numeric_limits<double>::quiet_NaN();
+  try {
+    EstimatePose(kSceneCamera, observations, std::nullopt, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("observation 7"), std::string::npos);
+  }
+}
+
+TEST(PoseEstimator, OptionsNameTheBadKey) {
+  PoseEstimatorOptions options;
+  options.sample_size = 3;
+  try {
+    options.Check();
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("sample_size"), std::string::npos);
+  }
+}
+
+TEST(PoseStatus, HasNamesForPeople) {
+  EXPECT_STREQ(ToString(PoseStatus::kTooFewMatches), "too few matches");
+  EXPECT_STREQ(ToString(PoseStatus::kNoConsensus), "no consensus");
+}
+
+}  // namespace
+}  // namespace arfm_vo
