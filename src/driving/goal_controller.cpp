@@ -55,35 +55,35 @@ GoalController::GoalController(const GoalControllerOptions& options, Route route
   Require(!route_.empty(), "a route needs at least one waypoint");
 }
 
-double GoalController::DistanceToWaypoint(const PlanarPose& pose) const {
+double GoalController::DistanceToWaypoint(const RoverPose& pose) const {
   return std::hypot(route_[next_].x_m - pose.x_m, route_[next_].y_m - pose.y_m);
 }
 
-double GoalController::BearingError(const PlanarPose& pose) const {
+double GoalController::BearingError(const RoverPose& pose) const {
   const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
   return WrapAngle(bearing_rad - pose.heading_rad + (is_backward_ ? M_PI : 0));
 }
 
-double GoalController::RemainingDistance(const PlanarPose& pose) const {
+double GoalController::RemainingDistance(const RoverPose& pose) const {
   double distance_m = DistanceToWaypoint(pose);
   for (size_t i = next_ + 1; i < route_.size(); ++i)
     distance_m += std::hypot(route_[i].x_m - route_[i - 1].x_m, route_[i].y_m - route_[i - 1].y_m);
   return distance_m;
 }
 
-double GoalController::GoalHeadingError(const PlanarPose& pose) const {
+double GoalController::GoalHeadingError(const RoverPose& pose) const {
   const auto& heading_rad = route_.back().heading_rad;
   return heading_rad ? WrapAngle(*heading_rad - pose.heading_rad) : 0;
 }
 
-double GoalController::Cost(const PlanarPose& pose) const {
+double GoalController::Cost(const RoverPose& pose) const {
   const double turn_rad = phase_ == DrivePhase::kTurnToHeading    ? GoalHeadingError(pose)
                           : phase_ == DrivePhase::kTurnToWaypoint ? BearingError(pose)
                                                                   : 0;
   return RemainingDistance(pose) + kCostPerRadian_m * std::abs(turn_rad);
 }
 
-bool GoalController::IsBetterBackward(const PlanarPose& pose) const {
+bool GoalController::IsBetterBackward(const RoverPose& pose) const {
   if (DistanceToWaypoint(pose) > options_.max_backward_m) return false;
   const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
   const auto total_turn = [&](double direction_rad) {
@@ -95,12 +95,12 @@ bool GoalController::IsBetterBackward(const PlanarPose& pose) const {
   return total_turn(bearing_rad + M_PI) < total_turn(bearing_rad);
 }
 
-void GoalController::BeginLeg(const PlanarPose& pose) {
+void GoalController::BeginLeg(const RoverPose& pose) {
   phase_ = DrivePhase::kTurnToWaypoint;
   is_backward_ = IsBetterBackward(pose);
 }
 
-void GoalController::FollowLeg(const PlanarPose& pose) {
+void GoalController::FollowLeg(const RoverPose& pose) {
   while (!IsLast() && DistanceToWaypoint(pose) <= options_.waypoint_tolerance_m) {
     ++next_;
     BeginLeg(pose);
@@ -114,7 +114,7 @@ void GoalController::FollowLeg(const PlanarPose& pose) {
   }
 }
 
-void GoalController::JudgeRest(const PlanarPose& pose) {
+void GoalController::JudgeRest(const RoverPose& pose) {
   if (DistanceToWaypoint(pose) > kSettledSlack * options_.position_tolerance_m) {
     BeginLeg(pose);
   } else if (std::abs(GoalHeadingError(pose)) > kSettledSlack * options_.heading_tolerance_rad) {
@@ -124,7 +124,7 @@ void GoalController::JudgeRest(const PlanarPose& pose) {
   }
 }
 
-void GoalController::Advance(const PlanarPose& pose, bool is_at_rest) {
+void GoalController::Advance(const RoverPose& pose, bool is_at_rest) {
   if (!is_leg_begun_) BeginLeg(pose);
   is_leg_begun_ = true;
   if (phase_ == DrivePhase::kSettle && is_at_rest) JudgeRest(pose);
@@ -141,7 +141,7 @@ double GoalController::TurnRate(double error_rad) const {
   return std::copysign(rate_radps, error_rad);
 }
 
-PlanarMotion GoalController::DriveMotion(const PlanarPose& pose) const {
+PlanarMotion GoalController::DriveMotion(const RoverPose& pose) const {
   const double error_rad = BearingError(pose);
   double speed_mps = options_.cruise_speed_mps * std::max(0.0, std::cos(2 * error_rad));
   if (IsLast())
@@ -153,7 +153,7 @@ PlanarMotion GoalController::DriveMotion(const PlanarPose& pose) const {
   return {is_backward_ ? -speed_mps : speed_mps, turn_radps};
 }
 
-PlanarMotion GoalController::Update(const PlanarPose& pose, bool is_at_rest) {
+PlanarMotion GoalController::Update(const RoverPose& pose, bool is_at_rest) {
   Advance(pose, is_at_rest);
   switch (phase_) {
     case DrivePhase::kTurnToWaypoint:

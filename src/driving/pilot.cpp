@@ -168,9 +168,9 @@ void Pilot::UpdateState(double now_s) {
   reason_ = StopReason::kNone;
 }
 
-PlanarPose Pilot::PredictPose(double now_s) const {
+RoverPose Pilot::PredictPose(double now_s) const {
   const PoseObservation& seen = *pose_.Pose();
-  const PlanarPose pose = ProjectToPlane(seen.map_from_base);
+  const RoverPose pose = ProjectToPlane(seen.map_from_base);
   const auto then = tracks_.At(seen.taken_s), now = tracks_.At(now_s);
   if (!then || !now) return pose;
   const PlanarMotion way =

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "arfm_vo/driving/planar_pose.h"
+#include "arfm_vo/driving/rover_pose.h"
 
 namespace arfm_vo {
 namespace {
@@ -25,7 +25,7 @@ std::string FindGoalFlaw(const Rigid3& map_from_goal) {
 }
 
 Waypoint ToWaypoint(const Rigid3& map_from_goal) {
-  const PlanarPose pose = ProjectToPlane(map_from_goal);
+  const RoverPose pose = ProjectToPlane(map_from_goal);
   return {pose.x_m, pose.y_m, pose.heading_rad};
 }
 

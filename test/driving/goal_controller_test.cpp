@@ -14,7 +14,7 @@ constexpr double kTick_s = 0.02;
 
 /// A base that moves as it is told, times a gain, behind the limiter.
 struct IdealDrive {
-  PlanarPose pose;
+  RoverPose pose;
   double forward_gain = 1, turn_gain = 1;
   double time_s = 0, rest_s = 0;
   double min_forward_mps = 0, max_forward_mps = 0;
@@ -35,7 +35,7 @@ struct IdealDrive {
   }
 };
 
-void ExpectAt(const PlanarPose& pose, const Waypoint& goal) {
+void ExpectAt(const RoverPose& pose, const Waypoint& goal) {
   EXPECT_LT(std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m), 0.045);
   if (goal.heading_rad) {
     EXPECT_LT(std::abs(WrapAngle(pose.heading_rad - *goal.heading_rad)), 0.045);

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "arfm_vo/driving/planar_pose.h"
+#include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/driving/speed_limiter.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
@@ -12,24 +12,24 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-TEST(PlanarPose, WrapsAnglesToTheHalfOpenCircle) {
+TEST(RoverPose, WrapsAnglesToTheHalfOpenCircle) {
   EXPECT_DOUBLE_EQ(WrapAngle(M_PI), M_PI);
   EXPECT_DOUBLE_EQ(WrapAngle(-M_PI), M_PI);
   EXPECT_NEAR(WrapAngle(3 * M_PI / 2), -M_PI / 2, 1e-12);
   EXPECT_NEAR(WrapAngle(-5 * M_PI), M_PI, 1e-12);
 }
 
-TEST(PlanarPose, HeadingIsThatOfTheXAxisSeenFromAbove) {
+TEST(RoverPose, HeadingIsThatOfTheXAxisSeenFromAbove) {
   const Eigen::Quaterniond yaw(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
   const Eigen::Quaterniond pitch(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
-  const PlanarPose pose = ProjectToPlane(Rigid3(yaw * pitch, Eigen::Vector3d(1, 2, 3)));
+  const RoverPose pose = ProjectToPlane(Rigid3(yaw * pitch, Eigen::Vector3d(1, 2, 3)));
   EXPECT_NEAR(pose.heading_rad, 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(pose.x_m, 1);
   EXPECT_DOUBLE_EQ(pose.y_m, 2);
 }
 
-TEST(PlanarPose, AQuarterOfACircleEndsBesideItsCentre) {
-  const PlanarPose end = Advance({0, 0, 0}, M_PI / 2, M_PI / 2);  // radius 1, to the left
+TEST(RoverPose, AQuarterOfACircleEndsBesideItsCentre) {
+  const RoverPose end = Advance({0, 0, 0}, M_PI / 2, M_PI / 2);  // radius 1, to the left
   EXPECT_NEAR(end.x_m, 1, 1e-12);
   EXPECT_NEAR(end.y_m, 1, 1e-12);
   EXPECT_NEAR(end.heading_rad, M_PI / 2, 1e-12);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "arfm_vo/driving/planar_motion.h"
-#include "arfm_vo/driving/planar_pose.h"
 #include "arfm_vo/driving/route.h"
+#include "arfm_vo/driving/rover_pose.h"
 
 namespace arfm_vo {
 
@@ -59,7 +59,7 @@ class GoalController {
 
   /// The motion wanted at `pose`; `is_at_rest` says that the rover has settled and that `pose` was
   /// seen since.
-  PlanarMotion Update(const PlanarPose& pose, bool is_at_rest);
+  PlanarMotion Update(const RoverPose& pose, bool is_at_rest);
 
   DrivePhase Phase() const { return phase_; }
   bool HasArrived() const { return phase_ == DrivePhase::kArrived; }
@@ -67,24 +67,24 @@ class GoalController {
   const Route& Waypoints() const { return route_; }
 
   /// The way to go over all waypoints, m, straight from each to the next.
-  double RemainingDistance(const PlanarPose& pose) const;
+  double RemainingDistance(const RoverPose& pose) const;
   /// The turn from `pose` to the goal's heading, rad; 0 where the goal has none.
-  double GoalHeadingError(const PlanarPose& pose) const;
+  double GoalHeadingError(const RoverPose& pose) const;
   /// Falls while the controller gets on within a phase: the way to go, and 0.3 m for each rad.
-  double Cost(const PlanarPose& pose) const;
+  double Cost(const RoverPose& pose) const;
 
  private:
   bool IsLast() const { return next_ + 1 == route_.size(); }
-  double DistanceToWaypoint(const PlanarPose& pose) const;
+  double DistanceToWaypoint(const RoverPose& pose) const;
   /// From the rover's driving direction (forward or backward) to the waypoint.
-  double BearingError(const PlanarPose& pose) const;
-  bool IsBetterBackward(const PlanarPose& pose) const;
-  void BeginLeg(const PlanarPose& pose);
-  void Advance(const PlanarPose& pose, bool is_at_rest);
-  void FollowLeg(const PlanarPose& pose);
-  void JudgeRest(const PlanarPose& pose);
+  double BearingError(const RoverPose& pose) const;
+  bool IsBetterBackward(const RoverPose& pose) const;
+  void BeginLeg(const RoverPose& pose);
+  void Advance(const RoverPose& pose, bool is_at_rest);
+  void FollowLeg(const RoverPose& pose);
+  void JudgeRest(const RoverPose& pose);
   double TurnRate(double error_rad) const;
-  PlanarMotion DriveMotion(const PlanarPose& pose) const;
+  PlanarMotion DriveMotion(const RoverPose& pose) const;
 
   GoalControllerOptions options_;
   Route route_;

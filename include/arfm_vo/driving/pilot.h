@@ -93,7 +93,7 @@ class Pilot {
   void EndRoute(GoalOutcome outcome, StopReason reason);
   void Report(GoalOutcome outcome, StopReason reason);
   bool IsVelocityFresh(double now_s) const;
-  PlanarPose PredictPose(double now_s) const;
+  RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
   PlanarMotion RouteMotion(double now_s);
   void NoteMotion(double now_s, double dt_s, const PlanarMotion& motion);
@@ -113,7 +113,7 @@ class Pilot {
   bool has_started_ = false;
   bool is_emergency_stop_ = false;
   std::optional<GoalController> route_;
-  std::optional<PlanarPose> predicted_;
+  std::optional<RoverPose> predicted_;
   PlanarMotion velocity_, motion_;
   double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
   double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;

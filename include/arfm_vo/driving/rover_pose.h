@@ -13,16 +13,16 @@ inline double WrapAngle(double angle_rad) {
 }
 
 /// Where the rover's base stands on the map's x-y plane.
-struct PlanarPose {
+struct RoverPose {
   double x_m = 0;
   double y_m = 0;
   double heading_rad = 0;  ///< of the base's x axis, from the map's x axis towards its y axis
 };
 
 /// The pose seen from above. The base's x axis must not stand on end.
-PlanarPose ProjectToPlane(const Rigid3& map_from_base);
+RoverPose ProjectToPlane(const Rigid3& map_from_base);
 
 /// The pose after `forward_m` along an arc that turns by `turn_rad`.
-PlanarPose Advance(const PlanarPose& pose, double forward_m, double turn_rad);
+RoverPose Advance(const RoverPose& pose, double forward_m, double turn_rad);
 
 }  // namespace arfm_vo
