@@ -37,14 +37,21 @@ class SimulatedDrive {
 
   double Now() const { return 0.001 * now_ms_; }
   Pilot& pilot() { return driver_->pilot(); }
+  const Pilot& pilot() const { return driver_->pilot(); }
   SimulatedChassis& chassis() { return *chassis_; }
   TrackedPlant& plant() { return chassis_->plant(); }
-  void KillDriver() { driver_.reset(); }
+  ChassisDriver& driver() { return *driver_; }
+  /// The driver ends as a program that is asked to.
+  void EndDriver() { driver_.reset(); }
 
   /// Of the last 0x111 on the bus.
   PlanarMotion Commanded() const { return commanded_; }
-  /// When the last 0x111 that was not zero was on the bus.
+  /// When the last 0x111 that was not zero was on the bus, and the first that was zero after it
+  /// (before it where there is none).
   double LastMovingCommandTime() const { return last_moving_s_; }
+  double FirstStopCommandTime() const { return first_stop_s_; }
+  double LastPoseTaken() const { return pose_taken_s_; }
+  double LastCovarianceTaken() const { return covariance_taken_s_; }
   double FastestCommand() const { return fastest_mps_; }
   double FastestTrack() const {
     return std::max(std::abs(chassis_->plant().Speeds().left_mps),
@@ -89,6 +96,8 @@ class SimulatedDrive {
 
   void Tell(const Sight& sight) {
     const double taken_s = sight.taken_s + stamp_offset_s_;
+    if (has_pose_) pose_taken_s_ = taken_s;
+    if (has_pose_ && has_covariance_) covariance_taken_s_ = taken_s;
     if (is_tf_missing_) pilot().ObserveNoPose();
     if (has_pose_ && !is_tf_missing_)
       pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(sight.world_from_base)});
@@ -104,6 +113,7 @@ class SimulatedDrive {
         commanded_ = motion->motion;
         fastest_mps_ = std::max(fastest_mps_, std::abs(commanded_.forward_mps));
         if (!commanded_.IsZero()) last_moving_s_ = Now();
+        if (commanded_.IsZero() && first_stop_s_ < last_moving_s_) first_stop_s_ = Now();
       }
     }
   }
@@ -114,7 +124,8 @@ class SimulatedDrive {
   std::deque<Sight> sights_;
   long now_ms_ = 100000, num_command_frames_ = 0;
   PlanarMotion commanded_;
-  double last_moving_s_ = -1, fastest_mps_ = 0;
+  double last_moving_s_ = -1, first_stop_s_ = -2, fastest_mps_ = 0;
+  double pose_taken_s_ = 0, covariance_taken_s_ = 0;
 };
 
 }  // namespace arfm_vo
