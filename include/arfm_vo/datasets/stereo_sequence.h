@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/rigid3.h"
@@ -42,6 +43,8 @@ class StereoSequence {
   virtual std::optional<SequencePair> Next() = 0;
   /// CPU time spent on loading so far, s.
   virtual double loading_cpu_s() const = 0;
+  /// Lines `key: value` that say what was found on the way.
+  virtual std::string FormatSummary() const { return ""; }
 };
 
 }  // namespace arfm_vo

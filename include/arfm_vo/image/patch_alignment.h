@@ -52,8 +52,7 @@ struct PatchAlignment {
 
 /// Finds a patch in another image to a fraction of a pixel: inverse compositional Lucas-Kanade
 /// (Baker and Matthews 2004) over translation, brightness and contrast; the latter two are
-/// eliminated beforehand. The image is interpolated bicubically: bilinear interpolation pulls
-/// positions towards whole pixels.
+/// eliminated beforehand.
 class PatchAligner {
  public:
   explicit PatchAligner(const PatchAlignmentOptions& options);

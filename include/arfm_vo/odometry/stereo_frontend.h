@@ -1,10 +1,28 @@
 #pragma once
 
+#include "arfm_vo/features/surf.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/reconstruction/stereo_reconstructor.h"
 
 namespace arfm_vo {
+
+struct FrontendOptions {
+  SurfOptions surf;
+  StereoReconstructionOptions stereo;
+
+  void Check() const {
+    surf.Check();
+    stereo.Check();
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("surf", surf);
+    visit("stereo", stereo);
+  }
+};
 
 /// ARFM: from a stereo pair to the left image's features and the points that both eyes see
 /// (floors image to reconstruction). What arfm_node runs. Both eyes are worked on in parallel.
@@ -12,8 +30,15 @@ class StereoFrontend {
  public:
   StereoFrontend(const StereoCamera& camera, const FrontendOptions& options);
 
-  /// Throws std::invalid_argument where the images do not fit the camera.
-  StereoFrame Process(const StereoImages& images);
+  /// Appends the time of its stages to `stage_ms`, if not null. Throws std::invalid_argument where
+  /// the images do not fit the camera.
+  StereoFrame Process(const StereoImages& images, StageTimes* stage_ms = nullptr);
+
+ private:
+  StereoCamera camera_;
+  FrontendOptions options_;
+  Surf left_surf_, right_surf_;
+  StereoReconstructor reconstructor_;
 };
 
 }  // namespace arfm_vo

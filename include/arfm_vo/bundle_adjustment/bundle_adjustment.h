@@ -1,0 +1,108 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arfm_vo/bundle_adjustment/bundle_problem.h"
+#include "arfm_vo/pose/robust_loss.h"
+
+namespace arfm_vo {
+
+enum class StepStrategy { kLevenbergMarquardt, kDogleg };
+
+inline std::vector<std::pair<std::string, StepStrategy>> ListNames(StepStrategy) {
+  return {{"levenberg_marquardt", StepStrategy::kLevenbergMarquardt},
+          {"dogleg", StepStrategy::kDogleg}};
+}
+
+/// How Ceres solves for a step. Automatic: dense for few poses, sparse for many.
+enum class LinearSolver { kAutomatic, kDenseSchur, kSparseSchur, kIterativeSchur };
+
+inline std::vector<std::pair<std::string, LinearSolver>> ListNames(LinearSolver) {
+  return {{"automatic", LinearSolver::kAutomatic},
+          {"dense_schur", LinearSolver::kDenseSchur},
+          {"sparse_schur", LinearSolver::kSparseSchur},
+          {"iterative_schur", LinearSolver::kIterativeSchur}};
+}
+
+struct BundleOptions {
+  StepStrategy strategy = StepStrategy::kLevenbergMarquardt;
+  LinearSolver linear_solver = LinearSolver::kAutomatic;
+  LossKind loss = LossKind::kHuber;
+  double loss_threshold_sigma = 2;  ///< of a residual of one coordinate
+  int max_iterations = 20;
+  double function_tolerance = 1e-5;  ///< stop where the cost falls by a smaller share
+  double max_time_s = 60;            ///< stop after the iteration that passes it
+  double inlier_probability = 0.99;  ///< of the chi-square test of an observation
+  int num_threads = 1;
+  bool with_point_covariance = false;
+  bool with_newest_pose_covariance = false;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("strategy", strategy);
+    visit("linear_solver", linear_solver);
+    visit("loss", loss);
+    visit("loss_threshold_sigma", loss_threshold_sigma);
+    visit("max_iterations", max_iterations);
+    visit("function_tolerance", function_tolerance);
+    visit("max_time_s", max_time_s);
+    visit("inlier_probability", inlier_probability);
+    visit("num_threads", num_threads);
+    visit("with_point_covariance", with_point_covariance);
+    visit("with_newest_pose_covariance", with_newest_pose_covariance);
+  }
+};
+
+/// How far an adjustment has come. Costs are sums of rho(|r|^2), about one a coordinate.
+struct BundleProgress {
+  int iteration = 0;
+  double cost = 0;
+  double time_s = 0;
+};
+/// Called after each iteration; false cancels, and the best state so far is the result.
+using BundleCallback = std::function<bool(const BundleProgress&)>;
+
+enum class BundleStatus {
+  kConverged,
+  kNotConverged,  ///< stopped by max_iterations or max_time_s; the result is better than the start
+  kCancelled,     ///< by the callback
+  kFailed,        ///< no usable step; the result is the start
+};
+
+struct BundleResult {
+  BundleStatus status = BundleStatus::kFailed;
+  std::vector<Rigid3> camera_from_world;
+  std::vector<Eigen::Vector3d> points;
+  StereoCorrection correction;
+
+  std::vector<char> is_inlier;      ///< [observations]; 0 also where its point was not used
+  std::vector<char> point_is_used;  ///< [points]; 0: seen too little to be placed, left as it was
+  double scale = 1;                 ///< measured size of the residuals in stated sigmas
+
+  /// Marginal covariance of the correction, rad^2; zero for axes that stay where they start.
+  Eigen::Matrix3d correction_covariance = Eigen::Matrix3d::Zero();
+  /// [points] m^2, given the poses; zero for points not used. Empty unless asked for.
+  std::vector<Eigen::Matrix3d> point_covariances;
+  /// Of the step of BoxPlus of the last free pose, (rad, m). Nothing unless asked for.
+  std::optional<Eigen::Matrix<double, 6, 6>> newest_pose_covariance;
+
+  int num_iterations = 0;
+  double initial_cost = 0, final_cost = 0;
+  double time_s = 0;
+};
+
+/// Moves the free poses, the points and the stereo correction rho to the least of
+///   sum_i rho(|r_i|^2) + sum_c e_c^T Omega_c e_c + sum_axes ((rho - mean) / sigma)^2
+/// with r the reprojection errors (ReprojectionTerm), e the errors of the constraints with
+/// information Omega. Points that cannot be placed (seen once and by the left eye alone) take no
+/// part. Repeatable to the last bit for a given num_threads.
+/// Throws std::invalid_argument for wrong options and by BundleProblem::Check.
+BundleResult AdjustBundle(BundleProblem problem, const BundleOptions& options,
+                          const BundleCallback& callback = {});
+
+}  // namespace arfm_vo

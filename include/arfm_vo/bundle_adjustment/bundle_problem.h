@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/geometry/stereo_correction.h"
+
+namespace arfm_vo {
+
+/// Where a pose saw a point.
+struct BundleObservation {
+  int pose = 0, point = 0;  ///< indices into the problem
+  Eigen::Vector4d pixels;   ///< (u_left, v_left, u_right, v_right), px, as measured
+  bool has_right = true;    ///< false: u_right, v_right are not read
+  double sigma_px = 1;      ///< standard deviation of each coordinate; positive
+
+  int NumCoordinates() const { return has_right ? 4 : 2; }
+};
+
+/// What is known of the motion between two poses without points, such as a closed loop:
+/// second_from_first = BoxPlus(measured, e) with e of zero mean and covariance `information`^-1.
+struct PoseConstraint {
+  int first = 0, second = 0;  ///< indices into the problem
+  Rigid3 second_from_first;
+  Eigen::Matrix<double, 6, 6> information;  ///< (rad, m)^-2; symmetric, positive semi-definite
+};
+
+/// Poses, points and what the poses saw, to be brought into agreement.
+struct BundleProblem {
+  StereoCamera camera;
+  std::vector<Rigid3> camera_from_world;
+  std::vector<char> pose_is_fixed;      ///< [poses]; at least one must be: the gauge
+  std::vector<Eigen::Vector3d> points;  ///< m, world frame
+  std::vector<BundleObservation> observations;
+  std::vector<PoseConstraint> constraints;
+
+  StereoCorrection correction;  ///< where to start
+  /// Prior of the correction: its mean and standard deviations, rad; sigma 0 = that axis stays
+  /// where it starts.
+  Eigen::Vector3d correction_mean_rad = Eigen::Vector3d::Zero();
+  Eigen::Vector3d correction_sigma_rad = Eigen::Vector3d::Zero();
+
+  /// Throws std::invalid_argument naming what is wrong: sizes that differ, an index out of range,
+  /// a value that is not finite, a sigma that is not positive, no observation or no fixed pose.
+  void Check() const;
+};
+
+}  // namespace arfm_vo

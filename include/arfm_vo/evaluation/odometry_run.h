@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/datasets/stereo_sequence.h"
+#include "arfm_vo/evaluation/process_usage.h"
+#include "arfm_vo/odometry/odometry_update.h"
+#include "arfm_vo/odometry/trajectory.h"
+
+namespace arfm_vo {
+
+/// What an odometry made of a recording, and what it took.
+struct OdometryRun {
+  Trajectory trajectory;  ///< as known in the end
+  Trajectory online;      ///< as known at once, before later corrections; lost frames interpolated
+  std::vector<std::optional<Rigid3>> truth;  ///< [pairs], world_from_camera
+  std::vector<double> pair_ms;               ///< [pairs], wall time without loading
+  std::vector<StageTimes> stage_ms;          ///< [pairs]
+  double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
+  double cpu_s = 0;  ///< all threads, from first pair to end, without loading
+
+  int CountLost() const;
+};
+
+/// Told after each pair: pairs done, pairs in all.
+using ReportProgress = std::function<void(int, int)>;
+
+/// Takes the whole of `sequence` through `odometry` (VisualOdometry or what has its Process and
+/// Finish).
+template <class Odometry>
+OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
+                        const ReportProgress& report_progress) {
+  using Clock = std::chrono::steady_clock;
+  const auto to_ms = [](Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+  };
+  OdometryRun run;
+  const double cpu_before_s = GetProcessCpuSeconds() - sequence.loading_cpu_s();
+  while (const std::optional<SequencePair> pair = sequence.Next()) {
+    const Clock::time_point start = Clock::now();
+    const auto update = odometry.Process(pair->images);
+    run.pair_ms.push_back(to_ms(Clock::now() - start));
+    run.stage_ms.push_back(update.stage_ms);
+    const bool is_tracked = update.pose.IsTracked();
+    run.online.push_back({pair->images.stamp_s,
+                          is_tracked ? update.pose.camera_from_world.Inverse() : Rigid3(),
+                          is_tracked});
+    run.truth.push_back(pair->true_world_from_camera);
+    report_progress(static_cast<int>(run.online.size()), sequence.size());
+  }
+  const Clock::time_point start = Clock::now();
+  run.trajectory = odometry.Finish();
+  run.finish_ms = to_ms(Clock::now() - start);
+  run.cpu_s = GetProcessCpuSeconds() - sequence.loading_cpu_s() - cpu_before_s;
+  InterpolateLostPoses(run.online);
+  return run;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace arfm_vo {
+
+/// CPU time of all threads of this process so far, s.
+double GetProcessCpuSeconds();
+
+/// The most memory that this process has held so far, MB (10^6 bytes).
+double GetPeakMemoryMb();
+
+}  // namespace arfm_vo

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "arfm_vo/evaluation/odometry_run.h"
+
+namespace arfm_vo {
+
+/// The poses of the frames whose truth is known; where none is, all estimates and no truth.
+struct PathComparison {
+  std::vector<Rigid3> estimate, truth;  ///< world_from_camera
+};
+PathComparison CompareWithTruth(const OdometryRun& run);
+
+/// Lines `key: value` from pairs to, where the recording has the truth, length_ratio. Frames
+/// without truth are left out of the comparison.
+std::string FormatRun(const OdometryRun& run);
+
+/// ms of each stage for each pair as CSV: frame, stamp_s, total_ms, then a column a stage in order
+/// of appearance (empty where a pair did not go through it).
+std::string FormatTiming(const OdometryRun& run);
+
+}  // namespace arfm_vo

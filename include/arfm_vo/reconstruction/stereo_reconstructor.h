@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/image/patch_alignment.h"
+#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/matching/guided_matcher.h"
+#include "arfm_vo/reconstruction/row_model.h"
+#include "arfm_vo/reconstruction/row_search.h"
+#include "arfm_vo/reconstruction/stereo_point.h"
+
+namespace arfm_vo {
+
+struct StereoReconstructionOptions {
+  StereoSearchOptions search;
+  MatchSelectionOptions selection;
+  double ratio_threshold = 0.9;  ///< nearest / second-nearest distance
+  bool refine_subpixel = true;   ///< align patches, rather than trust the detector's positions
+  PatchAlignmentOptions alignment;
+  bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
+  RowSearchOptions row_search;
+  double max_row_deviation = 3;    ///< from the expected row, in standard deviations
+  double min_disparity_px = 0.5;   ///< after refinement
+  double sigma_floor_px = 0.07;    ///< no point is better than this
+  double sigma_inflation = 2;      ///< times the alignment's prediction, as rows show
+  double keypoint_sigma_px = 0.4;  ///< of a position at scale 1.2 without refinement
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("search", search);
+    visit("selection", selection);
+    visit("ratio_threshold", ratio_threshold);
+    visit("refine_subpixel", refine_subpixel);
+    visit("alignment", alignment);
+    visit("search_rows", search_rows);
+    visit("row_search", row_search);
+    visit("max_row_deviation", max_row_deviation);
+    visit("min_disparity_px", min_disparity_px);
+    visit("sigma_floor_px", sigma_floor_px);
+    visit("sigma_inflation", sigma_inflation);
+    visit("keypoint_sigma_px", keypoint_sigma_px);
+  }
+};
+
+/// Features of a rectified pair to points in space. Learns from pair to pair how far the rows of
+/// the pair are off, so feed pairs of one camera, in their order; the same pairs give the same
+/// points.
+class StereoReconstructor {
+ public:
+  /// Throws std::invalid_argument where the camera or an option is wrong.
+  StereoReconstructor(const StereoCamera& camera, const StereoReconstructionOptions& options);
+
+  /// Points in the order of the left keypoints, at most one a keypoint. Throws
+  /// std::invalid_argument where the images do not fit the camera.
+  StereoPoints Reconstruct(const Features& left, const Features& right, const StereoImages& images);
+
+  const RowModel& row_model() const { return row_model_; }
+
+ private:
+  /// A left keypoint found in the right image.
+  struct Sighting {
+    int keypoint = 0;
+    cv::Point2f right;
+    cv::Vec3f covariance;  ///< of `right` (xx, xy, yy), px^2
+  };
+  using Sightings = std::vector<Sighting>;
+
+  Matches MatchKeypoints(const Features& left, const Features& right) const;
+  Sightings Refine(const Features& left, const std::vector<std::optional<cv::Point2f>>& guesses,
+                   const StereoImages& images) const;
+  Sightings TakeKeypoints(const Features& left, const Features& right,
+                          const Matches& matches) const;
+  void SearchRows(const Features& left, const StereoImages& images,
+                  std::vector<std::optional<cv::Point2f>>& guesses);
+  void LearnRows(const Features& left, const Sightings& sightings);
+  std::optional<StereoPoint> Triangulate(const Keypoint& left, const Sighting& sighting) const;
+
+  StereoCamera camera_;
+  StereoReconstructionOptions options_;
+  PatchAligner aligner_;
+  RowModel row_model_;
+  RowSearch row_search_;
+};
+
+}  // namespace arfm_vo

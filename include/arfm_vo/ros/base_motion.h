@@ -1,0 +1,27 @@
+#pragma once
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+/// Turns the camera's motion through the odometry's world into the base's motion through odom,
+///   odom_from_base(t) = odom_from_world * world_from_camera(t) * base_from_camera(t)^-1,
+/// where odom_from_world is fixed at a world's first pose so that the base stands where it stood
+/// last (REP-105: odom never jumps), at first at the origin with x forward (REP-103).
+class BaseMotion {
+ public:
+  /// odom_from_base of a frame.
+  const Rigid3& Move(const Rigid3& camera_from_world, const Rigid3& base_from_camera);
+
+  /// The next frame starts a new world; the base stays where it is.
+  void StartWorld() { has_world_ = false; }
+
+  const Rigid3& odom_from_world() const { return odom_from_world_; }  ///< set by Move
+  const Rigid3& odom_from_base() const { return odom_from_base_; }    ///< newest
+
+ private:
+  bool has_world_ = false;
+  Rigid3 odom_from_world_, odom_from_base_;
+};
+
+}  // namespace arfm_vo

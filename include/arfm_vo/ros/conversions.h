@@ -1,0 +1,54 @@
+#pragma once
+
+#include <arfm_vo/KeyframeStamped.h>
+#include <arfm_vo/MapUpdateStamped.h>
+#include <arfm_vo/RectifiedStereo.h>
+#include <arfm_vo/StereoFrameStamped.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+
+#include <cstdint>
+
+#include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/mapping/keyframe_record.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
+namespace arfm_vo {
+
+// The core's nouns as messages and back. A message carries its noun to the last bit, but for the
+// stamp, which ROS keeps in nanoseconds. What comes from a message is checked: arrays of unequal
+// length, an index that points nowhere, a value that is not finite, a quaternion that is not of
+// unit length or a wrong camera throw std::invalid_argument naming message and field.
+
+geometry_msgs::Transform ToTransformMessage(const Rigid3& b_from_a);
+geometry_msgs::Pose ToPoseMessage(const Rigid3& b_from_a);
+/// `name` is what the error calls it, such as "KeyframeStamped: base_from_camera".
+Rigid3 FromMessage(const geometry_msgs::Transform& message, const std::string& name);
+
+RectifiedStereo ToMessage(const StereoCamera& camera);
+StereoCamera FromMessage(const RectifiedStereo& message);
+
+/// Fills header.stamp and the fields of the frame; frame_id, counts of pairs and stages are the
+/// caller's.
+StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camera);
+StereoFrame FromMessage(const StereoFrameStamped& message);
+
+/// A keyframe and where its world lies.
+struct PlacedKeyframe {
+  KeyframeRecord record;
+  uint32_t world = 0;  ///< counts the worlds of the odometry
+  StereoCamera camera;
+  Rigid3 odom_from_world;
+  Rigid3 base_from_camera;  ///< at the keyframe's stamp
+};
+
+/// Fills header.stamp, not frame_id.
+KeyframeStamped ToMessage(const PlacedKeyframe& keyframe);
+PlacedKeyframe FromMessage(const KeyframeStamped& message);
+
+/// Fills the fields of the update; header and world are the caller's.
+MapUpdateStamped ToMessage(const MapUpdate& update);
+MapUpdate FromMessage(const MapUpdateStamped& message);
+
+}  // namespace arfm_vo

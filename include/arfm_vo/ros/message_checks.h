@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+
+/// Throws std::invalid_argument "FIELD holds A values, B expected" unless sizes agree.
+template <class Value>
+void RequireSize(const std::vector<Value>& field, size_t expected, const std::string& name) {
+  Require(field.size() == expected, name + " holds " + std::to_string(field.size()) + " values, " +
+                                        std::to_string(expected) + " expected");
+}
+
+/// Throws std::invalid_argument naming the element unless all values are finite.
+template <class Value>
+void RequireFinite(const std::vector<Value>& field, const std::string& name) {
+  for (size_t i = 0; i < field.size(); ++i)
+    if (!std::isfinite(field[i]))
+      Require(false, name + "[" + std::to_string(i) + "] is not a finite number");
+}
+
+/// Throws std::invalid_argument naming the element unless ids rise from each to the next.
+template <class Id>
+void RequireAscending(const std::vector<Id>& field, const std::string& name) {
+  for (size_t i = 1; i < field.size(); ++i)
+    if (field[i] <= field[i - 1])
+      Require(false, name + "[" + std::to_string(i) + "] does not rise");
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+/// Where a camera on a head that moves sits on the rover, and whether it can be trusted.
+struct CameraMountOptions {
+  std::string base_frame = "base_link";
+  std::string camera_frame;    ///< left optical frame; empty: the frame_id of the images
+  double tf_timeout_s = 0.1;   ///< how long a pair waits for the tf of its stamp (wall time)
+  double max_slew_dps = 0;     ///< pairs taken while the head turns faster are skipped; 0: none
+  double slew_window_s = 0.1;  ///< over which the head's rate is measured
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("base_frame", base_frame);
+    visit("camera_frame", camera_frame);
+    visit("tf_timeout_s", tf_timeout_s);
+    visit("max_slew_dps", max_slew_dps);
+    visit("slew_window_s", slew_window_s);
+  }
+};
+
+/// base_from_camera at each image's stamp, from tf.
+class CameraMount {
+ public:
+  /// `buffer` must outlive the mount.
+  CameraMount(const tf2::BufferCore& buffer, const CameraMountOptions& options);
+
+  /// base_from_camera at `stamp`; nothing where tf cannot tell within the timeout, or once
+  /// `give_up` says so. Never the newest one instead, never identity.
+  std::optional<Rigid3> BaseFromCamera(const std::string& image_frame, const ros::Time& stamp,
+                                       const std::function<bool()>& give_up = {}) const;
+
+  /// Whether the head turned faster than the limit in the window before `stamp`. Where tf does not
+  /// reach back so far, it did not.
+  bool IsSlewing(const std::string& image_frame, const ros::Time& stamp,
+                 const Rigid3& base_from_camera) const;
+
+  /// Why the last lookup failed, in tf's words.
+  const std::string& error() const { return error_; }
+
+ private:
+  const std::string& CameraFrame(const std::string& image_frame) const;
+  std::optional<Rigid3> LookUp(const std::string& camera_frame, const ros::Time& stamp) const;
+
+  const tf2::BufferCore& buffer_;
+  CameraMountOptions options_;
+  mutable std::string error_;
+};
+
+}  // namespace arfm_vo

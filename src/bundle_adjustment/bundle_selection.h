@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "arfm_vo/bundle_adjustment/bundle_problem.h"
+
+namespace arfm_vo {
+
+/// What of a problem takes part in its adjustment.
+struct BundleSelection {
+  std::vector<char> observation_is_used;  ///< its point is used and in front of the camera
+  std::vector<char> point_is_used;        ///< seen in stereo, or by two poses
+  std::vector<char> pose_is_free;         ///< not fixed, and tied to a fixed pose
+  bool correction_is_free[3];             ///< the axes with a prior that leaves them free
+
+  explicit BundleSelection(const BundleProblem& problem);
+  bool AnyCorrectionIsFree() const {
+    return correction_is_free[0] || correction_is_free[1] || correction_is_free[2];
+  }
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,12 @@
+#include "arfm_vo/evaluation/odometry_run.h"
+
+#include <algorithm>
+
+namespace arfm_vo {
+
+int OdometryRun::CountLost() const {
+  return static_cast<int>(std::count_if(online.begin(), online.end(),
+                                        [](const auto& pose) { return !pose.is_tracked; }));
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,43 @@
+#include "arfm_vo/odometry/stereo_frontend.h"
+
+#include <future>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/stopwatch.h"
+
+namespace arfm_vo {
+
+StereoFrontend::StereoFrontend(const StereoCamera& camera, const FrontendOptions& options)
+    : camera_(camera),
+      options_(options),
+      left_surf_(options.surf),
+      right_surf_(options.surf),
+      reconstructor_(camera, options.stereo) {
+  camera.Check();
+}
+
+StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stage_ms) {
+  images.Check();
+  Require(images.left.cols == camera_.width && images.left.rows == camera_.height,
+          "stereo frontend: images are " + std::to_string(images.left.cols) + "x" +
+              std::to_string(images.left.rows) + ", the camera is " +
+              std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
+  Stopwatch stopwatch;
+  StereoFrame frame;
+  frame.stamp_s = images.stamp_s;
+  auto right = std::async(std::launch::async, [&] { return right_surf_.Extract(images.right); });
+  frame.features = left_surf_.Extract(images.left);
+  frame.grey = ComputeGreyStatistics(images.left);
+  const Features right_features = right.get();
+  frame.num_right_keypoints = right_features.size();
+  const double features_ms = stopwatch.LapMs();
+  frame.ratio_threshold = options_.stereo.ratio_threshold;
+  frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
+  if (stage_ms != nullptr) {
+    stage_ms->emplace_back("features", features_ms);
+    stage_ms->emplace_back("stereo", stopwatch.LapMs());
+  }
+  return frame;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,158 @@
+#include "arfm_vo/reconstruction/stereo_reconstructor.h"
+
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr float kSmallestScale = 1.2f;
+/// Before the rows are learnt they may be off by this much more.
+constexpr double kUnknownRowsPx = 2;
+
+cv::Point2f Position(const Keypoint& keypoint) { return {keypoint.x, keypoint.y}; }
+
+}  // namespace
+
+void StereoReconstructionOptions::Check() const {
+  search.Check();
+  selection.Check();
+  alignment.Check();
+  row_search.Check();
+  Require(ratio_threshold > 0 && ratio_threshold <= 1, "ratio_threshold must be in (0, 1]");
+  Require(max_row_deviation > 0, "max_row_deviation must be positive");
+  Require(min_disparity_px > 0, "min_disparity_px must be positive");
+  Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
+  Require(sigma_inflation > 0, "sigma_inflation must be positive");
+  Require(keypoint_sigma_px > 0, "keypoint_sigma_px must be positive");
+}
+
+StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
+                                         const StereoReconstructionOptions& options)
+    : camera_(camera),
+      options_(options),
+      aligner_(options.alignment),
+      row_model_(camera.width, camera.height),
+      row_search_(options.row_search) {
+  camera.Check();
+  options.Check();
+}
+
+Matches StereoReconstructor::MatchKeypoints(const Features& left, const Features& right) const {
+  Features expected = left;  // where the rows are off, left keypoints look on the right's rows
+  for (Keypoint& keypoint : expected.keypoints) {
+    keypoint.y += static_cast<float>(row_model_.Predict(keypoint.x, keypoint.y));
+  }
+  StereoSearchOptions search = options_.search;
+  if (!row_model_.IsLearnt()) search.max_row_difference_px += kUnknownRowsPx;
+  return SelectMatches(FindStereoNeighbours(expected, right, search), options_.ratio_threshold,
+                       options_.selection);
+}
+
+StereoReconstructor::Sightings StereoReconstructor::TakeKeypoints(const Features& left,
+                                                                  const Features& right,
+                                                                  const Matches& matches) const {
+  Sightings sightings;
+  for (const Match& match : matches) {
+    const float scale = std::max(left.keypoints[match.first].scale, kSmallestScale);
+    const auto sigma = static_cast<float>(options_.keypoint_sigma_px * scale / kSmallestScale);
+    sightings.push_back(
+        {match.first, Position(right.keypoints[match.second]), {sigma * sigma, 0, sigma * sigma}});
+  }
+  return sightings;
+}
+
+void StereoReconstructor::SearchRows(const Features& left, const StereoImages& images,
+                                     std::vector<std::optional<cv::Point2f>>& guesses) {
+  row_search_.SetImages(images.left, images.right);
+  for (int i = 0; i < left.size(); ++i) {
+    if (guesses[i]) continue;
+    const cv::Point2f place = Position(left.keypoints[i]);
+    guesses[i] =
+        row_search_.Find(place, row_model_.Predict(place.x, place.y),
+                         options_.search.min_disparity_px, options_.search.max_disparity_px);
+  }
+}
+
+StereoReconstructor::Sightings StereoReconstructor::Refine(
+    const Features& left, const std::vector<std::optional<cv::Point2f>>& guesses,
+    const StereoImages& images) const {
+  const auto inflation = static_cast<float>(options_.sigma_inflation * options_.sigma_inflation);
+  const auto floor = static_cast<float>(options_.sigma_floor_px * options_.sigma_floor_px);
+  Sightings sightings;
+  for (int i = 0; i < left.size(); ++i) {
+    if (!guesses[i]) continue;
+    const auto patch = Patch::Sample(images.left, Position(left.keypoints[i]));
+    if (!patch) continue;
+    const PatchAlignment alignment = aligner_.Align(*patch, images.right, *guesses[i]);
+    if (!alignment.IsAligned()) continue;
+    cv::Vec3f covariance = inflation * alignment.covariance;
+    covariance[0] += floor;
+    covariance[2] += floor;
+    sightings.push_back({i, alignment.position, covariance});
+  }
+  return sightings;
+}
+
+void StereoReconstructor::LearnRows(const Features& left, const Sightings& sightings) {
+  std::vector<RowSample> samples;
+  for (const Sighting& sighting : sightings) {
+    const Keypoint& keypoint = left.keypoints[sighting.keypoint];
+    samples.push_back(
+        {keypoint.x, keypoint.y, sighting.right.y - keypoint.y, std::sqrt(sighting.covariance[2])});
+  }
+  row_model_.Update(samples);
+}
+
+std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left,
+                                                            const Sighting& sighting) const {
+  const double row_residual = sighting.right.y - left.y;
+  const double deviation = row_residual - row_model_.Predict(left.x, left.y);
+  const double variance_y = sighting.covariance[2];
+  if (std::abs(deviation) > options_.max_row_deviation * std::sqrt(variance_y)) {
+    return std::nullopt;
+  }
+  // The row is known, so what the alignment is off in y tells what it is off in x.
+  const double x_per_y = sighting.covariance[1] / variance_y;
+  const double u_right = sighting.right.x - x_per_y * deviation;
+  const double variance = sighting.covariance[0] - x_per_y * sighting.covariance[1];
+  const double disparity = left.x - u_right;
+  if (!(disparity >= options_.min_disparity_px)) return std::nullopt;
+  StereoPoint point;
+  point.keypoint = sighting.keypoint;
+  point.observation = {left.x, left.y, u_right};
+  point.row_residual_px = row_residual;
+  point.sigma_px = std::sqrt(variance);
+  point.x_in_camera = camera_.Triangulate(left.x, left.y, disparity);
+  return point;
+}
+
+StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Features& right,
+                                              const StereoImages& images) {
+  images.Check();
+  Require(images.left.cols == camera_.width && images.left.rows == camera_.height,
+          "stereo reconstruction: the images' size is not the camera's");
+  const Matches matches = MatchKeypoints(left, right);
+  Sightings sightings;
+  if (options_.refine_subpixel) {
+    std::vector<std::optional<cv::Point2f>> guesses(left.size());
+    for (const Match& match : matches) {
+      guesses[match.first] = Position(right.keypoints[match.second]);
+    }
+    if (options_.search_rows) SearchRows(left, images, guesses);
+    sightings = Refine(left, guesses, images);
+  } else {
+    sightings = TakeKeypoints(left, right, matches);
+  }
+  LearnRows(left, sightings);
+  StereoPoints points;
+  for (const Sighting& sighting : sightings) {
+    if (auto point = Triangulate(left.keypoints[sighting.keypoint], sighting)) {
+      points.push_back(*point);
+    }
+  }
+  return points;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,149 @@
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/message_checks.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kDescriptorLength = 64;
+
+LandmarkObservations ImportObservations(const KeyframeStamped& message) {
+  const std::string name = "KeyframeStamped: ";
+  const size_t size = message.observation_landmark.size();
+  RequireSize(message.observation_pixels, 4 * size, name + "observation_pixels");
+  RequireSize(message.observation_has_right, size, name + "observation_has_right");
+  RequireSize(message.observation_sigma, size, name + "observation_sigma");
+  RequireFinite(message.observation_pixels, name + "observation_pixels");
+  RequireFinite(message.observation_sigma, name + "observation_sigma");
+  RequireAscending(message.observation_landmark, name + "observation_landmark");
+  LandmarkObservations observations(size);
+  for (size_t i = 0; i < size; ++i) {
+    observations[i].landmark = message.observation_landmark[i];
+    observations[i].pixels = Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]);
+    observations[i].has_right = message.observation_has_right[i];
+    observations[i].sigma_px = message.observation_sigma[i];
+    Require(observations[i].sigma_px > 0,
+            name + "observation_sigma[" + std::to_string(i) + "] is not positive");
+  }
+  return observations;
+}
+
+std::vector<LandmarkRecord> ImportLandmarks(const KeyframeStamped& message) {
+  const std::string name = "KeyframeStamped: ";
+  const size_t size = message.landmark_id.size();
+  RequireSize(message.landmark_position, 3 * size, name + "landmark_position");
+  RequireSize(message.landmark_laplacian_sign, size, name + "landmark_laplacian_sign");
+  RequireSize(message.landmark_descriptors, kDescriptorLength * size,
+              name + "landmark_descriptors");
+  RequireFinite(message.landmark_position, name + "landmark_position");
+  RequireFinite(message.landmark_descriptors, name + "landmark_descriptors");
+  std::vector<LandmarkRecord> landmarks(size);
+  for (size_t i = 0; i < size; ++i) {
+    landmarks[i].id = message.landmark_id[i];
+    landmarks[i].x_in_world = Eigen::Map<const Eigen::Vector3d>(&message.landmark_position[3 * i]);
+    landmarks[i].laplacian_sign = message.landmark_laplacian_sign[i];
+    std::copy_n(message.landmark_descriptors.begin() + kDescriptorLength * i, kDescriptorLength,
+                landmarks[i].descriptor.begin());
+  }
+  return landmarks;
+}
+
+geometry_msgs::Vector3 ToVectorMessage(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+Eigen::Vector3d FromVectorMessage(const geometry_msgs::Vector3& message, const std::string& name) {
+  const Eigen::Vector3d vector(message.x, message.y, message.z);
+  Require(vector.allFinite(), name + " is not finite");
+  return vector;
+}
+
+}  // namespace
+
+KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
+  const KeyframeRecord& record = keyframe.record;
+  KeyframeStamped message;
+  message.header.stamp.fromSec(record.stamp_s);
+  message.world = keyframe.world;
+  message.camera = ToMessage(keyframe.camera);
+  message.odom_from_world = ToTransformMessage(keyframe.odom_from_world);
+  message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
+  message.id = record.id;
+  message.camera_from_world = ToTransformMessage(record.camera_from_world);
+  for (const LandmarkObservation& observation : record.observations) {
+    message.observation_landmark.push_back(observation.landmark);
+    for (int i = 0; i < 4; ++i)
+      message.observation_pixels.push_back(i < 2 || observation.has_right ? observation.pixels[i]
+                                                                          : 0);
+    message.observation_has_right.push_back(observation.has_right);
+    message.observation_sigma.push_back(observation.sigma_px);
+  }
+  for (const LandmarkRecord& landmark : record.landmarks) {
+    message.landmark_id.push_back(landmark.id);
+    for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
+    message.landmark_laplacian_sign.push_back(landmark.laplacian_sign);
+    message.landmark_descriptors.insert(message.landmark_descriptors.end(),
+                                        landmark.descriptor.begin(), landmark.descriptor.end());
+  }
+  return message;
+}
+
+PlacedKeyframe FromMessage(const KeyframeStamped& message) {
+  PlacedKeyframe keyframe;
+  keyframe.world = message.world;
+  keyframe.camera = FromMessage(message.camera);
+  keyframe.odom_from_world =
+      FromMessage(message.odom_from_world, "KeyframeStamped: odom_from_world");
+  keyframe.base_from_camera =
+      FromMessage(message.base_from_camera, "KeyframeStamped: base_from_camera");
+  keyframe.record.id = message.id;
+  keyframe.record.stamp_s = message.header.stamp.toSec();
+  keyframe.record.camera_from_world =
+      FromMessage(message.camera_from_world, "KeyframeStamped: camera_from_world");
+  keyframe.record.observations = ImportObservations(message);
+  keyframe.record.landmarks = ImportLandmarks(message);
+  return keyframe;
+}
+
+MapUpdateStamped ToMessage(const MapUpdate& update) {
+  MapUpdateStamped message;
+  for (const MapUpdate::KeyframePose& keyframe : update.keyframes) {
+    message.keyframe_id.push_back(keyframe.id);
+    message.camera_from_world.push_back(ToTransformMessage(keyframe.camera_from_world));
+  }
+  for (const MapUpdate::LandmarkPosition& landmark : update.landmarks) {
+    message.landmark_id.push_back(landmark.id);
+    for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
+  }
+  message.stereo_rotation_rad = ToVectorMessage(update.stereo_rotation_rad);
+  message.stereo_rotation_sigma_rad = ToVectorMessage(update.stereo_rotation_sigma_rad);
+  return message;
+}
+
+MapUpdate FromMessage(const MapUpdateStamped& message) {
+  const std::string name = "MapUpdateStamped: ";
+  RequireSize(message.camera_from_world, message.keyframe_id.size(), name + "camera_from_world");
+  RequireSize(message.landmark_position, 3 * message.landmark_id.size(),
+              name + "landmark_position");
+  RequireFinite(message.landmark_position, name + "landmark_position");
+  RequireAscending(message.keyframe_id, name + "keyframe_id");
+  RequireAscending(message.landmark_id, name + "landmark_id");
+  MapUpdate update;
+  for (size_t i = 0; i < message.keyframe_id.size(); ++i)
+    update.keyframes.push_back({message.keyframe_id[i], FromMessage(message.camera_from_world[i],
+                                                                    name + "camera_from_world[" +
+                                                                        std::to_string(i) + "]")});
+  for (size_t i = 0; i < message.landmark_id.size(); ++i)
+    update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
+                                                            &message.landmark_position[3 * i])});
+  update.stereo_rotation_rad =
+      FromVectorMessage(message.stereo_rotation_rad, name + "stereo_rotation_rad");
+  update.stereo_rotation_sigma_rad =
+      FromVectorMessage(message.stereo_rotation_sigma_rad, name + "stereo_rotation_sigma_rad");
+  return update;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "arfm_vo/base/random.h"
+#include "arfm_vo/bundle_adjustment/bundle_problem.h"
+
+namespace arfm_vo {
+
+const StereoCamera kBundleCamera{707, 707, 600, 180, 0.54, 1226, 370};
+
+/// A standard normal number (Box and Muller), the same on every platform.
+inline double RandomGaussian(RandomEngine& engine) {
+  const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine)));
+  return radius * std::cos(2 * M_PI * RandomUnit(engine));
+}
+inline Eigen::Vector3d RandomGaussian3(RandomEngine& engine) {
+  const double x = RandomGaussian(engine), y = RandomGaussian(engine);
+  return {x, y, RandomGaussian(engine)};
+}
+
+struct CorridorOptions {
+  int num_poses = 8;
+  int num_points = 400;
+  double step_m = 1;
+  double turn_rad = 0.01;  ///< a step
+  int max_track = 10;      ///< poses that see a point
+  double noise_px = 0.5;
+  double outlier_share = 0;
+  StereoCorrection correction;  ///< of the camera that takes the pictures
+  double pose_error_rad = 0.005, pose_error_m = 0.05, point_error_share = 0.03;
+  int num_fixed = 2;
+  int seed = 1;
+};
+
+/// A drive between two walls and over a floor: the truth, and the problem it poses.
+struct CorridorScene {
+  std::vector<Rigid3> camera_from_world;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<char> is_outlier;  ///< [observations]
+  BundleProblem problem;
+};
+
+namespace corridor {
+
+/// A point on a wall, the floor or far ahead, in the frame of the camera that sees it first.
+inline Eigen::Vector3d RandomPoint(RandomEngine& engine) {
+  const double z = 5 + 35 * std::pow(RandomUnit(engine), 2);
+  const double side = RandomUnit(engine);
+  if (side < 0.35) return {-4 - RandomUnit(engine), 1.5 - 4 * RandomUnit(engine), z};
+  if (side < 0.7) return {4 + RandomUnit(engine), 1.5 - 4 * RandomUnit(engine), z};
+  if (side < 0.9) return {8 * RandomUnit(engine) - 4, 1.6, z};
+  return {20 * RandomUnit(engine) - 10, -5 * RandomUnit(engine), z + 20};
+}
+
+inline bool IsInView(const StereoCorrection& correction, const Eigen::Vector3d& x) {
+  if (x.z() < 2) return false;
+  const Eigen::Vector4d pixels = ProjectStereo4(kBundleCamera, correction, x);
+  return kBundleCamera.Contains(pixels.head<2>()) && kBundleCamera.Contains(pixels.tail<2>());
+}
+
+inline void AddObservations(const CorridorOptions& options, int first_pose, int point,
+                            RandomEngine& engine, CorridorScene& scene) {
+  const int last = std::min(options.num_poses, first_pose + options.max_track);
+  for (int pose = first_pose; pose < last; ++pose) {
+    const Eigen::Vector3d x = scene.camera_from_world[pose] * scene.points[point];
+    if (!IsInView(options.correction, x)) break;
+    BundleObservation observation{pose, point, ProjectStereo4(kBundleCamera, options.correction, x),
+                                  true, std::max(options.noise_px, 1e-3)};
+    for (int i = 0; i < 4; ++i) {
+      observation.pixels[i] += options.noise_px * RandomGaussian(engine);
+    }
+    const bool is_outlier = RandomUnit(engine) < options.outlier_share;
+    if (is_outlier)
+      observation.pixels[RandomBelow(4, engine)] += RandomUnit(engine) < 0.5 ? 20 : -30;
+    scene.is_outlier.push_back(is_outlier);
+    scene.problem.observations.push_back(observation);
+  }
+}
+
+}  // namespace corridor
+
+inline CorridorScene MakeCorridor(const CorridorOptions& options) {
+  RandomEngine engine(options.seed);
+  CorridorScene scene;
+  Rigid3 pose;
+  const Rigid3 step(ExpSO3({0, options.turn_rad, 0}), Eigen::Vector3d(0, 0, -options.step_m));
+  for (int i = 0; i < options.num_poses; ++i) {
+    scene.camera_from_world.push_back(pose);
+    pose = step * pose;
+  }
+  while (static_cast<int>(scene.points.size()) < options.num_points) {
+    const int point = static_cast<int>(scene.points.size());
+    const int first = static_cast<int>(int64_t{point} * options.num_poses / options.num_points);
+    const Eigen::Vector3d x = corridor::RandomPoint(engine);
+    if (!corridor::IsInView(options.correction, x)) continue;
+    scene.points.push_back(scene.camera_from_world[first].Inverse() * x);
+    // Points of the first poses may have come into view before: they are seen from there on.
+    corridor::AddObservations(options, std::max(0, first - 2), point, engine, scene);
+  }
+  scene.problem.camera = kBundleCamera;
+  scene.problem.pose_is_fixed.assign(options.num_poses, 0);
+  for (int i = 0; i < options.num_poses; ++i) {
+    Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
+    scene.problem.pose_is_fixed[i] = i < options.num_fixed;
+    if (i >= options.num_fixed) {
+      error << options.pose_error_rad * RandomGaussian3(engine),
+          options.pose_error_m * RandomGaussian3(engine);
+    }
+    scene.problem.camera_from_world.push_back(BoxPlus(scene.camera_from_world[i], error));
+  }
+  for (const Eigen::Vector3d& x : scene.points) {
+    const double depth = 10;
+    scene.problem.points.push_back(x + options.point_error_share * depth * RandomGaussian3(engine));
+  }
+  return scene;
+}
+
+}  // namespace arfm_vo
