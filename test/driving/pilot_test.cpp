@@ -167,7 +167,7 @@ TEST_F(PilotTest, ALongPauseNeedsANewStart) {
 }
 
 TEST_F(PilotTest, AnUncertainPosePauses) {
-  for (const double sigma_m : {0.6, 99.99, kNaN}) {
+  for (const double sigma_m : {2.1, 99.99, kNaN}) {
     pilot_ = Pilot(Options());
     sigma_m_ = 0.01;
     StartDriving();

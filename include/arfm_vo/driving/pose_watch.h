@@ -9,8 +9,8 @@ namespace arfm_vo {
 
 struct PoseWatchOptions {
   double max_pose_age_s = 1.0;
-  double max_position_sigma_m = 0.5;
-  double max_heading_sigma_rad = 0.2;
+  double max_position_sigma_m = 2.0;  ///< of the way driven in all: drift adds up
+  double max_heading_sigma_rad = 0.35;
   bool requires_covariance = true;  ///< no driving where nobody says how good the pose is
 
   void Check() const;

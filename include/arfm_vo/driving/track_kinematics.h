@@ -44,6 +44,10 @@ class TrackKinematics {
   PlanarMotion ChassisMotionFor(const PlanarMotion& motion) const {
     return {motion.forward_mps, motion.turn_radps * options_.turn_slip_factor};
   }
+  /// The motion of the base where the chassis, which takes turns to be free of slip, says `motion`.
+  PlanarMotion MotionFromChassis(const PlanarMotion& motion) const {
+    return {motion.forward_mps, motion.turn_radps / options_.turn_slip_factor};
+  }
   /// The speed of the faster track, m/s.
   double FasterTrack(const PlanarMotion& motion) const {
     return std::abs(motion.forward_mps) + std::abs(motion.turn_radps) * EffectiveGauge() / 2;
