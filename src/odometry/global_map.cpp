@@ -58,12 +58,12 @@ BundleProblem GlobalMap::MakeProblem() {
   return problem;
 }
 
-std::optional<MapUpdate> GlobalMap::Adjust(const std::function<bool(int, double)>& progress) {
+std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
   const BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
   const BundleResult result = AdjustBundle(problem, options_.solver, progress);
-  if (!result.IsUsable()) return std::nullopt;
+  if (result.status == BundleStatus::kFailed) return std::nullopt;
 
   MapUpdate update;
   const Rigid3 newest_from_odom = keyframes_.back().camera_from_map * map_from_odom_;
@@ -73,7 +73,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const std::function<bool(int, double)
   }
   map_from_odom_ = keyframes_.back().camera_from_map.Inverse() * newest_from_odom;
   for (auto& [id, point] : landmarks_) {
-    if (point.row < 0) continue;
+    if (point.row < 0 || !result.point_is_used[point.row]) continue;
     point.x_in_map = result.points[point.row];
     update.landmarks.push_back({id, point.x_in_map});
   }

@@ -1,5 +1,6 @@
 #include "arfm_vo/odometry/local_bundle.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "arfm_vo/base/check.h"
@@ -9,6 +10,7 @@ namespace arfm_vo {
 void LocalBundleOptions::Check() const {
   Require(num_keyframes >= 2, "bundle.num_keyframes must be at least 2");
   solver.Check();
+  Require(solver.with_point_covariance, "bundle.solver.with_point_covariance must be on");
 }
 
 LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int num_keyframes) {
@@ -47,15 +49,17 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int
 }
 
 void ApplyLocalBundle(const LocalBundle& bundle, const BundleResult& result, LocalMap& map) {
-  if (!result.IsUsable()) return;
+  if (result.status == BundleStatus::kFailed) return;
   for (size_t i = 0; i < bundle.keyframes.size(); ++i) {
     map.MoveKeyframe(bundle.keyframes[i], result.camera_from_world[i]);
   }
   for (size_t i = 0; i < bundle.landmarks.size(); ++i) {
-    map.MoveLandmark(bundle.landmarks[i], result.points[i], result.point_covariances[i]);
+    if (!result.point_is_used[i]) continue;
+    map.MoveLandmark(bundle.landmarks[i], result.points[i],
+                     result.point_covariances.empty() ? map.landmarks().at(bundle.landmarks[i]).covariance : result.point_covariances[i]);
   }
   for (size_t i = 0; i < bundle.problem.observations.size(); ++i) {
-    if (!result.is_outlier[i]) continue;
+    if (result.is_inlier[i]) continue;
     const BundleObservation& observation = bundle.problem.observations[i];
     map.RemoveObservation(bundle.keyframes[observation.pose], bundle.landmarks[observation.point]);
   }

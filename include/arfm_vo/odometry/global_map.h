@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -36,8 +35,8 @@ class GlobalMap {
   void Add(const KeyframeRecord& keyframe);
 
   /// Adjusts everything. Nothing where there are fewer than two keyframes or no solution.
-  /// `progress(iteration, cost)` is called after each iteration; false from it cancels.
-  std::optional<MapUpdate> Adjust(const std::function<bool(int, double)>& progress = {});
+  /// `progress` is called after each iteration; false from it cancels.
+  std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
   /// Takes the newest keyframe's pose in odom to that in the map.
   Rigid3 MapFromOdom() const { return map_from_odom_; }

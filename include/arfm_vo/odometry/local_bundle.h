@@ -7,10 +7,18 @@
 
 namespace arfm_vo {
 
+/// A few steps, with the covariances that the next frames' poses need.
+inline BundleOptions WindowSolver() {
+  BundleOptions options;
+  options.max_iterations = 6;
+  options.with_point_covariance = true;
+  return options;
+}
+
 struct LocalBundleOptions {
   bool enabled = true;
   int num_keyframes = 8;   ///< newest keyframes that move
-  BundleOptions solver;
+  BundleOptions solver = WindowSolver();
 
   void Check() const;
   template <class Visitor>

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <opencv2/core/matx.hpp>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/base/ransac.h"
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/matching/match.h"
+
+namespace arfm_vo {
+
+struct EpipolarRansacOptions {
+  RansacOptions ransac;
+  double max_error_px = 1.5;  ///< Sampson distance of an inlier
+  int min_inliers = 15;       ///< fewer are no consensus: any seven matches agree
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("ransac", ransac);
+    visit("max_error_px", max_error_px);
+    visit("min_inliers", min_inliers);
+  }
+};
+
+/// x_second^T fundamental x_first = 0 for the matches that agree with one motion of the camera.
+struct EpipolarGeometry {
+  cv::Matx33d fundamental;
+  std::vector<char> is_inlier;  ///< [N], 1 where the match agrees
+  int num_inliers = 0;
+};
+
+/// Distance of a match from an epipolar geometry to first order, px (Sampson 1982; Hartley and
+/// Zisserman, eq 11.9). Infinite at an epipole.
+double SampsonDistance(const cv::Matx33d& fundamental, const Keypoint& first,
+                       const Keypoint& second);
+
+/// The epipolar geometry that most matches agree with: RANSAC over the 7-point algorithm
+/// (OpenCV's). Nothing where there are too few matches, no consensus, or they don't determine one.
+std::optional<EpipolarGeometry> FindEpipolarGeometry(const std::vector<Keypoint>& first,
+                                                     const std::vector<Keypoint>& second,
+                                                     const Matches& matches,
+                                                     const EpipolarRansacOptions& options);
+
+}  // namespace arfm_vo

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arfm_vo/matching/epipolar_ransac.h"
+#include "arfm_vo/matching/exact_matcher.h"
+#include "arfm_vo/matching/flann_matcher.h"
+
+namespace arfm_vo {
+
+/// The four strategies that the paper compares.
+enum class MatchStrategy {
+  kSurf,             ///< every descriptor with every other
+  kSurfRansac,       ///< the same, then RANSAC on the epipolar geometry
+  kSurfFlann,        ///< approximate search by kd-trees, both ways
+  kSurfFlannRansac,  ///< the same, then RANSAC: the paper's choice
+};
+inline std::vector<std::pair<std::string, MatchStrategy>> ListNames(MatchStrategy) {
+  return {{"surf", MatchStrategy::kSurf},
+          {"surf_ransac", MatchStrategy::kSurfRansac},
+          {"surf_flann", MatchStrategy::kSurfFlann},
+          {"surf_flann_ransac", MatchStrategy::kSurfFlannRansac}};
+}
+
+struct FeatureMatcherOptions {
+  MatchStrategy strategy = MatchStrategy::kSurfFlannRansac;
+  ExactMatcherOptions exact;
+  FlannMatcherOptions flann;
+  MatchSelectionOptions selection;
+  EpipolarRansacOptions epipolar;
+  /// Rectified pairs: rows of a match may differ by this times the larger scale over 1.2, and
+  /// disparity is not negative; 0: any match, for pairs that are not rectified.
+  double max_row_difference_px = 0;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("strategy", strategy);
+    visit("exact", exact);
+    visit("flann", flann);
+    visit("selection", selection);
+    visit("epipolar", epipolar);
+    visit("max_row_difference_px", max_row_difference_px);
+  }
+};
+
+/// Matches the features of two images over the whole image: nearest neighbours both ways, ratio
+/// test, cross-check, epipolar RANSAC.
+class FeatureMatcher {
+ public:
+  /// Throws std::invalid_argument where an option is wrong.
+  explicit FeatureMatcher(const FeatureMatcherOptions& options);
+
+  /// `ratio_threshold`: nearest over second-nearest distance, see AdaptiveThreshold. Empty where a
+  /// strategy with RANSAC finds no consensus.
+  Matches MatchFeatures(const Features& first, const Features& second,
+                        double ratio_threshold) const;
+
+ private:
+  FeatureMatcherOptions options_;
+};
+
+}  // namespace arfm_vo
