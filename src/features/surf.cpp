@@ -2,12 +2,14 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/image/integral_image.h"
+#include "fast_surf.h"
 
 namespace arfm_vo {
 
 class Surf::Workspace {
  public:
   IntegralImage integral;
+  FastMaximumFinder finder;
 };
 
 void SurfOptions::Check() const {
@@ -25,8 +27,16 @@ Surf::~Surf() = default;
 Features Surf::Extract(const cv::Mat& grey) {
   workspace_->integral.Compute(grey);
   Features features;
-  features.keypoints = SurfDetector(options_.detector).Detect(workspace_->integral);
-  SurfDescriptor(options_.descriptor).Describe(workspace_->integral, features);
+  const IntegralImage& integral = workspace_->integral;
+  if (options_.use_fast_path) {
+    const auto maxima = workspace_->finder.Find(integral, options_.detector, options_.threads);
+    features.keypoints = SelectKeypoints(integral, maxima, options_.detector);
+    DescribeFast(integral, options_.descriptor, options_.threads, features);
+  } else {
+    features.keypoints =
+        SelectKeypoints(integral, FindMaxima(integral, options_.detector), options_.detector);
+    SurfDescriptor(options_.descriptor).Describe(integral, features);
+  }
   return features;
 }
 

@@ -6,6 +6,7 @@
 #include "arfm_vo/features/box_hessian.h"
 #include "arfm_vo/features/keypoint_budget.h"
 #include "arfm_vo/features/scale_space_maximum.h"
+#include "scale_space.h"
 
 namespace arfm_vo {
 namespace {
@@ -30,29 +31,12 @@ cv::Mat_<float> ComputeResponses(const IntegralImage& integral, int size, int st
   return responses;
 }
 
-/// Greater than all 26 neighbours; of equal neighbours the first in order of layer, row and column
-/// wins, so that a plateau gives one maximum.
-bool IsMaximum(const cv::Mat_<float>* layers, int row, int col) {
-  const float centre = layers[1](row, col);
-  for (int layer = 0; layer < 3; ++layer) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int order = 9 * (layer - 1) + 3 * dy + dx;
-        const float other = layers[layer](row + dy, col + dx);
-        if (order < 0 ? other >= centre : order > 0 && other > centre) return false;
-      }
-    }
-  }
-  return true;
-}
-
 /// Appends the maxima of the middle one of three layers, where the largest filter still fits.
 void FindMaxima(const cv::Mat_<float>* layers, int octave, int layer, int step, cv::Size image,
                 float threshold, std::vector<ScaleSpaceMaximum>& maxima) {
-  const int margin = BoxFilterSize(octave, layer + 1) / 2 + step;
-  const int first = (margin + step - 1) / step;
-  for (int row = first; row * step + margin < image.height; ++row) {
-    for (int col = first; col * step + margin < image.width; ++col) {
+  const SearchRange range(octave, layer, step, image.width, image.height);
+  for (int row = range.first; row < range.end_row; ++row) {
+    for (int col = range.first; col < range.end_col; ++col) {
       const float response = layers[1](row, col);
       if (response > threshold && IsMaximum(layers, row, col)) {
         maxima.push_back({col * step, row * step, octave, layer, response});
@@ -72,31 +56,34 @@ void SurfDetectorOptions::Check() const {
   Require(bucket_px >= 0, "detector.bucket_px must not be negative");
 }
 
-SurfDetector::SurfDetector(const SurfDetectorOptions& options) : options_(options) {
-  options_.Check();
-}
-
-std::vector<Keypoint> SurfDetector::Detect(const IntegralImage& integral) const {
+std::vector<ScaleSpaceMaximum> FindMaxima(const IntegralImage& integral,
+                                          const SurfDetectorOptions& options) {
   const cv::Size image(integral.cols(), integral.rows());
   std::vector<ScaleSpaceMaximum> maxima;
-  for (int octave = 0; octave < options_.octaves; ++octave) {
-    const int step = options_.initial_step << octave;
+  for (int octave = 0; octave < options.octaves; ++octave) {
+    const int step = options.initial_step << octave;
     std::vector<cv::Mat_<float>> layers;
-    for (int layer = 0; layer < options_.layers; ++layer) {
+    for (int layer = 0; layer < options.layers; ++layer) {
       layers.push_back(ComputeResponses(integral, BoxFilterSize(octave, layer), step));
     }
-    for (int layer = 1; layer + 1 < options_.layers; ++layer) {
+    for (int layer = 1; layer + 1 < options.layers; ++layer) {
       FindMaxima(&layers[layer - 1], octave, layer, step, image,
-                 static_cast<float>(options_.hessian_threshold), maxima);
+                 static_cast<float>(options.hessian_threshold), maxima);
     }
   }
+  return maxima;
+}
+
+std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral,
+                                      const std::vector<ScaleSpaceMaximum>& maxima,
+                                      const SurfDetectorOptions& options) {
   const int target =
-      options_.target_keypoints > 0 ? options_.target_keypoints : static_cast<int>(maxima.size());
+      options.target_keypoints > 0 ? options.target_keypoints : static_cast<int>(maxima.size());
   std::vector<Keypoint> keypoints;
   for (const ScaleSpaceMaximum& maximum :
-       SelectSpread(maxima, image.height, image.width, target, options_.bucket_px)) {
+       SelectSpread(maxima, integral.rows(), integral.cols(), target, options.bucket_px)) {
     const auto keypoint =
-        InterpolateMaximum(integral, maximum, options_.initial_step << maximum.octave);
+        InterpolateMaximum(integral, maximum, options.initial_step << maximum.octave);
     if (keypoint) keypoints.push_back(*keypoint);
   }
   return keypoints;

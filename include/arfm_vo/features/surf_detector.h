@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "arfm_vo/features/features.h"
+#include "arfm_vo/features/scale_space_maximum.h"
 #include "arfm_vo/image/integral_image.h"
 
 namespace arfm_vo {
@@ -32,19 +33,15 @@ struct SurfDetectorOptions {
 };
 
 /// Fast-Hessian detector (Bay, Ess, Tuytelaars, Van Gool, SURF, CVIU 2008), the readable reference:
-/// determinants of box-filtered Hessians (eq 3) over octaves and layers, maxima of 3 x 3 x 3
-/// neighbours, position and scale from the quadratic fit of Brown and Lowe (BMVC 2002).
-class SurfDetector {
- public:
-  /// Throws std::invalid_argument where an option is wrong.
-  explicit SurfDetector(const SurfDetectorOptions& options);
+/// maxima of 3 x 3 x 3 neighbours of the determinants of box-filtered Hessians (eq 3), octave by
+/// octave, layer by layer, row by row.
+std::vector<ScaleSpaceMaximum> FindMaxima(const IntegralImage& integral,
+                                          const SurfDetectorOptions& options);
 
-  /// Keypoints ordered by row, then column; angles are 0. The same image gives the same keypoints,
-  /// whatever came before.
-  std::vector<Keypoint> Detect(const IntegralImage& integral) const;
-
- private:
-  SurfDetectorOptions options_;
-};
+/// The keypoints of the maxima that the budget chooses, with position and scale from the quadratic
+/// fit of Brown and Lowe (BMVC 2002), ordered by row, then column; angles are 0.
+std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral,
+                                      const std::vector<ScaleSpaceMaximum>& maxima,
+                                      const SurfDetectorOptions& options);
 
 }  // namespace arfm_vo

@@ -1,0 +1,91 @@
+#include <opencv2/core/utility.hpp>
+
+#include "arfm_vo/features/box_hessian.h"
+#include "fast_surf.h"
+#include "scale_space.h"
+#include "surf_kernels.h"
+
+namespace arfm_vo {
+namespace {
+
+IntegralView View(const IntegralImage& integral) {
+  return {integral.row(0), integral.stride(), integral.rows(), integral.cols()};
+}
+
+/// Runs work(first, last) on `threads` bands of [0, num).
+template <class Work>
+void ForBands(int num, int threads, const Work& work) {
+  if (threads <= 1) {
+    work(0, num);
+    return;
+  }
+  cv::parallel_for_(
+      cv::Range(0, num), [&](const cv::Range& band) { work(band.start, band.end); }, threads);
+}
+
+void TakeEvery(int stride, const float* from, int num, float* to) {
+  for (int i = 0; i < num; ++i) to[i] = from[i * stride];
+}
+
+}  // namespace
+
+void FastMaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int layer,
+                                     int initial_step, int threads) {
+  const int step = initial_step << octave;
+  const int rows = (integral.rows() + step - 1) / step, cols = (integral.cols() + step - 1) / step;
+  const int size = BoxFilterSize(octave, layer);
+  cv::Mat_<float>& responses = layers_[octave][layer];
+  responses.create(rows, cols + kKernelReadAhead);
+  // Filters 1 and 3 of an octave are filters 0 and 1 of the next: every second value of them.
+  const int below = 2 * layer + 1;
+  if (octave > 0 && below < static_cast<int>(layers_[octave - 1].size())) {
+    const cv::Mat_<float>& finer = layers_[octave - 1][below];
+    for (int row = 0; row < rows; ++row) TakeEvery(2, finer[2 * row], cols, responses[row]);
+    return;
+  }
+  const IntegralView view = View(integral);
+  const SurfKernels& kernels = ChooseSurfKernels();
+  ForBands(rows, threads, [&](int first, int last) {
+    const int width = integral.cols() + 1 + kKernelReadAhead;
+    std::vector<uint32_t> scratch(3 * width + kKernelReadAhead);
+    std::vector<float> full(width);
+    for (int row = first; row < last; ++row) {
+      float* out = step == 1 ? responses[row] : full.data();
+      kernels.compute_determinants(view, row * step, size, scratch.data(), out);
+      if (step > 1) TakeEvery(step, out, cols, responses[row]);
+    }
+  });
+}
+
+std::vector<ScaleSpaceMaximum> FastMaximumFinder::Find(const IntegralImage& integral,
+                                                       const SurfDetectorOptions& options,
+                                                       int threads) {
+  const SurfKernels& kernels = ChooseSurfKernels();
+  const auto threshold = static_cast<float>(options.hessian_threshold);
+  layers_.resize(options.octaves);
+  std::vector<ScaleSpaceMaximum> maxima;
+  std::vector<int32_t> columns(integral.cols() + kKernelReadAhead);
+  for (int octave = 0; octave < options.octaves; ++octave) {
+    const int step = options.initial_step << octave;
+    layers_[octave].resize(options.layers);
+    for (int layer = 0; layer < options.layers; ++layer) {
+      ComputeLayer(integral, octave, layer, options.initial_step, threads);
+    }
+    for (int layer = 1; layer + 1 < options.layers; ++layer) {
+      const cv::Mat_<float>* three = &layers_[octave][layer - 1];
+      const SearchRange range(octave, layer, step, integral.cols(), integral.rows());
+      for (int row = range.first; row < range.end_row; ++row) {
+        const float* const rows[3] = {three[1][row - 1], three[1][row], three[1][row + 1]};
+        const int num =
+            kernels.find_peaks(rows, range.first, range.end_col, threshold, columns.data());
+        for (int i = 0; i < num; ++i) {
+          if (!IsMaximum(three, row, columns[i])) continue;
+          maxima.push_back({columns[i] * step, row * step, octave, layer, rows[1][columns[i]]});
+        }
+      }
+    }
+  }
+  return maxima;
+}
+
+}  // namespace arfm_vo

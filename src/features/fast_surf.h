@@ -1,0 +1,30 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "arfm_vo/features/scale_space_maximum.h"
+#include "arfm_vo/features/surf_descriptor.h"
+#include "arfm_vo/features/surf_detector.h"
+
+namespace arfm_vo {
+
+/// The vectorised detector: the same maxima as the reference's, to the bit. Keeps its memory.
+class FastMaximumFinder {
+ public:
+  /// The scale-space maxima of the image, in the reference's order.
+  std::vector<ScaleSpaceMaximum> Find(const IntegralImage& integral,
+                                      const SurfDetectorOptions& options, int threads);
+
+ private:
+  void ComputeLayer(const IntegralImage& integral, int octave, int layer, int initial_step,
+                    int threads);
+
+  std::vector<std::vector<cv::Mat_<float>>> layers_;  ///< [octave][layer]
+};
+
+/// The vectorised descriptor: fills descriptors and angles as the reference does.
+void DescribeFast(const IntegralImage& integral, const SurfDescriptorOptions& options, int threads,
+                  Features& features);
+
+}  // namespace arfm_vo

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+namespace arfm_vo {
+
+/// The sums of an IntegralImage.
+struct IntegralView {
+  const uint32_t* sums;
+  int stride;      ///< values from row to row
+  int rows, cols;  ///< of the image
+};
+
+constexpr int kKernelReadAhead = 16;  ///< values that kernels may touch beyond the end of a row
+
+constexpr int kRegionLanes = 16;    ///< the 4 x 4 regions of a descriptor, side by side
+constexpr int kRegionSamples = 25;  ///< 5 x 5 samples of a region
+constexpr int kDescriptorSamples = kRegionLanes * kRegionSamples;
+
+/// Where a keypoint's samples lie: (x, y) + scale * turned(u, v).
+struct SampleGrid {
+  float x, y, scale, cosine, sine;
+};
+
+/// The loops over pixels and samples of the fast path, for one instruction set. All sets give the
+/// same bits.
+struct SurfKernels {
+  /// Determinants (eq 3) of row y, one a pixel, 0 where the filter does not fit. `scratch` holds 3
+  /// rows, `out` one row, each with kKernelReadAhead values to spare.
+  void (*compute_determinants)(const IntegralView& integral, int y, int size, uint32_t* scratch,
+                               float* out);
+  /// Columns begin <= x < end where rows[1] is above `threshold` and not below its 8 neighbours;
+  /// returns their number. `columns` has room for end - begin + 8.
+  int (*find_peaks)(const float* const rows[3], int begin, int end, float threshold,
+                    int32_t* columns);
+  /// Offsets, from the origin of the sums, of the corner of pixels nearest to each of `num` samples
+  /// (u, v), a multiple of 8.
+  void (*place_samples)(const SampleGrid& grid, const float* u, const float* v, int num, int stride,
+                        int32_t* offsets);
+  /// Sums of dx, dy, |dx|, |dy| of each region, [region][4], of weighted Haar responses turned by
+  /// the grid's angle. Samples are [kRegionSamples][kRegionLanes].
+  void (*sum_regions)(const SampleGrid& grid, const int32_t* dx, const int32_t* dy,
+                      const float* weights, float* descriptor);
+};
+
+extern const SurfKernels kSurfKernelsBaseline;
+extern const SurfKernels kSurfKernelsAvx2;
+/// The best for this CPU.
+const SurfKernels& ChooseSurfKernels();
+
+}  // namespace arfm_vo
