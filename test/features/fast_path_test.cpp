@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "arfm_vo/features/surf.h"
 #include "base/shared_data.h"
@@ -86,14 +86,13 @@ TEST(SurfFastPath, KeepsNothingFromTheImageBefore) {
 }
 
 TEST(SurfFastPath, AgreesOnRealImages) {
-  const std::filesystem::path shared = SharedData("");
-  if (!std::filesystem::exists(shared))
-    GTEST_SKIP() << "no real images: " << shared << " is absent";
   for (const char* name :
        {"kitti/odometry_06_000-050/image_0/000000.png", "matching/oxford_graf/img1.png",
         "matching/oxford_boat/img4.png", "matching/oxford_leuven/img6.png"}) {
     SCOPED_TRACE(name);
-    const cv::Mat grey = cv::imread((shared / name).string(), cv::IMREAD_GRAYSCALE);
+    const std::string path = FindShared(name);
+    if (path.empty()) GTEST_SKIP() << "the real image " << name << " is not there";
+    const cv::Mat grey = cv::imread(path, cv::IMREAD_GRAYSCALE);
     ASSERT_FALSE(grey.empty());
     ExpectPathsAgree(grey);
   }
