@@ -9,7 +9,8 @@ namespace {
 constexpr double kMinDepth = 1e-3;     ///< m
 constexpr double kBehindCamera = 1e5;  ///< sigma, the error of a point that cannot be seen
 
-/// Jl with Exp(omega + d) = Exp(Jl d) Exp(omega) to first order (Chirikjian 2012, 10.86).
+}  // namespace
+
 Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega) {
   const double angle = omega.norm();
   const Eigen::Matrix3d skew = Skew(omega);
@@ -19,8 +20,6 @@ Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega) {
   return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / (angle * angle) * skew +
          (angle - std::sin(angle)) / (angle * angle * angle) * skew * skew;
 }
-
-}  // namespace
 
 Eigen::Matrix<double, 4, 6> ReprojectionTerm::ByPose() const {
   Eigen::Matrix<double, 4, 6> by_pose;

@@ -274,12 +274,28 @@ void NormalEquations::MeasureStep(double damping, BundleStep& step) const {
 }
 
 void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
+  // To first order this is BoxPlus and addition. A stretch of the path that turns as a whole must
+  // keep its shape, though, or long paths converge slowly: poses move by the exponential of SE(3),
+  // and a point moves with the first pose that sees it.
+  const std::vector<Rigid3> old = state.camera_from_world;
   for (int i = 0; i < structure_.num_free_poses(); ++i) {
     Rigid3& pose = state.camera_from_world[structure_.pose_of_free[i]];
-    pose = BoxPlus(pose, step.reduced.segment<6>(6 * i));
+    const Eigen::Vector3d turn = step.reduced.segment<3>(6 * i);
+    const Eigen::Vector3d shift = step.reduced.segment<3>(6 * i + 3);
+    pose = Rigid3(ExpSO3(turn), Eigen::Vector3d(LeftJacobianSO3(turn) * shift)) * pose;
   }
   for (size_t track = 0; track < step.points.size(); ++track) {
-    state.points[structure_.tracks[track].point] += step.points[track];
+    const BundleStructure::Sighting& host = structure_.sightings[structure_.tracks[track].first];
+    Eigen::Vector3d& point = state.points[structure_.tracks[track].point];
+    if (host.free_pose == BundleStructure::kFixed) {
+      point += step.points[track];
+      continue;
+    }
+    const auto host_step = step.reduced.segment<6>(6 * host.free_pose);
+    const Eigen::Vector3d x = old[host.pose] * point;
+    const Eigen::Vector3d moved_x = x + host_step.head<3>().cross(x) + host_step.tail<3>() +
+                                    old[host.pose].rotation * step.points[track];
+    point = state.camera_from_world[host.pose].Inverse() * moved_x;
   }
   state.correction.rotation += step.reduced.tail<3>();
 }

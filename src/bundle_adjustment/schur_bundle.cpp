@@ -15,12 +15,12 @@ constexpr double kFirstDamping = 1e-4;
 constexpr double kMinDamping = 1e-16;
 constexpr double kMaxDamping = 1e16;
 
-/// The damping of Levenberg and Marquardt by Nielsen's rule (1999), as in Ceres.
+/// The damping of Levenberg and Marquardt by the rule of Nielsen (1999), but falling faster.
 class Damping {
  public:
   double value() const { return value_; }
   void Accept(double quality) {
-    value_ *= std::max(1.0 / 3, 1 - std::pow(2 * quality - 1, 3));
+    value_ *= std::max(0.1, 1 - std::pow(2 * quality - 1, 3));
     value_ = std::max(value_, kMinDamping);
     factor_ = 2;
   }

@@ -31,6 +31,8 @@ struct CorridorOptions {
   double outlier_share = 0;
   StereoCorrection correction;  ///< of the camera that takes the pictures
   double pose_error_rad = 0.005, pose_error_m = 0.05, point_error_share = 0.03;
+  /// Of each step: what an odometry's path gathers; it takes the points along.
+  double drift_rad = 0, drift_m = 0;
   int num_fixed = 2;
   int seed = 1;
 };
@@ -44,6 +46,11 @@ struct CorridorScene {
 };
 
 namespace corridor {
+
+/// The pose about which a point comes into view.
+inline int FirstPose(const CorridorOptions& options, int point) {
+  return static_cast<int>(int64_t{point} * options.num_poses / options.num_points);
+}
 
 /// A point on a wall, the floor or far ahead, in the frame of the camera that sees it first.
 inline Eigen::Vector3d RandomPoint(RandomEngine& engine) {
@@ -80,6 +87,35 @@ inline void AddObservations(const CorridorOptions& options, int first_pose, int 
   }
 }
 
+/// Sets the problem's poses and points: the truth with drift and errors.
+inline void Disturb(const CorridorOptions& options, RandomEngine& engine, CorridorScene& scene) {
+  scene.problem.camera = kBundleCamera;
+  std::vector<Rigid3> drifted_from_true;  // of the world, as each pose has it
+  Rigid3 drift;
+  for (int i = 0; i < options.num_poses; ++i) {
+    const bool is_fixed = i < options.num_fixed;
+    scene.problem.pose_is_fixed.push_back(is_fixed);
+    Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
+    const Rigid3& truth = scene.camera_from_world[i];
+    if (!is_fixed) {
+      error << options.drift_rad * RandomGaussian3(engine),
+          options.drift_m * RandomGaussian3(engine);
+      drift = drift * truth.Inverse() * BoxPlus(truth, error);
+      error << options.pose_error_rad * RandomGaussian3(engine),
+          options.pose_error_m * RandomGaussian3(engine);
+    }
+    drifted_from_true.push_back(drift.Inverse());
+    scene.problem.camera_from_world.push_back(BoxPlus(truth * drift, error));
+  }
+  const int num_points = static_cast<int>(scene.points.size());
+  for (int i = 0; i < num_points; ++i) {
+    const double sigma = 10 * options.point_error_share;  // at a typical distance
+    scene.problem.points.push_back(
+        drifted_from_true[FirstPose(options, i)] *
+        Eigen::Vector3d(scene.points[i] + sigma * RandomGaussian3(engine)));
+  }
+}
+
 }  // namespace corridor
 
 inline CorridorScene MakeCorridor(const CorridorOptions& options) {
@@ -93,28 +129,14 @@ inline CorridorScene MakeCorridor(const CorridorOptions& options) {
   }
   while (static_cast<int>(scene.points.size()) < options.num_points) {
     const int point = static_cast<int>(scene.points.size());
-    const int first = static_cast<int>(int64_t{point} * options.num_poses / options.num_points);
+    const int first = corridor::FirstPose(options, point);
     const Eigen::Vector3d x = corridor::RandomPoint(engine);
     if (!corridor::IsInView(options.correction, x)) continue;
     scene.points.push_back(scene.camera_from_world[first].Inverse() * x);
     // Points of the first poses may have come into view before: they are seen from there on.
     corridor::AddObservations(options, std::max(0, first - 2), point, engine, scene);
   }
-  scene.problem.camera = kBundleCamera;
-  scene.problem.pose_is_fixed.assign(options.num_poses, 0);
-  for (int i = 0; i < options.num_poses; ++i) {
-    Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
-    scene.problem.pose_is_fixed[i] = i < options.num_fixed;
-    if (i >= options.num_fixed) {
-      error << options.pose_error_rad * RandomGaussian3(engine),
-          options.pose_error_m * RandomGaussian3(engine);
-    }
-    scene.problem.camera_from_world.push_back(BoxPlus(scene.camera_from_world[i], error));
-  }
-  for (const Eigen::Vector3d& x : scene.points) {
-    const double depth = 10;
-    scene.problem.points.push_back(x + options.point_error_share * depth * RandomGaussian3(engine));
-  }
+  corridor::Disturb(options, engine, scene);
   return scene;
 }
 

@@ -6,6 +6,10 @@
 
 namespace arfm_vo {
 
+/// Jl with Exp(omega + d) = Exp(Jl d) Exp(omega) to first order, and ExpSE3(omega, v) =
+/// (Exp(omega), Jl v) (Chirikjian 2012, 10.86).
+Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega);
+
 /// The reprojection error of a stereo observation of point X by pose (R, t), px / sigma:
 ///   r = (pi(x) - (u_left, v_left), pi(E (x - (b, 0, 0))) - (u_right, v_right)) / sigma
 ///   x = R X + t,  E = Exp(rho)
