@@ -24,11 +24,12 @@ struct Outcome {
   std::string out, error;
 };
 
-/// Runs `command` (a program of this package and its arguments).
-Outcome RunProgram(const SequenceFolder& folder, const std::string& command) {
+/// Runs `command` (a program of this package and its arguments) after `environment`.
+Outcome RunProgram(const SequenceFolder& folder, const std::string& command,
+                   const std::string& environment = "") {
   const std::string out = folder.Root() + "/stdout", error = folder.Root() + "/stderr";
-  const int status =
-      std::system((ARFM_VO_PROGRAM_DIR "/" + command + " >" + out + " 2>" + error).c_str());
+  const std::string program = environment + " " ARFM_VO_PROGRAM_DIR "/" + command;
+  const int status = std::system((program + " >" + out + " 2>" + error).c_str());
   return {WEXITSTATUS(status), ReadWholeFile(out), ReadWholeFile(error)};
 }
 
@@ -92,6 +93,28 @@ TEST(KittiOdometry, TakesStrideAndPairs) {
   EXPECT_EQ(lines["pairs"], 2);
   EXPECT_NEAR(lines["path_length_m"], 0.5, 0.05);
   EXPECT_NEAR(lines["length_ratio"], 1, 0.1);
+}
+
+TEST(KittiOdometry, ASequenceWithNothingToSeeIsLostAndSaidSo) {
+  const SequenceFolder folder(4);
+  const std::string output = folder.Root() + "/out";
+  const Outcome outcome =
+      RunProgram(folder, "kitti_odometry " + folder.Path() + " --output " + output);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_EQ(ReadLines(outcome.out)["lost"], 4);
+  EXPECT_EQ(ReadKittiPoses(output + "/poses.txt").size(), 4u);
+  EXPECT_EQ(ReadWholeFile(output + "/trajectory.tum"), "");
+}
+
+TEST(KittiOdometry, SaysSoWhereThePlotterIsMissing) {
+  const SequenceFolder folder(2);
+  const std::string output = folder.Root() + "/out";
+  const Outcome outcome = RunProgram(
+      folder, "kitti_odometry " + folder.Path() + " --output " + output, "PATH=/no/such/folder");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.error, "kitti_odometry: no trajectory.png: gnuplot is not installed\n");
+  EXPECT_TRUE(fs::exists(output + "/poses.txt"));
+  EXPECT_FALSE(fs::exists(output + "/trajectory.png"));
 }
 
 TEST(KittiOdometry, RefusesEachDamageWithOneLineAndWritesNothing) {
