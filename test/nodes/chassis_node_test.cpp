@@ -309,7 +309,7 @@ TEST_F(ChassisNodeTest, EndingTheNodeLeavesTheRoverStandingInStandby) {
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "chassis_node_rostest");
+  ros::init(argc, argv, "test_chassis_node");
   ros::NodeHandle keep_alive;
   return RUN_ALL_TESTS();
 }

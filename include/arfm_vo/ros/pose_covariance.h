@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/array.hpp>
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// On the diagonal where nothing is known: large, yet finite (1e308 makes rviz fall over).
+constexpr double kUnknownVariance = 9999;
+
+/// The base's covariance (x, y, z m, rotations about x, y, z rad), seen from the base, of a camera
+/// pose with the covariance that PoseEstimate has: (rotation rad, translation m), camera frame.
+Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from_camera);
+
+/// How sure the odometry is of where the base stands in odom: the uncertainty of the keyframes
+/// passed adds up, and an unsure heading makes the place unsure with the way.
+class DriftCovariance {
+ public:
+  /// Covariance (x, y, z, rotations about the axes of odom) of a pose that has `base_covariance`
+  /// against the map.
+  Matrix6 At(const Rigid3& odom_from_base, const Matrix6& base_covariance) const;
+
+  /// The base passes a keyframe: from here on its uncertainty stays.
+  void AddKeyframe(const Rigid3& odom_from_base, const Matrix6& base_covariance);
+
+ private:
+  Rigid3 odom_from_keyframe_;
+  Matrix6 covariance_ = Matrix6::Zero();  // at the last keyframe, axes of odom
+};
+
+/// Row by row, as nav_msgs/Odometry holds it.
+boost::array<double, 36> ToCovarianceMessage(const Matrix6& covariance);
+
+}  // namespace arfm_vo

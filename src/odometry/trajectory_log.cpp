@@ -1,0 +1,47 @@
+#include "arfm_vo/odometry/trajectory_log.h"
+
+#include <algorithm>
+
+namespace arfm_vo {
+
+void TrajectoryLog::Add(const OdometryUpdate& update, const LocalMap& map) {
+  for (const Keyframe& keyframe : map.keyframes())
+    keyframes_[keyframe.id].camera_from_world = keyframe.camera_from_world;
+  if (!update.pose.IsTracked() || map.keyframes().empty()) return AddLost(update.stamp_s);
+  const Keyframe& keyframe = map.keyframes().back();
+  frames_.push_back({update.stamp_s, true, keyframe.id,
+                     update.pose.camera_from_world * keyframe.camera_from_world.Inverse()});
+}
+
+void TrajectoryLog::Apply(const MapUpdate& update) {
+  for (const MapUpdate::KeyframePose& keyframe : update.keyframes) {
+    const auto known = keyframes_.find(keyframe.id);
+    if (known != keyframes_.end()) known->second.camera_from_map = keyframe.camera_from_world;
+  }
+}
+
+Rigid3 TrajectoryLog::MapFromWorld() const {
+  const auto newest = std::find_if(
+      keyframes_.rbegin(), keyframes_.rend(),
+      [](const auto& keyframe) { return keyframe.second.camera_from_map.has_value(); });
+  if (newest == keyframes_.rend()) return Rigid3();
+  return newest->second.camera_from_map->Inverse() * newest->second.camera_from_world;
+}
+
+Trajectory TrajectoryLog::Poses() const {
+  const Rigid3 world_from_map = MapFromWorld().Inverse();
+  Trajectory trajectory;
+  for (const Frame& frame : frames_) {
+    TrajectoryPose pose{frame.stamp_s, Rigid3(), frame.is_tracked};
+    if (frame.is_tracked) {
+      const KeyframePlace& keyframe = keyframes_.at(frame.keyframe);
+      const Rigid3 camera_from_map =
+          keyframe.camera_from_map.value_or(keyframe.camera_from_world * world_from_map);
+      pose.world_from_camera = (frame.camera_from_keyframe * camera_from_map).Inverse();
+    }
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+}  // namespace arfm_vo
