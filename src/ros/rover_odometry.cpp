@@ -2,8 +2,6 @@
 
 #include <arfm_vo/OdometryStatus.h>
 
-#include <tuple>
-
 namespace arfm_vo {
 namespace {
 
@@ -22,14 +20,6 @@ uint8_t ToState(PoseStatus status) {
       return OdometryStatus::NO_CONSENSUS;
   }
   throw std::logic_error("unknown pose status");
-}
-
-bool IsSame(const StereoCamera& a, const StereoCamera& b) {
-  const auto values = [](const StereoCamera& camera) {
-    return std::tie(camera.fx, camera.fy, camera.cx, camera.cy, camera.baseline_m, camera.width,
-                    camera.height);
-  };
-  return values(a) == values(b);
 }
 
 /// How far a base that kept its last speed may have come.
@@ -58,7 +48,7 @@ RoverOdometry::RoverOdometry(const LocalOdometryOptions& options, const CameraMo
 
 RoverPose RoverOdometry::Process(const StereoFrame& frame, const StereoCamera& camera,
                                  const StereoImages& images, const std_msgs::Header& header) {
-  if (!odometry_ || !IsSame(camera, camera_)) {
+  if (!odometry_ || !(camera == camera_)) {
     if (odometry_) StartWorld();
     odometry_ = std::make_unique<LocalOdometry>(camera, options_);
     camera_ = camera;
