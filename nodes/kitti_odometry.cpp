@@ -1,7 +1,7 @@
 #include "arfm_vo/datasets/kitti_sequence.h"
 #include "arfm_vo/evaluation/odometry_program.h"
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   using namespace arfm_vo;
   OdometryProgram program;
   program.name = "kitti_odometry";
@@ -11,8 +11,8 @@ int main(int argc, char **argv) {
       "optionally "
       "times.txt\n"
       "and poses.txt; or raw data), in process and repeatable.";
-  program.open = [](const std::string &folder, const PairSelection &selection) {
-    return std::make_unique<KittiSequence>(folder, selection);
+  program.open = [](const std::string& folder, const PairSelection& selection) {
+    return std::make_unique<KittiSequence>(folder, selection, KittiSequence::Loading::kOnDemand);
   };
   return RunOdometryProgram(argc, argv, program);
 }

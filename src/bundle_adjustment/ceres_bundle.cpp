@@ -80,30 +80,28 @@ class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, 3> {
     ReprojectionTerm term;
     if (jacobians == nullptr) {
       model.Evaluate(observation_, pose.RotationMatrix(), pose.translation, point, term.residual);
-    } else if (!model.Linearize(observation_, pose.RotationMatrix(), pose.translation, point,
-                                term)) {
-      term.by_pose.setZero();
-      term.by_point.setZero();
-      term.by_correction.setZero();
+    } else {
+      model.Linearize(observation_, pose.RotationMatrix(), pose.translation, point, term);
     }
     Eigen::Map<Eigen::Matrix<double, N, 1>>(residuals + 0) = term.residual.template head<N>();
-    if (jacobians != nullptr) SetJacobians(term, jacobians);
+    if (jacobians != nullptr) SetJacobians(term, pose.RotationMatrix(), jacobians);
     return true;
   }
 
  private:
-  void SetJacobians(const ReprojectionTerm& term, double** jacobians) const {
+  void SetJacobians(const ReprojectionTerm& term, const Eigen::Matrix3d& rotation,
+                    double** jacobians) const {
     using Matrix3 = Eigen::Matrix<double, N, 3, Eigen::RowMajor>;
     if (jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor<N>>(jacobians[0]) << term.by_pose.template topRows<N>(),
+      Eigen::Map<RowMajor<N>>(jacobians[0]) << term.ByPose().template topRows<N>(),
           Eigen::Matrix<double, N, 1>::Zero();
     }
     if (jacobians[1] != nullptr) {
-      Eigen::Map<Matrix3>(jacobians[1] + 0) = term.by_point.template topRows<N>();
+      Eigen::Map<Matrix3>(jacobians[1] + 0) = term.ByPoint(rotation).template topRows<N>();
     }
     if (jacobians[2] != nullptr) {
       Eigen::Map<Matrix3> by_correction(jacobians[2]);
-      by_correction = term.by_correction.template topRows<N>();
+      by_correction = term.ByCorrection().template topRows<N>();
       for (int axis = 0; axis < 3; ++axis) {
         if (!selection_.correction_is_free[axis]) by_correction.col(axis).setZero();
       }

@@ -1,9 +1,9 @@
 #include "arfm_vo/datasets/kitti_sequence.h"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/kitti_calibration.h"
 #include "arfm_vo/datasets/kitti_times.h"
 #include "arfm_vo/datasets/png_image.h"
@@ -71,15 +71,11 @@ void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
                                         " lines for " + std::to_string(num_pairs) + " pairs");
 }
 
-double GetThreadCpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 }  // namespace
 
-KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection) {
+KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection,
+                             Loading loading)
+    : loading_(loading) {
   selection.Check();
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
@@ -125,8 +121,8 @@ SequencePair KittiSequence::Load(const Frame& frame) {
 
 void KittiSequence::StartLoading() {
   if (num_started_ == frames_.size()) return;
-  ahead_ = std::async(std::launch::async,
-                      [this, frame = frames_[num_started_++]] { return Load(frame); });
+  const auto policy = loading_ == Loading::kAhead ? std::launch::async : std::launch::deferred;
+  ahead_ = std::async(policy, [this, frame = frames_[num_started_++]] { return Load(frame); });
 }
 
 std::optional<SequencePair> KittiSequence::Next() {

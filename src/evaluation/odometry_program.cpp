@@ -21,51 +21,43 @@ struct Arguments {
   PairSelection selection;
 };
 
-void AddOptions(Arguments &arguments, po::options_description &options) {
-  options.add_options()("config",
-                        po::value(&arguments.config)->value_name("FILE"),
+void AddOptions(Arguments& arguments, po::options_description& options) {
+  options.add_options()("config", po::value(&arguments.config)->value_name("FILE"),
                         "options of the odometry, YAML")(
       "print-config", po::bool_switch(&arguments.print_config),
       "print all options with their values and leave")(
       "pairs", po::value(&arguments.selection.max_pairs)->value_name("N"),
       "stop after N pairs (counted after --stride)")(
-      "stride", po::value(&arguments.selection.stride)->value_name("K"),
-      "take every K-th pair")(
+      "stride", po::value(&arguments.selection.stride)->value_name("K"), "take every K-th pair")(
       "output", po::value(&arguments.output)->value_name("DIR"),
       "write poses.txt, poses_online.txt, trajectory.tum, timing.csv and "
       "trajectory.png there");
 }
 
-OdometryOptions ReadOptions(const Arguments &arguments) {
-  return arguments.config.empty()
-             ? OdometryOptions()
-             : ReadYamlFile<OdometryOptions>(arguments.config);
+OdometryOptions ReadOptions(const Arguments& arguments) {
+  return arguments.config.empty() ? OdometryOptions()
+                                  : ReadYamlFile<OdometryOptions>(arguments.config);
 }
 
-void Run(const OdometryProgram &program, const Arguments &arguments) {
+void Run(const OdometryProgram& program, const Arguments& arguments) {
   const OdometryOptions options = ReadOptions(arguments);
-  if (!arguments.output.empty())
-    CheckCanWriteRun(arguments.output);
+  if (!arguments.output.empty()) CheckCanWriteRun(arguments.output);
   const auto sequence = program.open(arguments.input, arguments.selection);
   VisualOdometry odometry(sequence->camera(), options);
   OdometryRun run;
   {
     ProgressBar bar(stderr);
-    run = RunOdometry(*sequence, odometry,
-                      [&](int done, int all) { bar.Show(done, all); });
+    run = RunOdometry(*sequence, odometry, [&](int done, int all) { bar.Show(done, all); });
   }
   Require(!run.trajectory.empty(), arguments.input + ": holds no stereo pairs");
-  const std::string complaint =
-      arguments.output.empty() ? "" : WriteRun(run, arguments.output);
-  if (!complaint.empty())
-    std::cerr << program.name << ": " << complaint << "\n";
+  const std::string complaint = arguments.output.empty() ? "" : WriteRun(run, arguments.output);
+  if (!complaint.empty()) std::cerr << program.name << ": " << complaint << "\n";
   std::cout << FormatRun(run) << sequence->FormatSummary();
 }
 
-} // namespace
+}  // namespace
 
-int RunOdometryProgram(int argc, const char *const *argv,
-                       const OdometryProgram &odometry_program) {
+int RunOdometryProgram(int argc, const char* const* argv, const OdometryProgram& odometry_program) {
   Arguments arguments;
   Program program;
   program.name = odometry_program.name;
@@ -74,12 +66,11 @@ int RunOdometryProgram(int argc, const char *const *argv,
   AddOptions(arguments, program.options);
   program.options.add(odometry_program.options);
   program.answer = [&] {
-    if (arguments.print_config)
-      std::cout << WriteYaml(ReadOptions(arguments));
+    if (arguments.print_config) std::cout << WriteYaml(ReadOptions(arguments));
     return arguments.print_config;
   };
   program.run = [&] { Run(odometry_program, arguments); };
   return RunProgram(argc, argv, program);
 }
 
-} // namespace arfm_vo
+}  // namespace arfm_vo

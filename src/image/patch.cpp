@@ -94,6 +94,7 @@ std::optional<Patch> Patch::Sample(const cv::Mat& grey, const cv::Point2f& centr
   const Samples& weights = kPatchWindow.weights;
   SubtractConstant(values, Dot(weights, values));
   Patch patch;
+  patch.raw_gradient_x_ = gradient_x;
   patch.values_ = Weighted(values);
   patch.squared_values_ = Dot(patch.values_, values);
   if (patch.squared_values_ > 0) {

@@ -15,23 +15,27 @@ void LandmarkAlignerOptions::Check() const {
   Require(max_right_row_px > 0, "alignment.max_right_row_px must be positive");
 }
 
-std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera,
-                                            const Eigen::Vector3d& x_in_world,
+std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera, const Landmark& landmark,
                                             const Rigid3& source_from_world,
                                             const Rigid3& target_from_world) {
-  const Eigen::Vector3d x_in_source = source_from_world * x_in_world;
-  const Eigen::Vector3d x_in_target = target_from_world * x_in_world;
+  const Eigen::Vector3d x_in_source = source_from_world * landmark.x_in_world;
+  const Eigen::Vector3d x_in_target = target_from_world * landmark.x_in_world;
   if (x_in_source.z() <= 0 || x_in_target.z() <= 0) return std::nullopt;
-  // One pixel step in the source is z / f metres along its x or y at the same depth.
+  const Eigen::Vector3d normal = source_from_world.rotation * landmark.normal_in_world;
+  const double distance = normal.dot(x_in_source);
+  if (distance < 1e-3 * x_in_source.norm()) return std::nullopt;
+  // A pixel step in the source moves the point X of the plane m X = 1 by (z / f) (e_i - m_i X).
+  const Eigen::Vector3d m = normal / distance;
+  Eigen::Matrix<double, 3, 2> step;
+  step.col(0) = x_in_source.z() / camera.fx * (Eigen::Vector3d::UnitX() - m.x() * x_in_source);
+  step.col(1) = x_in_source.z() / camera.fy * (Eigen::Vector3d::UnitY() - m.y() * x_in_source);
   const Eigen::Matrix3d rotation =
       (target_from_world.rotation * source_from_world.rotation.conjugate()).toRotationMatrix();
   const double x = x_in_target.x(), y = x_in_target.y(), z = x_in_target.z();
   Eigen::Matrix<double, 2, 3> projection;
   projection << camera.fx / z, 0, -camera.fx * x / (z * z), 0, camera.fy / z,
       -camera.fy * y / (z * z);
-  Eigen::Matrix2d target_from_source = projection * rotation.leftCols<2>() * x_in_source.z();
-  target_from_source.col(0) /= camera.fx;
-  target_from_source.col(1) /= camera.fy;
+  const Eigen::Matrix2d target_from_source = projection * rotation * step;
   if (target_from_source.determinant() < 1e-6) return std::nullopt;
   const Eigen::Matrix2f inverse = target_from_source.inverse().cast<float>();
   return cv::Matx22f(inverse(0, 0), inverse(0, 1), inverse(1, 0), inverse(1, 1));
@@ -47,8 +51,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
                                                           const Keyframe& reference,
                                                           const StereoImages& images,
                                                           const Rigid3& camera_from_world) const {
-  const auto warp = SourceFromTarget(camera_, landmark.x_in_world, reference.camera_from_world,
-                                     camera_from_world);
+  const auto warp =
+      SourceFromTarget(camera_, landmark, reference.camera_from_world, camera_from_world);
   if (!warp) return std::nullopt;
   const double shrinkage = std::sqrt(cv::determinant(*warp));
   if (shrinkage * options_.max_magnification < 1 || shrinkage > options_.max_magnification) {

@@ -79,6 +79,16 @@ Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
   return sigma_px * sigma_px * jacobian * pixels * jacobian.transpose();
 }
 
+Eigen::Vector3d SurfaceNormal(const StereoCamera& camera, const StereoPoint& point) {
+  // The plane m X = 1 has the disparity f b m r along the ray r = X / z.
+  const Eigen::Vector3d& x = point.x_in_camera;
+  Eigen::Vector3d m;
+  m.head<2>() = point.disparity_gradient / camera.baseline_m;
+  m.y() *= camera.fy / camera.fx;
+  m.z() = (1 - m.head<2>().dot(x.head<2>())) / x.z();
+  return m.normalized();
+}
+
 LocalMap::LocalMap(const StereoCamera& camera, const LocalMapOptions& options)
     : camera_(camera), options_(options) {
   camera.Check();
@@ -145,6 +155,7 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, K
   landmark.covariance = rotation *
                         TriangulationCovariance(camera_, point.x_in_camera, point.sigma_px) *
                         rotation.transpose();
+  landmark.normal_in_world = rotation * SurfaceNormal(camera_, point);
   landmark.reference = keyframe.id;
   landmark.keypoint = frame.features.keypoints[point.keypoint];
   landmark.keypoint.x = static_cast<float>(point.observation.x());
@@ -256,6 +267,7 @@ void LocalMap::Transform(const Rigid3& new_from_old) {
   for (auto& [id, landmark] : landmarks_) {
     landmark.x_in_world = new_from_old * landmark.x_in_world;
     landmark.covariance = rotation * landmark.covariance * rotation.transpose();
+    landmark.normal_in_world = rotation * landmark.normal_in_world;
   }
 }
 

@@ -5,12 +5,11 @@
 namespace arfm_vo {
 namespace {
 
-Rigid3 Interpolate(const TrajectoryPose& before, const TrajectoryPose& after, double stamp_s) {
+/// The pose at `stamp_s` between two frames.
+Rigid3 InterpolateAt(const TrajectoryPose& before, const TrajectoryPose& after, double stamp_s) {
   const double span_s = after.stamp_s - before.stamp_s;
-  const double part = span_s > 0 ? (stamp_s - before.stamp_s) / span_s : 0;
-  const Rigid3 &a = before.world_from_camera, &b = after.world_from_camera;
-  return {a.rotation.slerp(part, b.rotation),
-          Eigen::Vector3d((1 - part) * a.translation + part * b.translation)};
+  return Interpolate(before.world_from_camera, after.world_from_camera,
+                     span_s > 0 ? (stamp_s - before.stamp_s) / span_s : 0);
 }
 
 }  // namespace
@@ -28,7 +27,7 @@ void InterpolateLostPoses(Trajectory& trajectory) {
     if (after <= pose) after = std::find_if(pose, trajectory.end(), is_tracked);
     const auto& next = after == trajectory.end() ? *before : *after;
     pose->world_from_camera =
-        pose < before ? before->world_from_camera : Interpolate(*before, next, pose->stamp_s);
+        pose < before ? before->world_from_camera : InterpolateAt(*before, next, pose->stamp_s);
   }
 }
 

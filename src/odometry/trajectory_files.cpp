@@ -5,12 +5,13 @@
 
 namespace arfm_vo {
 
+// Adding 0.0 turns -0 into 0.
 std::string FormatKitti(const Trajectory& trajectory) {
   std::string text;
   for (const TrajectoryPose& pose : trajectory) {
     const Eigen::Matrix<double, 3, 4> matrix = pose.world_from_camera.Matrix();
     for (int i = 0; i < 12; ++i) {
-      text += FormatNumber(matrix(i / 4, i % 4)) + (i < 11 ? " " : "\n");
+      text += FormatNumber(matrix(i / 4, i % 4) + 0.0) + (i < 11 ? " " : "\n");
     }
   }
   return text;
@@ -25,7 +26,7 @@ std::string FormatTum(const Trajectory& trajectory) {
     if (q.w() < 0) q = -q;
     text += FormatNumber(pose.stamp_s, true);
     for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
-      text += " " + FormatNumber(value);
+      text += " " + FormatNumber(value + 0.0);
     }
     text += "\n";
   }

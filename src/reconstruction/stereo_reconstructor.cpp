@@ -32,7 +32,7 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
                                          const StereoReconstructionOptions& options)
     : camera_(camera),
       options_(options),
-      aligner_(options.alignment),
+      aligner_(options.alignment, options.slant),
       row_model_(camera.width, camera.height),
       row_search_(options.row_search) {
   camera.Check();
@@ -83,14 +83,14 @@ StereoReconstructor::Sightings StereoReconstructor::Refine(
   Sightings sightings;
   for (int i = 0; i < left.size(); ++i) {
     if (!guesses[i]) continue;
-    const auto patch = Patch::Sample(images.left, Position(left.keypoints[i]));
-    if (!patch) continue;
-    const PatchAlignment alignment = aligner_.Align(*patch, images.right, *guesses[i]);
+    const SlantAlignment slanted =
+        aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+    const PatchAlignment& alignment = slanted.alignment;
     if (!alignment.IsAligned()) continue;
     cv::Vec3f covariance = inflation * alignment.covariance;
     covariance[0] += floor;
     covariance[2] += floor;
-    sightings.push_back({i, alignment.position, covariance});
+    sightings.push_back({i, alignment.position, covariance, slanted.disparity_gradient});
   }
   return sightings;
 }
@@ -124,6 +124,7 @@ std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left
   point.observation = {left.x, left.y, u_right};
   point.row_residual_px = row_residual;
   point.sigma_px = std::sqrt(variance);
+  point.disparity_gradient = {sighting.disparity_gradient[0], sighting.disparity_gradient[1]};
   point.x_in_camera = camera_.Triangulate(left.x, left.y, disparity);
   return point;
 }

@@ -2,34 +2,349 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <limits>
+#include <string>
+
+#include "arfm_vo/pose/chi_square.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
 namespace {
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+Vector6d StepBetween(const Rigid3& truth, const Rigid3& estimate) {
+  const Rigid3 difference = estimate * truth.Inverse();
+  Vector6d step;
+  step << LogSO3(difference.rotation), difference.translation;
+  return step;
+}
+
 double WorstPoseError(const CorridorScene& scene, const BundleResult& result) {
   double worst = 0;
   for (size_t i = 0; i < scene.camera_from_world.size(); ++i) {
-    const Rigid3 error = result.camera_from_world[i] * scene.camera_from_world[i].Inverse();
-    worst = std::max({worst, error.Angle(), error.translation.norm()});
+    worst = std::max(worst,
+                     StepBetween(scene.camera_from_world[i], result.camera_from_world[i]).norm());
   }
   return worst;
+}
+
+double WorstPointError(const CorridorScene& scene, const BundleResult& result) {
+  double worst = 0;
+  for (size_t i = 0; i < scene.points.size(); ++i) {
+    worst = std::max(worst, (result.points[i] - scene.points[i]).norm());
+  }
+  return worst;
+}
+
+BundleOptions ExactOptions(BundleSolver solver) {
+  BundleOptions options;
+  options.solver = solver;
+  options.max_iterations = 50;
+  options.function_tolerance = 1e-12;
+  return options;
 }
 
 TEST(BundleAdjustment, ReturnsToTheTruthWithoutNoise) {
   CorridorOptions corridor;
   corridor.noise_px = 0;
   const CorridorScene scene = MakeCorridor(corridor);
-  for (const StepStrategy strategy : {StepStrategy::kLevenbergMarquardt, StepStrategy::kDogleg}) {
-    BundleOptions options;
-    options.strategy = strategy;
-    options.max_iterations = 50;
-    options.function_tolerance = 1e-12;
-    const BundleResult result = AdjustBundle(scene.problem, options);
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    const BundleResult result = AdjustBundle(scene.problem, ExactOptions(solver));
+    EXPECT_EQ(result.status, BundleStatus::kConverged);
     EXPECT_LT(WorstPoseError(scene, result), 1e-6);
-    for (size_t i = 0; i < scene.points.size(); ++i) {
-      EXPECT_LT((result.points[i] - scene.points[i]).norm(), 1e-4) << i;
+    EXPECT_LT(WorstPointError(scene, result), 1e-4);
+    EXPECT_GT(result.initial_cost, 1e3);
+    EXPECT_LT(result.final_cost, 1e-3);
+  }
+}
+
+TEST(BundleAdjustment, DoglegReturnsToTheTruthToo) {
+  CorridorOptions corridor;
+  corridor.noise_px = 0;
+  const CorridorScene scene = MakeCorridor(corridor);
+  BundleOptions options = ExactOptions(BundleSolver::kCeres);
+  options.strategy = StepStrategy::kDogleg;
+  EXPECT_LT(WorstPoseError(scene, AdjustBundle(scene.problem, options)), 1e-6);
+  options.solver = BundleSolver::kOwn;
+  EXPECT_THROW(AdjustBundle(scene.problem, options), std::invalid_argument);
+}
+
+TEST(BundleAdjustment, OwnSolverAgreesWithCeres) {
+  for (const LossKind loss : {LossKind::kSquared, LossKind::kHuber, LossKind::kCauchy}) {
+    CorridorOptions corridor;
+    corridor.outlier_share = 0.05;
+    CorridorScene scene = MakeCorridor(corridor);
+    for (size_t i = 0; i < scene.problem.observations.size(); i += 7) {
+      scene.problem.observations[i].has_right = false;
     }
+    scene.problem.correction_sigma_rad = {1e-3, 0, 1e-3};
+    BundleOptions options = ExactOptions(BundleSolver::kOwn);
+    options.loss = loss;
+    options.with_newest_pose_covariance = true;
+    const BundleResult own = AdjustBundle(scene.problem, options);
+    options.solver = BundleSolver::kCeres;
+    const BundleResult ceres = AdjustBundle(scene.problem, options);
+    EXPECT_NEAR(own.initial_cost, ceres.initial_cost, 1e-9 * own.initial_cost);
+    EXPECT_NEAR(own.final_cost, ceres.final_cost, 1e-7 * own.final_cost);
+    for (size_t i = 0; i < own.camera_from_world.size(); ++i) {
+      EXPECT_LT(StepBetween(own.camera_from_world[i], ceres.camera_from_world[i]).norm(), 1e-5);
+    }
+    EXPECT_LT((own.correction.rotation - ceres.correction.rotation).norm(), 1e-7);
+    EXPECT_EQ(own.correction.rotation.y(), 0);
+    EXPECT_EQ(own.is_inlier, ceres.is_inlier);
+  }
+}
+
+TEST(BundleAdjustment, SparseSolverAgreesWithCeresOnALongPath) {
+  CorridorOptions corridor;
+  corridor.num_poses = 60;
+  corridor.num_points = 1500;
+  CorridorScene scene = MakeCorridor(corridor);
+  scene.problem.correction_sigma_rad.setConstant(1e-3);
+  PoseConstraint loop;  // ties the last pose to the third, as a closed loop does
+  loop.first = 2;
+  loop.second = 59;
+  loop.second_from_first = scene.camera_from_world[59] * scene.camera_from_world[2].Inverse();
+  loop.information.setIdentity();
+  loop.information.diagonal() << 1e6, 1e6, 1e6, 1e4, 1e4, 1e4;
+  scene.problem.constraints.push_back(loop);
+  const BundleResult own = AdjustBundle(scene.problem, ExactOptions(BundleSolver::kOwn));
+  const BundleResult ceres = AdjustBundle(scene.problem, ExactOptions(BundleSolver::kCeres));
+  EXPECT_NEAR(own.final_cost, ceres.final_cost, 1e-7 * own.final_cost);
+  EXPECT_LT(StepBetween(own.camera_from_world[59], ceres.camera_from_world[59]).norm(), 1e-4);
+  EXPECT_LT(WorstPoseError(scene, own), 0.2);
+}
+
+TEST(BundleAdjustment, AConstraintPullsAsItsInformationSays) {
+  // One free pose, drawn by two constraints only: the mean, weighted 3 to 1.
+  BundleProblem problem;
+  problem.camera = kBundleCamera;
+  problem.camera_from_world.resize(2);
+  problem.pose_is_fixed = {1, 0};
+  for (const double weight : {3.0, 1.0}) {
+    PoseConstraint constraint;
+    constraint.first = 0;
+    constraint.second = 1;
+    constraint.second_from_first.translation = {0, 0, weight == 3 ? 1.0 : 2.0};
+    constraint.information = weight * Eigen::Matrix<double, 6, 6>::Identity();
+    problem.constraints.push_back(constraint);
+  }
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    const BundleResult result = AdjustBundle(problem, ExactOptions(solver));
+    EXPECT_NEAR(result.camera_from_world[1].translation.z(), 1.25, 1e-6);
+    EXPECT_NEAR(result.final_cost, 3 * 0.25 * 0.25 + 0.75 * 0.75, 1e-6);
+  }
+}
+
+TEST(BundleAdjustment, LeavesFixedPosesWhereTheyAre) {
+  const CorridorScene scene = MakeCorridor({});
+  const BundleResult result = AdjustBundle(scene.problem, {});
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(result.camera_from_world[i].Matrix(), scene.problem.camera_from_world[i].Matrix());
+  }
+  EXPECT_NE(result.camera_from_world[2].Matrix(), scene.problem.camera_from_world[2].Matrix());
+}
+
+TEST(BundleAdjustment, StandsTenPercentGrossOutliersAndNamesThem) {
+  CorridorOptions corridor;
+  corridor.outlier_share = 0.1;
+  const CorridorScene scene = MakeCorridor(corridor);
+  corridor.outlier_share = 0;
+  const double clean_error =
+      WorstPoseError(scene, AdjustBundle(MakeCorridor(corridor).problem, {}));
+  for (const LossKind loss : {LossKind::kHuber, LossKind::kCauchy}) {
+    BundleOptions options;
+    options.loss = loss;
+    const BundleResult result = AdjustBundle(scene.problem, options);
+    EXPECT_LT(WorstPoseError(scene, result), std::max(3 * clean_error, 0.05));
+    int num_missed = 0, num_false = 0, num_outliers = 0;
+    for (size_t i = 0; i < scene.is_outlier.size(); ++i) {
+      num_outliers += scene.is_outlier[i];
+      num_missed += scene.is_outlier[i] && result.is_inlier[i];
+      num_false += !scene.is_outlier[i] && !result.is_inlier[i];
+    }
+    EXPECT_LT(num_missed, 0.05 * num_outliers);
+    EXPECT_LT(num_false, 0.05 * scene.is_outlier.size());
+  }
+}
+
+TEST(BundleAdjustment, MeasuresTheScaleOfTheResiduals) {
+  CorridorScene scene = MakeCorridor({});
+  for (BundleObservation& observation : scene.problem.observations) observation.sigma_px /= 2;
+  EXPECT_NEAR(AdjustBundle(scene.problem, {}).scale, 2, 0.15);
+}
+
+TEST(BundleAdjustment, NewestPoseCovarianceIsHonest) {
+  constexpr int kTrials = 150;
+  double sum = 0;
+  CorridorOptions corridor;
+  corridor.num_poses = 5;
+  corridor.num_points = 80;
+  BundleOptions options;
+  options.with_newest_pose_covariance = true;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    corridor.seed = trial + 1;
+    const CorridorScene scene = MakeCorridor(corridor);
+    const BundleResult result = AdjustBundle(scene.problem, options);
+    ASSERT_TRUE(result.newest_pose_covariance);
+    const Vector6d step =
+        StepBetween(scene.camera_from_world.back(), result.camera_from_world.back());
+    sum += step.dot(result.newest_pose_covariance->ldlt().solve(step));
+  }
+  EXPECT_GT(sum, ChiSquareQuantile(6 * kTrials, 0.025));
+  EXPECT_LT(sum, ChiSquareQuantile(6 * kTrials, 0.975));
+}
+
+TEST(BundleAdjustment, PointCovarianceIsThatOfStereoForAPointSeenOnce) {
+  BundleProblem problem;
+  problem.camera = kBundleCamera;
+  problem.camera_from_world.resize(1);
+  problem.pose_is_fixed = {1};
+  problem.points = {{0.27, 0, 10}};  // half way between the eyes
+  BundleObservation observation{0, 0, ProjectStereo4(kBundleCamera, {}, problem.points[0]), true,
+                                0.5};
+  problem.observations = {observation};
+  BundleOptions options;
+  options.with_point_covariance = true;
+  const BundleResult result = AdjustBundle(problem, options);
+  ASSERT_EQ(result.point_covariances.size(), 1u);
+  const Eigen::Matrix3d& covariance = result.point_covariances[0];
+  // Disparity has the variance 2 sigma^2, and Z = b f / d; v is measured twice.
+  const double depth_sigma = 10 * 10 / (0.54 * 707) * 0.5 * std::sqrt(2.0);
+  EXPECT_NEAR(covariance(2, 2), depth_sigma * depth_sigma, 1e-6);
+  EXPECT_NEAR(covariance(1, 1), std::pow(0.5 * 10 / 707, 2) / 2, 1e-9);
+  EXPECT_EQ(result.is_inlier, std::vector<char>(1, 1));
+}
+
+TEST(BundleAdjustment, ReportsProgressAndCanBeCancelled) {
+  const CorridorScene scene = MakeCorridor({});
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    std::vector<BundleProgress> reports;
+    const BundleResult result =
+        AdjustBundle(scene.problem, ExactOptions(solver), [&](const BundleProgress& progress) {
+          reports.push_back(progress);
+          return reports.size() < 3;
+        });
+    EXPECT_EQ(result.status, BundleStatus::kCancelled);
+    ASSERT_EQ(reports.size(), 3u);
+    EXPECT_EQ(reports[0].iteration, 0);
+    EXPECT_EQ(reports[2].iteration, 2);
+    EXPECT_LT(reports[2].cost, reports[0].cost);
+    EXPECT_LT(result.final_cost, result.initial_cost);
+  }
+}
+
+TEST(BundleAdjustment, StopsWhereIterationsOrTimeRunOut) {
+  const CorridorScene scene = MakeCorridor({});
+  BundleOptions options;
+  options.max_iterations = 1;
+  EXPECT_EQ(AdjustBundle(scene.problem, options).status, BundleStatus::kNotConverged);
+  options = {};
+  options.max_time_s = 1e-9;
+  const BundleResult result = AdjustBundle(scene.problem, options);
+  EXPECT_EQ(result.status, BundleStatus::kNotConverged);
+  EXPECT_LE(result.num_iterations, 1);
+}
+
+TEST(BundleAdjustment, GivesTheSameBytesWithAnyNumberOfThreads) {
+  CorridorOptions corridor;
+  corridor.num_poses = 60;
+  corridor.num_points = 5000;  // enough to be dealt out to threads
+  CorridorScene scene = MakeCorridor(corridor);
+  scene.problem.correction_sigma_rad.setConstant(1e-3);
+  BundleOptions options;
+  const BundleResult one = AdjustBundle(scene.problem, options);
+  options.num_threads = 2;
+  for (int run = 0; run < 2; ++run) {
+    const BundleResult two = AdjustBundle(scene.problem, options);
+    for (size_t i = 0; i < one.camera_from_world.size(); ++i) {
+      EXPECT_EQ(one.camera_from_world[i].Matrix(), two.camera_from_world[i].Matrix());
+    }
+    EXPECT_EQ(one.correction_covariance, two.correction_covariance);
+  }
+}
+
+TEST(BundleAdjustment, LeavesAPointSeenOnceByTheLeftEyeAlone) {
+  CorridorScene scene = MakeCorridor({});
+  const int point = static_cast<int>(scene.problem.points.size());
+  scene.problem.points.emplace_back(1, 0, 12);
+  BundleObservation observation{3, point, {600, 200, 0, 0}, false, 0.5};
+  scene.problem.observations.push_back(observation);
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    const BundleResult result = AdjustBundle(scene.problem, ExactOptions(solver));
+    EXPECT_EQ(result.points[point], scene.problem.points[point]);
+    EXPECT_EQ(result.point_is_used[point], 0);
+    EXPECT_EQ(result.is_inlier.back(), 0);
+    EXPECT_LT(WorstPoseError(scene, result), 0.1);
+  }
+}
+
+TEST(BundleAdjustment, LeavesOutWhatLiesBehindTheCamera) {
+  CorridorScene scene = MakeCorridor({});
+  scene.problem.points[5] = {0, 0, -50};
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    const BundleResult result = AdjustBundle(scene.problem, ExactOptions(solver));
+    EXPECT_EQ(result.points[5], scene.problem.points[5]);
+    EXPECT_LT(WorstPoseError(scene, result), 0.1);
+  }
+}
+
+TEST(BundleAdjustment, LeavesAPoseThatNothingTiesToAFixedOne) {
+  CorridorScene scene = MakeCorridor({});
+  scene.problem.camera_from_world.emplace_back();
+  scene.problem.pose_is_fixed.push_back(0);
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    const BundleResult result = AdjustBundle(scene.problem, ExactOptions(solver));
+    EXPECT_EQ(result.camera_from_world.back().Matrix(), Rigid3().Matrix());
+    EXPECT_NE(result.status, BundleStatus::kFailed);
+  }
+}
+
+/// What AdjustBundle says of a bad problem.
+std::string ComplaintOf(const BundleProblem& problem) {
+  try {
+    AdjustBundle(problem, {});
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BundleAdjustment, NamesWhatIsWrongWithTheProblem) {
+  const BundleProblem good = MakeCorridor({}).problem;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect = [&](const char* complaint, const auto& spoil) {
+    BundleProblem bad = good;
+    spoil(bad);
+    EXPECT_NE(ComplaintOf(bad).find(complaint), std::string::npos) << ComplaintOf(bad);
+  };
+  EXPECT_EQ(ComplaintOf(good), "");
+  expect("no pose is fixed", [](auto& p) { p.pose_is_fixed.assign(p.pose_is_fixed.size(), 0); });
+  expect("pose_is_fixed", [](auto& p) { p.pose_is_fixed.pop_back(); });
+  expect("no observation", [](auto& p) { p.observations.clear(); });
+  expect("observation 7: pose", [](auto& p) { p.observations[7].pose = 8; });
+  expect("observation 7: pose", [](auto& p) { p.observations[7].pose = -1; });
+  expect("observation 7: point", [](auto& p) { p.observations[7].point = 400; });
+  expect("observation 7: pixels", [&](auto& p) { p.observations[7].pixels[2] = nan; });
+  expect("observation 7: sigma_px", [](auto& p) { p.observations[7].sigma_px = 0; });
+  expect("pose 3", [&](auto& p) { p.camera_from_world[3].translation.x() = nan; });
+  expect("point 9", [&](auto& p) { p.points[9].x() = nan; });
+  expect("baseline", [](auto& p) { p.camera.baseline_m = 0; });
+  expect("correction_sigma_rad", [](auto& p) { p.correction_sigma_rad.x() = -1; });
+  expect("correction is not finite", [&](auto& p) { p.correction.rotation.x() = nan; });
+  expect("constraint 0: ties", [](auto& p) { p.constraints.resize(1); });
+}
+
+TEST(BundleAdjustment, OptionsNameTheBadKey) {
+  BundleOptions options;
+  options.num_threads = 0;
+  try {
+    options.Check();
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("num_threads"), std::string::npos);
   }
 }
 

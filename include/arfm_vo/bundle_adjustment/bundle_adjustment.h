@@ -18,6 +18,13 @@ inline std::vector<std::pair<std::string, StepStrategy>> ListNames(StepStrategy)
           {"dogleg", StepStrategy::kDogleg}};
 }
 
+/// Who does the work: our own Levenberg-Marquardt, or Ceres, which can do the dogleg too.
+enum class BundleSolver { kOwn, kCeres };
+
+inline std::vector<std::pair<std::string, BundleSolver>> ListNames(BundleSolver) {
+  return {{"own", BundleSolver::kOwn}, {"ceres", BundleSolver::kCeres}};
+}
+
 /// How Ceres solves for a step. Automatic: dense for few poses, sparse for many.
 enum class LinearSolver { kAutomatic, kDenseSchur, kSparseSchur, kIterativeSchur };
 
@@ -29,6 +36,7 @@ inline std::vector<std::pair<std::string, LinearSolver>> ListNames(LinearSolver)
 }
 
 struct BundleOptions {
+  BundleSolver solver = BundleSolver::kOwn;
   StepStrategy strategy = StepStrategy::kLevenbergMarquardt;
   LinearSolver linear_solver = LinearSolver::kAutomatic;
   LossKind loss = LossKind::kHuber;
@@ -44,6 +52,7 @@ struct BundleOptions {
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
+    visit("solver", solver);
     visit("strategy", strategy);
     visit("linear_solver", linear_solver);
     visit("loss", loss);

@@ -10,33 +10,38 @@ namespace arfm_vo {
 ///   r = (pi(x) - (u_left, v_left), pi(E (x - (b, 0, 0))) - (u_right, v_right)) / sigma
 ///   x = R X + t,  E = Exp(rho)
 /// with pi the pinhole projection (eq 1), b the baseline and rho the rotation of the
-/// StereoCorrection.
+/// StereoCorrection. The last two rows are zero where the right image does not see the point.
 struct ReprojectionTerm {
   Eigen::Vector4d residual;
-  Eigen::Matrix<double, 4, 6> by_pose;        ///< by the step of BoxPlus
-  Eigen::Matrix<double, 4, 3> by_point;       ///< by X
-  Eigen::Matrix<double, 4, 3> by_correction;  ///< by rho
+  Eigen::Vector3d x;                                ///< m, camera frame
+  Eigen::Matrix<double, 4, 3> by_x;                 ///< derivative by x
+  Eigen::Matrix<double, 2, 3> right_by_correction;  ///< derivative of the last two rows by rho
+
+  /// Derivatives by the step of BoxPlus(pose, .), by X, and by rho.
+  Eigen::Matrix<double, 4, 6> ByPose() const;
+  Eigen::Matrix<double, 4, 3> ByPoint(const Eigen::Matrix3d& rotation) const;
+  Eigen::Matrix<double, 4, 3> ByCorrection() const;
 };
 
-/// Evaluates reprojection terms for one value of the stereo correction. The last two rows are zero
-/// where the right image does not see the point.
+/// Evaluates reprojection terms for one value of the stereo correction.
 class ReprojectionModel {
  public:
   ReprojectionModel(const StereoCamera& camera, const StereoCorrection& correction);
 
-  /// Returns false, with `residual` alone set, to a large constant, where the point does not lie
-  /// before the camera.
-  bool Evaluate(const BundleObservation& observation, const Eigen::Matrix3d& rotation,
-                const Eigen::Vector3d& translation, const Eigen::Vector3d& point,
-                Eigen::Vector4d& residual) const;
+  /// Returns false, with a large constant residual and all derivatives zero, where the point does
+  /// not lie before the camera.
   bool Linearize(const BundleObservation& observation, const Eigen::Matrix3d& rotation,
                  const Eigen::Vector3d& translation, const Eigen::Vector3d& point,
                  ReprojectionTerm& term) const;
+  /// The residual alone.
+  bool Evaluate(const BundleObservation& observation, const Eigen::Matrix3d& rotation,
+                const Eigen::Vector3d& translation, const Eigen::Vector3d& point,
+                Eigen::Vector4d& residual) const;
 
  private:
   StereoCamera camera_;
   Eigen::Matrix3d right_from_left_;  ///< E
-  Eigen::Matrix3d left_jacobian_;    ///< Exp(rho + d) = Exp(left_jacobian * d) Exp(rho)
+  Eigen::Matrix3d left_jacobian_;    ///< Exp(rho + d) = Exp(left_jacobian d) Exp(rho)
 };
 
 /// The error of a pose constraint, (rotation rad, translation m), and its derivatives by the steps

@@ -14,14 +14,19 @@ namespace arfm_vo {
 ///              (of the official sequences/NN also ../../poses/NN.txt)
 ///   raw, sync  image_00/data/0000000000.png.. image_01/data/.. [image_00/timestamps.txt]
 ///              calib_cam_to_cam.txt, here or in the folder above
-/// Without times the pairs are 0.1 s apart. The images are read when asked for, one pair ahead on a
-/// thread of its own.
+/// Without times the pairs are 0.1 s apart.
 class KittiSequence : public StereoSequence {
  public:
+  enum class Loading {
+    kAhead,     ///< the next pair while the caller works on this one, on a thread of its own
+    kOnDemand,  ///< within Next(), so that the time of the caller's work is its own
+  };
+
   /// Reads everything but the images. Throws std::invalid_argument naming file or key for: a
   /// missing folder, images without partner, a wrong calibration, times that do not increase,
   /// numbers of times or poses other than that of the pairs, anything not finite.
-  explicit KittiSequence(const std::string& folder, const PairSelection& selection = {});
+  explicit KittiSequence(const std::string& folder, const PairSelection& selection = {},
+                         Loading loading = Loading::kAhead);
 
   const StereoCamera& camera() const override { return camera_; }
   int size() const override { return static_cast<int>(frames_.size()); }
@@ -39,6 +44,7 @@ class KittiSequence : public StereoSequence {
   SequencePair Load(const Frame& frame);
   void StartLoading();
 
+  Loading loading_;
   StereoCamera camera_;
   std::vector<Frame> frames_;
   size_t num_started_ = 0;

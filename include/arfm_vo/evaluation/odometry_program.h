@@ -13,12 +13,10 @@ namespace arfm_vo {
 /// VisualOdometry.
 struct OdometryProgram {
   std::string name;
-  std::string description; ///< what --help says under the usage line
-  std::string input_name;  ///< in the usage line, such as SEQUENCE_DIR
-  boost::program_options::options_description
-      options; ///< of this program alone
-  std::function<std::unique_ptr<StereoSequence>(const std::string &input,
-                                                const PairSelection &)>
+  std::string description;                              ///< what --help says under the usage line
+  std::string input_name;                               ///< in the usage line, such as SEQUENCE_DIR
+  boost::program_options::options_description options;  ///< of this program alone
+  std::function<std::unique_ptr<StereoSequence>(const std::string& input, const PairSelection&)>
       open;
 };
 
@@ -26,7 +24,6 @@ struct OdometryProgram {
 /// --pairs, --stride,
 /// --output and `program.options`; prints the run's lines `key: value` on
 /// stdout.
-int RunOdometryProgram(int argc, const char *const *argv,
-                       const OdometryProgram &program);
+int RunOdometryProgram(int argc, const char* const* argv, const OdometryProgram& program);
 
-} // namespace arfm_vo
+}  // namespace arfm_vo

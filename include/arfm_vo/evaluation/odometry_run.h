@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/stereo_sequence.h"
-#include "arfm_vo/evaluation/process_usage.h"
 #include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/odometry/trajectory.h"
 

@@ -42,6 +42,13 @@ inline Eigen::Vector3d operator*(const Rigid3& b_from_a, const Eigen::Vector3d& 
   return b_from_a.rotation * x_in_a + b_from_a.translation;
 }
 
+/// The motion `part` of the way from `first` (0) to `second` (1): rotation by slerp, translation
+/// straight.
+inline Rigid3 Interpolate(const Rigid3& first, const Rigid3& second, double part) {
+  return {first.rotation.slerp(part, second.rotation),
+          Eigen::Vector3d((1 - part) * first.translation + part * second.translation)};
+}
+
 /// The unit quaternion of the rotation vector `omega` (rad).
 inline Eigen::Quaterniond ExpSO3(const Eigen::Vector3d& omega) {
   const double angle = omega.norm();

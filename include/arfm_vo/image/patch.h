@@ -29,12 +29,14 @@ class Patch {
 
  private:
   friend class PatchAligner;
+  friend class SlantAligner;
 
   // What neither brightness nor contrast explains: all three are orthogonal to a constant, and the
   // gradients to the values, under the window, whose weights w are multiplied in.
   alignas(32) Samples values_;
   alignas(32) Samples gradient_x_;
   alignas(32) Samples gradient_y_;
+  alignas(32) Samples raw_gradient_x_;  ///< as it is
   float squared_values_ = 0;     ///< sum of w value^2
   cv::Vec3f hessian_;            ///< sums of w gx^2, w gx gy, w gy^2
   cv::Vec3f squared_gradients_;  ///< the same with w^2

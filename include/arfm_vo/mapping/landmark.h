@@ -18,6 +18,8 @@ struct Landmark {
   Eigen::Vector3d x_in_world;
   Eigen::Matrix3d covariance;  ///< of x_in_world, m^2, relative to the keyframes that see it
 
+  Eigen::Vector3d normal_in_world;  ///< of the surface, unit length
+
   KeyframeId reference = 0;  ///< keyframe that holds the template of its patch
   Keypoint keypoint;         ///< in the reference's left image
   std::array<float, 64> descriptor;

@@ -44,11 +44,10 @@ class LandmarkAligner {
   PatchAligner aligner_;
 };
 
-/// The 2 x 2 matrix that takes small pixel steps around a landmark from `target` to `source`, for a
-/// patch of surface that faces the source camera. Nothing where the landmark is behind a camera.
-/// target_from_world and source_from_world are the poses of two cameras of the same intrinsics.
-std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera,
-                                            const Eigen::Vector3d& x_in_world,
+/// The 2 x 2 matrix that takes small pixel steps around a landmark from `target` to `source`, two
+/// poses (camera_from_world) of the same camera, by the plane through it with its normal. Nothing
+/// where the landmark is behind a camera or its plane is seen from the edge or from behind.
+std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera, const Landmark& landmark,
                                             const Rigid3& source_from_world,
                                             const Rigid3& target_from_world);
 

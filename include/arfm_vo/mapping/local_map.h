@@ -82,4 +82,7 @@ class LocalMap {
 Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
                                         const Eigen::Vector3d& x_in_camera, double sigma_px);
 
+/// The unit normal of the surface around a stereo point, camera frame, from its disparity gradient.
+Eigen::Vector3d SurfaceNormal(const StereoCamera& camera, const StereoPoint& point);
+
 }  // namespace arfm_vo

@@ -5,7 +5,7 @@
 
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/image/patch_alignment.h"
+#include "arfm_vo/image/slant_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/matching/guided_matcher.h"
 #include "arfm_vo/reconstruction/row_model.h"
@@ -20,6 +20,7 @@ struct StereoReconstructionOptions {
   double ratio_threshold = 0.9;  ///< nearest / second-nearest distance
   bool refine_subpixel = true;   ///< align patches, rather than trust the detector's positions
   PatchAlignmentOptions alignment;
+  SlantAlignmentOptions slant;
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
   RowSearchOptions row_search;
   double max_row_deviation = 3;    ///< from the expected row, in standard deviations
@@ -36,6 +37,7 @@ struct StereoReconstructionOptions {
     visit("ratio_threshold", ratio_threshold);
     visit("refine_subpixel", refine_subpixel);
     visit("alignment", alignment);
+    visit("slant", slant);
     visit("search_rows", search_rows);
     visit("row_search", row_search);
     visit("max_row_deviation", max_row_deviation);
@@ -66,6 +68,7 @@ class StereoReconstructor {
     int keypoint = 0;
     cv::Point2f right;
     cv::Vec3f covariance;  ///< of `right` (xx, xy, yy), px^2
+    cv::Vec2f disparity_gradient = {0, 0};
   };
   using Sightings = std::vector<Sighting>;
 
@@ -81,7 +84,7 @@ class StereoReconstructor {
 
   StereoCamera camera_;
   StereoReconstructionOptions options_;
-  PatchAligner aligner_;
+  SlantAligner aligner_;
   RowModel row_model_;
   RowSearch row_search_;
 };

@@ -1,16 +1,22 @@
-#include "arfm_vo/evaluation/process_usage.h"
+#include "arfm_vo/base/process_usage.h"
 
 #include <sys/resource.h>
 
 #include <ctime>
 
 namespace arfm_vo {
+namespace {
 
-double GetProcessCpuSeconds() {
+double ReadSeconds(clockid_t clock) {
   timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+}  // namespace
+
+double GetProcessCpuSeconds() { return ReadSeconds(CLOCK_PROCESS_CPUTIME_ID); }
+double GetThreadCpuSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
 
 double GetPeakMemoryMb() {
   rusage usage;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+namespace arfm_vo {
+
+/// One view of the board: [columns * rows] corners in px, row by row, so that columns x rows turn
+/// clockwise in the image (u right, v down).
+using BoardCorners = std::vector<cv::Point2f>;
+
+/// The board's inner corners in a grey image, refined to sub-pixel; nothing where the whole board
+/// of `size` is not seen. Thread-safe.
+std::optional<BoardCorners> DetectCorners(const cv::Mat& grey, cv::Size size);
+
+/// Refines each corner (Foerstner's gradient method) in a window that the neighbouring grid lines
+/// do not reach, so that small and slanted squares do not pull it away.
+void RefineCorners(const cv::Mat& grey, cv::Size size, BoardCorners& corners);
+
+/// `right` in the order in which it names the same physical corners as `left`. A board that looks
+/// the same after a half turn (a quarter turn where it is square) has no order of its own; the one
+/// that turns the grid least from eye to eye is taken: eyes are less than 90 (45) degrees apart.
+BoardCorners AlignOrder(const BoardCorners& left, const BoardCorners& right, cv::Size size);
+
+/// As a mirror (u -> width - 1 - u) would show the corners, in the order of BoardCorners.
+BoardCorners MirrorCorners(const BoardCorners& corners, cv::Size size, int image_width);
+
+/// Inner corners of the largest chessboard in the image, for messages; nothing where there is none.
+std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey);
+
+}  // namespace arfm_vo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "arfm_vo/calibration/stereo_calibration.h"
+#include "arfm_vo/geometry/stereo_camera.h"
+
+namespace arfm_vo {
+
+/// Turns both eyes so that rows agree: rotations R and projections P as camera_info has them.
+struct Rectification {
+  cv::Matx33d left_rotation, right_rotation;      ///< rectified from eye
+  cv::Matx34d left_projection, right_projection;  ///< right [0, 3] = -fx * baseline, px m
+
+  StereoCamera Camera(cv::Size image_size) const;
+};
+
+/// `alpha` 0: only valid pixels are in the rectified image; 1: every pixel of the original is.
+Rectification Rectify(const StereoCalibration& calibration, double alpha = 0);
+
+/// |v_left - v_right| in px of each corner of the used pairs after rectification, sorted.
+std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
+                                        const Rectification& rectification);
+
+/// The value below which the `share` of the sorted values lies; 0 of nothing.
+double Percentile(const std::vector<double>& sorted, double share);
+
+/// A rectified image of the eye, bilinear.
+cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
+                     const cv::Matx34d& projection);
+
+}  // namespace arfm_vo

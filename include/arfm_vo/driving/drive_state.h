@@ -1,0 +1,44 @@
+#pragma once
+
+namespace arfm_vo {
+
+enum class DriveState {
+  kStandby,  ///< not started: nothing moves
+  kArming,   ///< started, waits for the chassis to take commands
+  kReady,    ///< has nothing to drive to
+  kDriving,
+  kPaused,   ///< stands still until the pose is good again, then goes on by itself
+  kBlocked,  ///< stands still until it is started again
+};
+
+/// Why the rover does not drive.
+enum class StopReason {
+  kNone,
+  kNotStarted,
+  kStopped,           ///< stop was called
+  kEmergencyStop,     ///< the software emergency stop is set
+  kBusDown,           ///< bus-off, or the CAN interface is down
+  kNoFeedback,        ///< the chassis is silent
+  kChassisEmergency,  ///< the emergency stop button of the chassis is pressed
+  kChassisFault,
+  kRemoteControl,  ///< the remote control has the rover
+  kModeLost,       ///< the chassis does not take, or no longer takes, commands over CAN
+  kSlip,           ///< the tracks run and the rover does not, or the other way round
+  kNoProgress,     ///< the goal comes no nearer
+  kPoseLost,       ///< pose missing too long to go on without being started again
+  kPoseMissing,    ///< tf gives no pose
+  kPoseInvalid,    ///< the pose is not finite, or stands on end, or comes from the future
+  kPoseStale,
+  kPoseUncertain,  ///< covariance too large, missing or stale: the odometry is lost
+};
+
+/// Names as messages show them.
+const char* ToString(DriveState state);
+const char* ToString(StopReason reason);
+
+/// What became of a goal.
+enum class GoalOutcome { kArrived, kBlocked, kCancelled, kReplaced };
+
+const char* ToString(GoalOutcome outcome);
+
+}  // namespace arfm_vo

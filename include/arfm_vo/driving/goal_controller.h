@@ -1,0 +1,97 @@
+#pragma once
+
+#include "arfm_vo/driving/planar_motion.h"
+#include "arfm_vo/driving/route.h"
+#include "arfm_vo/driving/rover_pose.h"
+
+namespace arfm_vo {
+
+struct GoalControllerOptions {
+  double position_tolerance_m = 0.03;
+  double heading_tolerance_rad = 0.03;
+  double waypoint_tolerance_m = 0.15;  ///< how near a waypoint before the last must be passed
+  double cruise_speed_mps = 0.1;
+  double cruise_turn_rate_radps = 0.15;
+  double min_speed_mps = 0.015;       ///< slower than this a goal is not approached
+  double min_turn_rate_radps = 0.03;  ///< slower than this the rover does not turn in place
+  double approach_gain_per_s = 0.5;   ///< speed over distance to go near the goal
+  double turn_gain_per_s = 0.8;       ///< turn rate over heading error
+  double align_rad = 0.05;            ///< heading error at which driving begins
+  double turn_in_place_rad = 0.4;     ///< heading error at which the rover stops to turn
+  double max_backward_m = 0.8;        ///< farther goals are never driven to backward; 0: none
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("position_tolerance_m", position_tolerance_m);
+    visit("heading_tolerance_rad", heading_tolerance_rad);
+    visit("waypoint_tolerance_m", waypoint_tolerance_m);
+    visit("cruise_speed_mps", cruise_speed_mps);
+    visit("cruise_turn_rate_radps", cruise_turn_rate_radps);
+    visit("min_speed_mps", min_speed_mps);
+    visit("min_turn_rate_radps", min_turn_rate_radps);
+    visit("approach_gain_per_s", approach_gain_per_s);
+    visit("turn_gain_per_s", turn_gain_per_s);
+    visit("align_rad", align_rad);
+    visit("turn_in_place_rad", turn_in_place_rad);
+    visit("max_backward_m", max_backward_m);
+  }
+};
+
+/// What the controller is at. From the last waypoint's position the order is heading, settle,
+/// arrived; where settling shows the rover off its goal, it goes back to the first.
+enum class DrivePhase {
+  kTurnToWaypoint,  ///< turns in place until the waypoint lies ahead (or behind)
+  kDrive,           ///< drives at the waypoint
+  kTurnToHeading,   ///< turns in place to the goal's heading
+  kSettle,          ///< stands still until a pose taken at rest confirms the goal
+  kArrived,
+};
+
+const char* ToString(DrivePhase phase);
+
+/// Steers a skid-steered rover along a route: turn in place, drive, turn in place. Knows nothing of
+/// time: the wanted motion follows from the pose alone.
+class GoalController {
+ public:
+  /// Throws std::invalid_argument where `route` is empty or an option is wrong.
+  GoalController(const GoalControllerOptions& options, Route route);
+
+  /// The motion wanted at `pose`; `is_at_rest` says that the rover has settled and that `pose` was
+  /// seen since.
+  PlanarMotion Update(const RoverPose& pose, bool is_at_rest);
+
+  DrivePhase Phase() const { return phase_; }
+  bool HasArrived() const { return phase_ == DrivePhase::kArrived; }
+  size_t NextWaypoint() const { return next_; }
+  const Route& Waypoints() const { return route_; }
+
+  /// The way to go over all waypoints, m, straight from each to the next.
+  double RemainingDistance(const RoverPose& pose) const;
+  /// The turn from `pose` to the goal's heading, rad; 0 where the goal has none.
+  double GoalHeadingError(const RoverPose& pose) const;
+  /// Falls while the controller gets on within a phase: the way to go, and 0.3 m for each rad.
+  double Cost(const RoverPose& pose) const;
+
+ private:
+  bool IsLast() const { return next_ + 1 == route_.size(); }
+  double DistanceToWaypoint(const RoverPose& pose) const;
+  /// From the rover's driving direction (forward or backward) to the waypoint.
+  double BearingError(const RoverPose& pose) const;
+  bool IsBetterBackward(const RoverPose& pose) const;
+  void BeginLeg(const RoverPose& pose);
+  void Advance(const RoverPose& pose, bool is_at_rest);
+  void FollowLeg(const RoverPose& pose);
+  void JudgeRest(const RoverPose& pose);
+  double TurnRate(double error_rad) const;
+  PlanarMotion DriveMotion(const RoverPose& pose) const;
+
+  GoalControllerOptions options_;
+  Route route_;
+  size_t next_ = 0;
+  DrivePhase phase_ = DrivePhase::kTurnToWaypoint;
+  bool is_leg_begun_ = false;
+  bool is_backward_ = false;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "arfm_vo/driving/chassis_watch.h"
+#include "arfm_vo/driving/goal_controller.h"
+#include "arfm_vo/driving/pose_watch.h"
+#include "arfm_vo/driving/slip_estimator.h"
+#include "arfm_vo/driving/speed_limiter.h"
+#include "arfm_vo/driving/stop_look_go.h"
+#include "arfm_vo/driving/track_kinematics.h"
+
+namespace arfm_vo {
+
+struct PilotOptions {
+  TrackKinematicsOptions kinematics;
+  SpeedLimiterOptions limits;
+  GoalControllerOptions goal;
+  StopLookGoOptions stop_look_go;
+  SlipOptions slip;
+  PoseWatchOptions pose;
+  ChassisWatchOptions chassis;
+  double settle_s = 0.5;             ///< from the last motion command to rest
+  double resume_after_s = 1.0;       ///< the pose must be good so long before a pause ends
+  double max_pause_s = 60;           ///< after a longer pause a goal needs a new start
+  double arming_timeout_s = 2.0;     ///< for the chassis to take commands after start
+  double max_stall_s = 20;           ///< driving time in which a goal must come nearer
+  double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
+  bool velocity_needs_pose = true;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("kinematics", kinematics);
+    visit("limits", limits);
+    visit("goal", goal);
+    visit("stop_look_go", stop_look_go);
+    visit("slip", slip);
+    visit("pose", pose);
+    visit("chassis", chassis);
+    visit("settle_s", settle_s);
+    visit("resume_after_s", resume_after_s);
+    visit("max_pause_s", max_pause_s);
+    visit("arming_timeout_s", arming_timeout_s);
+    visit("max_stall_s", max_stall_s);
+    visit("velocity_timeout_s", velocity_timeout_s);
+    visit("velocity_needs_pose", velocity_needs_pose);
+  }
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cmath>
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+/// `angle_rad` brought to (-pi, pi].
+inline double WrapAngle(double angle_rad) {
+  const double wrapped = std::remainder(angle_rad, 2 * M_PI);
+  return wrapped <= -M_PI ? M_PI : wrapped;
+}
+
+/// Where the rover's base stands on the map's x-y plane.
+struct RoverPose {
+  double x_m = 0;
+  double y_m = 0;
+  double heading_rad = 0;  ///< of the base's x axis, from the map's x axis towards its y axis
+};
+
+/// The pose seen from above. The base's x axis must not stand on end.
+RoverPose ProjectToPlane(const Rigid3& map_from_base);
+
+/// The pose after `forward_m` along an arc that turns by `turn_rad`.
+RoverPose Advance(const RoverPose& pose, double forward_m, double turn_rad);
+
+}  // namespace arfm_vo

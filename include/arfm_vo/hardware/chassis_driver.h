@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+
+#include "arfm_vo/driving/pilot.h"
+#include "arfm_vo/hardware/chassis_link.h"
+
+namespace arfm_vo {
+
+/// The pilot at the controls of the chassis. Tick is to be called every 20 ms, and once more right
+/// after whatever must not wait; `now_s` is a time that never jumps.
+class ChassisDriver {
+ public:
+  ChassisDriver(const PilotOptions& options, std::unique_ptr<CanBus> bus);
+  /// Leaves the rover standing, in standby.
+  ~ChassisDriver();
+  ChassisDriver(const ChassisDriver&) = delete;
+  ChassisDriver& operator=(const ChassisDriver&) = delete;
+
+  /// Takes in what the chassis said, lets the pilot decide, and sends the command.
+  void Tick(double now_s);
+
+  Pilot& pilot() { return pilot_; }
+  const Pilot& pilot() const { return pilot_; }
+  ChassisLink& link() { return link_; }
+  const ChassisLink& link() const { return link_; }
+
+ private:
+  Pilot pilot_;
+  ChassisLink link_;
+};
+
+/// What `state` means for who may drive.
+ChassisStatus ToChassisStatus(const SystemState& state);
+
+}  // namespace arfm_vo

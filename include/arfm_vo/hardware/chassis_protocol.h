@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "arfm_vo/driving/planar_motion.h"
+#include "arfm_vo/hardware/can_frame.h"
+
+namespace arfm_vo {
+
+// The AgileX Bunker's CAN protocol V2: standard frames, 500 kbit/s, big-endian fields. A number
+// that does not fit its field is sent as the nearest one that does, NaN as 0.
+
+enum class ControlMode : uint8_t { kStandby = 0, kCan = 1, kUart = 2, kRemote = 3, kUnknown = 255 };
+enum class VehicleState : uint8_t { kOk = 0, kEmergencyStop = 1, kFault = 2 };
+enum class ChassisSide : uint8_t { kLeft = 0, kRight = 1 };
+
+/// Bits of SystemState::error_bits.
+constexpr uint16_t kUnderVoltageFault = 0x0100;
+constexpr uint16_t kUnderVoltageWarning = 0x0200;
+constexpr uint16_t kRemoteLost = 0x0400;
+
+// To the chassis.
+
+/// 0x111: the wanted motion, in steps of 1 mm/s and 1 mrad/s. To be repeated every 20 ms: after 500
+/// ms without it the chassis stops.
+struct MotionCommand {
+  PlanarMotion motion;
+};
+/// 0x421: who may command; in standby the chassis hears only this.
+struct ControlModeCommand {
+  ControlMode mode = ControlMode::kStandby;
+};
+/// 0x441: clears latched errors.
+struct ClearErrorsCommand {
+  uint8_t error = 0;  ///< 0: all
+};
+
+// From the chassis.
+
+/// 0x211, every 100 to 200 ms. A vehicle state that the protocol does not name reads as kFault,
+/// such a mode as kUnknown.
+struct SystemState {
+  VehicleState vehicle = VehicleState::kOk;
+  ControlMode mode = ControlMode::kStandby;
+  double battery_v = 0;
+  uint16_t error_bits = 0;
+  uint8_t count = 0;
+};
+/// 0x221, every 20 ms: the motion that the chassis measures on its tracks.
+struct MotionState {
+  PlanarMotion motion;
+};
+/// 0x251 (left), 0x252 (right), every 20 ms.
+struct MotorState {
+  ChassisSide side = ChassisSide::kLeft;
+  int speed_rpm = 0;
+  double current_a = 0;
+  int32_t pulses = 0;
+};
+/// 0x261 (left), 0x262 (right).
+struct MotorDriverState {
+  ChassisSide side = ChassisSide::kLeft;
+  double supply_v = 0;
+  int driver_celsius = 0;
+  int motor_celsius = 0;
+  uint8_t status_bits = 0;
+};
+/// 0x311, every 20 ms: the way of each track since power-up; wraps around at +-2^31.
+struct TrackOdometer {
+  int32_t left_mm = 0;
+  int32_t right_mm = 0;
+};
+/// 0x361.
+struct BatteryState {
+  int charge_percent = 0;
+  int health_percent = 0;
+  double voltage_v = 0;
+  double current_a = 0;
+  double temperature_celsius = 0;
+};
+
+using ChassisCommand =
+    std::variant<std::monostate, MotionCommand, ControlModeCommand, ClearErrorsCommand>;
+using ChassisFeedback = std::variant<std::monostate, SystemState, MotionState, MotorState,
+                                     MotorDriverState, TrackOdometer, BatteryState>;
+
+CanFrame EncodeFrame(const MotionCommand& command);
+CanFrame EncodeFrame(const ControlModeCommand& command);
+CanFrame EncodeFrame(const ClearErrorsCommand& command);
+CanFrame EncodeFrame(const SystemState& state);
+CanFrame EncodeFrame(const MotionState& state);
+CanFrame EncodeFrame(const MotorState& state);
+CanFrame EncodeFrame(const MotorDriverState& state);
+CanFrame EncodeFrame(const TrackOdometer& odometer);
+CanFrame EncodeFrame(const BatteryState& battery);
+
+/// What the chassis says in `frame`; monostate where the frame is not a data frame, has another
+/// identifier, or is too short for its fields. Never reads past frame.dlc.
+ChassisFeedback DecodeFeedback(const CanFrame& frame);
+
+/// What `frame` tells the chassis to do; monostate as DecodeFeedback.
+ChassisCommand DecodeCommand(const CanFrame& frame);
+
+}  // namespace arfm_vo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/driving/pilot_options.h"
+
+namespace arfm_vo {
+
+struct ChassisNodeOptions {
+  std::string can = "can0";  ///< address of the bus, as OpenCanBus takes it
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+  PilotOptions pilot;
+
+  void Check() const {
+    Require(!can.empty(), "can must name a bus");
+    Require(!map_frame.empty() && !odom_frame.empty() && !base_frame.empty(),
+            "map_frame, odom_frame and base_frame must not be empty");
+    pilot.Check();
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("can", can);
+    visit("map_frame", map_frame);
+    visit("odom_frame", odom_frame);
+    visit("base_frame", base_frame);
+    visit("pilot", pilot);
+  }
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/simulation/terrain.h"
+
+namespace arfm_vo {
+
+/// A place on the map and where the rover looks, counter-clockwise from +x.
+struct PlanarPose {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double heading_rad = 0;
+};
+using PlanarPath = std::vector<PlanarPose>;
+
+/// A piece of a path: an arc of `length_m` over which the heading changes evenly by `turn_rad`; a
+/// turn in place where the length is 0.
+struct PathSegment {
+  double length_m = 0, turn_rad = 0;
+};
+
+/// `num_poses` poses from `start` on, `step_m` apart along arcs and `turn_step_rad` apart in turns
+/// in place; the segments are driven again from the first when the last is done.
+PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& segments,
+                      double step_m, double turn_step_rad, int num_poses);
+
+/// Where the tracks touch the ground and where the camera sits on the rover.
+struct RoverShape {
+  double track_length_m = 0.9, track_gauge_m = 0.6;
+  double camera_height_m = 1.0, camera_forward_m = 0.2;  ///< of the left eye, from the base
+  double camera_left_m = 0.1;
+  double camera_tilt_deg = 17;  ///< downward
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("track_length_m", track_length_m);
+    visit("track_gauge_m", track_gauge_m);
+    visit("camera_height_m", camera_height_m);
+    visit("camera_forward_m", camera_forward_m);
+    visit("camera_left_m", camera_left_m);
+    visit("camera_tilt_deg", camera_tilt_deg);
+  }
+};
+
+/// The base (x ahead, y left, z up, on the ground between the tracks) of a rover that stands on the
+/// plane fitted to the ground under its tracks.
+Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverShape& shape);
+
+/// The left eye (x right, y down, z ahead) with the head panned to the left and tilted downward
+/// from its place of rest.
+Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad = 0, double tilt_rad = 0);
+
+}  // namespace arfm_vo

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/simulation/solid.h"
+
+namespace arfm_vo {
+
+struct RockOptions {
+  double density_per_m2 = 6;  ///< of all rocks; the number above radius r falls as r^-power
+  double min_radius_m = 0.02;
+  double max_radius_m = 0.4;
+  double power = 1.9;
+  double flatness = 0.65;  ///< mean height over width
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("density_per_m2", density_per_m2);
+    visit("min_radius_m", min_radius_m);
+    visit("max_radius_m", max_radius_m);
+    visit("power", power);
+    visit("flatness", flatness);
+  }
+};
+
+/// The lie of the land that rocks are strewn on.
+struct RockBed {
+  std::function<double(double x, double y)> height_m;
+  /// Share of the density at a place, in [0, 1].
+  std::function<double(double x, double y)> cover;
+  /// The largest radius allowed at a place, m.
+  std::function<double(double x, double y)> max_radius_m;
+};
+
+/// Rocks strewn over a square of `side_m` around the origin, in cells, and where their shadows
+/// fall.
+class RockField {
+ public:
+  RockField() = default;
+  RockField(const RockOptions& options, const RockBed& bed, double side_m,
+            const Eigen::Vector3d& to_sun, uint32_t seed);
+
+  const std::vector<Solid>& rocks() const { return rocks_; }
+  /// Whether a rock stands between the point and the sun.
+  bool IsShadowed(const Eigen::Vector3d& point) const;
+  /// Calls visit(rock) for all rocks of every cell that accept(center, radius_m) lets pass, a
+  /// sphere around the cell's rocks.
+  template <class Accept, class Visit>
+  void VisitCells(const Accept& accept, const Visit& visit) const {
+    for (const Cell& cell : cells_) {
+      if (cell.begin == cell.end || !accept(cell.center, cell.radius_m)) continue;
+      for (int i = cell.begin; i < cell.end; ++i) visit(rocks_[i]);
+    }
+  }
+
+ private:
+  struct Cell {
+    int begin, end;  ///< of rocks_
+    Eigen::Vector3d center;
+    double radius_m;
+  };
+  void FillCell(const RockOptions& options, const RockBed& bed, int i, int j, uint32_t seed);
+  void IndexShadows();
+  template <class Visit>
+  void VisitShadowCells(const Solid& rock, const Visit& visit) const;
+
+  double side_m_ = 0;
+  Eigen::Vector3d to_sun_ = Eigen::Vector3d::UnitZ();
+  std::vector<Solid> rocks_;  ///< sorted by cell
+  std::vector<Cell> cells_;
+  int shadow_side_ = 0;            ///< shadow cells along a side
+  std::vector<int> shadow_begin_;  ///< [cells + 1] into shadow_rocks_
+  std::vector<int> shadow_rocks_;  ///< indices of rocks_
+};
+
+}  // namespace arfm_vo

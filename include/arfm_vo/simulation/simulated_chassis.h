@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+
+#include "arfm_vo/hardware/can_bus.h"
+#include "arfm_vo/hardware/chassis_protocol.h"
+#include "arfm_vo/simulation/tracked_plant.h"
+
+namespace arfm_vo {
+
+/// The tracked chassis at the other end of the CAN bus: powers up in standby, where it hears only
+/// the control mode; stops 500 ms after the last motion command; the remote control outranks CAN,
+/// and hands back to standby; its emergency stop button stops the tracks.
+class SimulatedChassis {
+ public:
+  SimulatedChassis(std::unique_ptr<CanBus> bus, TrackedPlant plant);
+
+  /// Obeys what came over the bus, moves on to `now_s` (later than before), and sends the feedback
+  /// that has fallen due.
+  void Tick(double now_s);
+
+  // What a person at the rover, or fate, can do.
+  void PressEmergencyStop(bool is_pressed) { is_emergency_stop_ = is_pressed; }
+  /// A fault of its own; error bits as in SystemState. Cleared by ClearErrorsCommand.
+  void SetFault(uint16_t error_bits);
+  /// The remote control takes over with a motion of its own.
+  void TakeRemoteControl(const PlanarMotion& stick);
+  void HandBack();
+  /// Off: no feedback, no motion, and standby afterwards.
+  void SetPower(bool is_on);
+  void SetSilentOdometer(bool is_silent) { is_odometer_silent_ = is_silent; }
+
+  TrackedPlant& plant() { return plant_; }
+  const TrackedPlant& plant() const { return plant_; }
+  ControlMode mode() const { return mode_; }
+
+ private:
+  void Obey(double now_s);
+  PlanarMotion MotionNow(double now_s) const;
+  void SendFeedback(double now_s);
+  void SendFastFeedback();
+  void SendSlowFeedback();
+  template <class Message>
+  void Send(const Message& message) {
+    bus_->Send(EncodeFrame(message));
+  }
+
+  std::unique_ptr<CanBus> bus_;
+  TrackedPlant plant_;
+  ControlMode mode_ = ControlMode::kStandby;
+  bool is_on_ = true, is_emergency_stop_ = false, has_fault_ = false, is_odometer_silent_ = false;
+  uint16_t error_bits_ = 0;
+  uint8_t count_ = 0;
+  PlanarMotion commanded_, stick_;
+  double commanded_s_ = -1e9;
+  bool has_ticked_ = false;
+  double last_s_ = 0, fast_due_s_ = 0, slow_due_s_ = 0;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+
+#include "arfm_vo/base/random.h"
+#include "arfm_vo/driving/planar_motion.h"
+#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/track_history.h"
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+struct TrackedPlantOptions {
+  double gauge_m = 0.583;
+  double turn_slip_factor = 1.3;  ///< effective over real gauge: the tracks skid in turns
+  double forward_slip = 0.1;      ///< share of the tracks' way that the ground does not give back
+  double slip_variation = 0.05;   ///< standard deviation of the forward slip from place to place
+  double sideways_slip = 0.1;     ///< way down a side slope, over way ahead and sine of the slope
+  double response_s = 0.1;        ///< time constant from commanded to real track speed
+  int seed = 1;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("gauge_m", gauge_m);
+    visit("turn_slip_factor", turn_slip_factor);
+    visit("forward_slip", forward_slip);
+    visit("slip_variation", slip_variation);
+    visit("sideways_slip", sideways_slip);
+    visit("response_s", response_s);
+    visit("seed", seed);
+  }
+};
+
+/// The base (x ahead, y left, z up) of a rover standing at a place, in the world.
+using PlaceOnGround = std::function<Rigid3(const RoverPose&)>;
+
+/// A place on level ground at height 0.
+Rigid3 PlaceOnLevelGround(const RoverPose& pose);
+
+/// A tracked rover that slips: what its tracks do, and what becomes of it on the ground.
+class TrackedPlant {
+ public:
+  TrackedPlant(const TrackedPlantOptions& options, const RoverPose& start,
+               PlaceOnGround place = PlaceOnLevelGround);
+
+  /// Lets the tracks follow `commanded` for `dt_s`.
+  void Step(const TrackSpeeds& commanded, double dt_s);
+
+  /// Overrides the forward slip, such as 1 for a rover that is stuck.
+  void SetForwardSlip(double forward_slip) { options_.forward_slip = forward_slip; }
+
+  const TrackSpeeds& Speeds() const { return speeds_; }
+  const TrackWays& Ways() const { return ways_; }
+  const RoverPose& Pose() const { return pose_; }
+  Rigid3 WorldFromBase() const { return place_(pose_); }
+  double DrivenDistance() const { return driven_m_; }  ///< over ground, m
+
+ private:
+  TrackedPlantOptions options_;
+  PlaceOnGround place_;
+  RandomEngine engine_;
+  RoverPose pose_;
+  TrackSpeeds speeds_;
+  TrackWays ways_;
+  double slip_deviation_ = 0;
+  double driven_m_ = 0;
+};
+
+}  // namespace arfm_vo

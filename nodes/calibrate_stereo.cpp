@@ -1,0 +1,60 @@
+#include <iostream>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/calibration/calibration_report.h"
+#include "arfm_vo/calibration/pair_detection.h"
+#include "arfm_vo/configuration/program.h"
+
+namespace {
+
+using namespace arfm_vo;
+
+void Calibrate(const std::string& image_dir, const std::string& output_dir, const Chessboard& board,
+               const StereoCalibrationOptions& options, double alpha) {
+  options.Check();
+  const std::vector<ImagePair> files = FindImagePairs(image_dir);
+  DetectedPairs detected = DetectPairs(files, board, options.min_pairs);
+  StereoCalibration calibration =
+      CalibrateStereo(std::move(detected.pairs), board, detected.image_size, options);
+  calibration.left_out.insert(calibration.left_out.begin(), detected.left_out.begin(),
+                              detected.left_out.end());
+  for (const LeftOutPair& pair : calibration.left_out)
+    std::cout << "left out " << pair.name << ": " << pair.reason << "\n";
+  const Rectification rectification = Rectify(calibration, alpha);
+  WriteCalibration(output_dir, files, calibration, rectification, board);
+  std::cout << FormatFigures(calibration, rectification);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string image_dir, output, size, model = ToString(DistortionModel::kPlumbBob);
+  double square_m = 0, alpha = 0;
+  StereoCalibrationOptions options;
+  Program program;
+  program.name = "calibrate_stereo";
+  program.description =
+      "Calibrates both eyes from pictures of a chessboard, after Zhang. IMAGE_DIR holds files\n"
+      "left*.EXT and right*.EXT, or folders left/ and right/ with the same names. The output "
+      "takes\n"
+      "left.yaml and right.yaml for camera_info, report.md and pictures.";
+  program.inputs = {{"IMAGE_DIR", &image_dir}};
+  using boost::program_options::value;
+  program.options.add_options()                                                                //
+      ("board", value(&size)->required()->value_name("COLUMNSxROWS"),                          //
+       "inner corners of the board (where four squares meet), such as 20x10")                  //
+      ("square", value(&square_m)->required()->value_name("METRES"), "side of a square")       //
+      ("output", value(&output)->required()->value_name("DIR"), "made where it is not there")  //
+      ("model", value(&model)->value_name("NAME"),
+       "plumb_bob (default) or rational_polynomial for wide lenses")  //
+      ("alpha", value(&alpha)->value_name("A"),
+       "0 (default): only valid pixels in the rectified image; 1: all pixels")  //
+      ("min-pairs", value(&options.min_pairs)->value_name("N"), "fewer are an error (default 5)");
+  program.run = [&] {
+    const cv::Size corners = ParseBoardSize(size);
+    options.model = ParseDistortionModel(model);
+    Require(alpha >= 0 && alpha <= 1, "--alpha must be in 0..1, is " + std::to_string(alpha));
+    Calibrate(image_dir, output, {corners.width, corners.height, square_m}, options, alpha);
+  };
+  return RunProgram(argc, argv, program);
+}

@@ -1,0 +1,111 @@
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <limits>
+
+#include "arfm_vo/datasets/kitti_sequence.h"
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/stereo_publisher.h"
+
+namespace arfm_vo {
+namespace {
+
+const ros::WallDuration kClockPeriod(0.01);
+
+struct PlayerOptions {
+  std::string sequence;  ///< KITTI folder
+  int stride = 1;
+  int pairs = std::numeric_limits<int>::max();  ///< at most
+  double rate_hz = 0;                           ///< pairs a second; 0: as recorded
+  bool wait_for_subscribers = true;  ///< before the first pair, on images and camera_info
+  double end_delay_s = 1;            ///< between the last pair and the node's end
+  std::string frame_id = "left_camera_optical";
+
+  void Check() const {
+    Require(!sequence.empty(), "sequence must name a KITTI folder");
+    Require(rate_hz >= 0, "rate_hz must not be negative");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("sequence", sequence);
+    visit("stride", stride);
+    visit("pairs", pairs);
+    visit("rate_hz", rate_hz);
+    visit("wait_for_subscribers", wait_for_subscribers);
+    visit("end_delay_s", end_delay_s);
+    visit("frame_id", frame_id);
+  }
+};
+
+/// Publishes a KITTI folder below its namespace, with the recording's time on /clock.
+class KittiPlayer {
+ public:
+  explicit KittiPlayer(const PlayerOptions& options)
+      : options_(options), sequence_(options.sequence, {options.stride, options.pairs}) {}
+
+  void Play() {
+    auto pair = sequence_.Next();
+    Wait(pair->images.stamp_s);
+    ros::WallTime due = ros::WallTime::now();
+    int num_late = 0;
+    while (pair && ros::ok()) {
+      const double stamp_s = pair->images.stamp_s;
+      PublishClock(stamp_s);
+      publisher_.Publish(ToMessages(*pair, sequence_.camera(), options_.frame_id));
+      pair = sequence_.Next();
+      const double next_s = pair ? pair->images.stamp_s : stamp_s + options_.end_delay_s;
+      due +=
+          ros::WallDuration(options_.rate_hz > 0 && pair ? 1 / options_.rate_hz : next_s - stamp_s);
+      if (ros::WallTime::now() > due) {  // too slow: go on from here instead of a burst
+        ++num_late;
+        due = ros::WallTime::now();
+      }
+      RunClock(stamp_s, next_s, due);
+    }
+    ROS_INFO("played %d pairs, %d of them late", sequence_.size(), num_late);
+  }
+
+ private:
+  void Wait(double stamp_s) {
+    if (options_.wait_for_subscribers) ROS_INFO("waiting for subscribers of all four topics");
+    while (options_.wait_for_subscribers && !publisher_.HasSubscribers() && ros::ok()) {
+      PublishClock(stamp_s);
+      kClockPeriod.sleep();
+    }
+  }
+  void PublishClock(double stamp_s) {
+    rosgraph_msgs::Clock clock;
+    clock.clock.fromSec(stamp_s + kStampOffset_s);
+    clock_.publish(clock);
+  }
+  /// Lets the clock go from one stamp to the next until `due`.
+  void RunClock(double stamp_s, double next_s, ros::WallTime due) {
+    const ros::WallTime start = ros::WallTime::now();
+    for (ros::WallTime now = start; now < due && ros::ok(); now = ros::WallTime::now()) {
+      PublishClock(stamp_s + (next_s - stamp_s) * ((now - start).toSec() / (due - start).toSec()));
+      std::min(kClockPeriod, due - now).sleep();
+    }
+  }
+
+  PlayerOptions options_;
+  KittiSequence sequence_;
+  ros::NodeHandle node_;
+  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  StereoPublisher publisher_{node_};
+};
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "kitti_player_node");
+  using namespace arfm_vo;
+  const ros::NodeHandle node("~");  // outlives what throws: without one nothing is logged
+  try {
+    KittiPlayer(ReadParameters<PlayerOptions>(node)).Play();
+    return 0;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,140 @@
+#include "bundle_quality.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "normal_equations.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kMinScale = 0.3, kMaxScale = 3;
+/// Redundancy below which the stated sigmas are taken at their word.
+constexpr double kMinFreedom = 20;
+
+/// The squared norm of each residual at the result, in stated sigmas.
+std::vector<double> SquaredErrors(const BundleProblem& problem, const BundleResult& result) {
+  const ReprojectionModel model(problem.camera, result.correction);
+  std::vector<Eigen::Matrix3d> rotations;
+  for (const Rigid3& pose : result.camera_from_world) rotations.push_back(pose.RotationMatrix());
+  std::vector<double> squared;
+  squared.reserve(problem.observations.size());
+  Eigen::Vector4d residual;
+  for (const BundleObservation& observation : problem.observations) {
+    model.Evaluate(observation, rotations[observation.pose],
+                   result.camera_from_world[observation.pose].translation,
+                   result.points[observation.point], residual);
+    squared.push_back(residual.squaredNorm());
+  }
+  return squared;
+}
+
+/// Coordinates, and those left over when all unknowns are paid for.
+struct Freedom {
+  double num_coordinates = 0, freedom = 0;
+
+  explicit Freedom(const BundleStructure& structure) {
+    for (const BundleObservation& observation : structure.observations) {
+      num_coordinates += observation.NumCoordinates();
+    }
+    freedom = num_coordinates - 6.0 * structure.num_free_poses() - 3.0 * structure.tracks.size();
+  }
+  double Inflation() const { return num_coordinates / freedom; }
+};
+
+double MeasureScale(const BundleProblem& problem, const BundleSelection& selection,
+                    const Freedom& freedom, const std::vector<double>& squared) {
+  if (freedom.freedom < kMinFreedom) return 1;
+  const double medians[2] = {ChiSquareQuantile(2, 0.5), ChiSquareQuantile(4, 0.5)};
+  std::vector<double> ratios;
+  ratios.reserve(squared.size());
+  for (size_t i = 0; i < squared.size(); ++i) {
+    if (!selection.observation_is_used[i]) continue;
+    ratios.push_back(squared[i] / medians[problem.observations[i].has_right]);
+  }
+  const auto middle = ratios.begin() + ratios.size() / 2;
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::clamp(std::sqrt(*middle * freedom.Inflation()), kMinScale, kMaxScale);
+}
+
+/// What the inverse of the weighted normal matrix has to be multiplied with to be the covariance of
+/// the M-estimate: w b / a^2 with w, a and b the means of weight, slope and square of the influence
+/// function (Huber, Robust Statistics, 1981, 7.6), for a coordinate.
+double CovarianceFactor(const BundleProblem& problem, const BundleSelection& selection,
+                        const BundleOptions& options, const Freedom& freedom,
+                        const std::vector<double>& squared) {
+  if (freedom.freedom < kMinFreedom) return 1;
+  const RobustLoss losses[2] = {RobustLoss(options.loss, options.loss_threshold_sigma, 2),
+                                RobustLoss(options.loss, options.loss_threshold_sigma, 4)};
+  double weights = 0, slopes = 0, squares = 0;
+  for (size_t i = 0; i < squared.size(); ++i) {
+    if (!selection.observation_is_used[i]) continue;
+    const RobustLoss& loss = losses[problem.observations[i].has_right];
+    const double k = problem.observations[i].NumCoordinates();
+    const double weight = loss.Weight(squared[i]);
+    weights += k * weight;
+    slopes += k * weight + 2 * squared[i] * loss.WeightSlope(squared[i]);
+    squares += weight * weight * squared[i];
+  }
+  squares = std::max(squares * freedom.Inflation(), kMinScale * kMinScale * weights);
+  slopes = std::max(slopes, 0.1 * weights);
+  return weights * squares / (slopes * slopes);
+}
+
+void FindCovariances(const BundleProblem& problem, const BundleSelection& selection,
+                     const BundleStructure& structure, const BundleOptions& options, double factor,
+                     BundleResult& result) {
+  NormalEquations equations(problem, selection, structure, options);
+  equations.Linearize({result.camera_from_world, result.points, result.correction});
+  if (options.with_point_covariance) {
+    result.point_covariances.assign(problem.points.size(), Eigen::Matrix3d::Zero());
+    for (size_t track = 0; track < structure.tracks.size(); ++track) {
+      result.point_covariances[structure.tracks[track].point] =
+          factor * equations.point_blocks()[track].inverse();
+    }
+  }
+  const bool with_pose = options.with_newest_pose_covariance && structure.num_free_poses() > 0;
+  if (!selection.AnyCorrectionIsFree() && !with_pose) return;
+  BundleStep step;
+  if (!equations.Solve(0, step)) return;
+  const int size = equations.reduced_size();
+  if (with_pose) {
+    const Matrix6d block = equations.InverseColumns(size - 9, 6).middleRows<6>(size - 9);
+    result.newest_pose_covariance = factor * (block + block.transpose()) / 2;
+  }
+  const Eigen::Matrix3d corner = equations.InverseColumns(size - 3, 3).bottomRows<3>();
+  result.correction_covariance = factor * (corner + corner.transpose()) / 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (selection.correction_is_free[axis]) continue;
+    result.correction_covariance.row(axis).setZero();
+    result.correction_covariance.col(axis).setZero();
+  }
+}
+
+}  // namespace
+
+void AssessBundle(const BundleProblem& problem, const BundleSelection& selection,
+                  const BundleStructure& structure, const BundleOptions& options,
+                  BundleResult& result) {
+  const std::vector<double> squared = SquaredErrors(problem, result);
+  const Freedom freedom(structure);
+  result.point_is_used = selection.point_is_used;
+  result.scale = MeasureScale(problem, selection, freedom, squared);
+  const double variance = result.scale * result.scale;
+  const double bounds[2] = {variance * ChiSquareQuantile(2, options.inlier_probability),
+                            variance * ChiSquareQuantile(4, options.inlier_probability)};
+  result.is_inlier.resize(squared.size());
+  for (size_t i = 0; i < squared.size(); ++i) {
+    const BundleObservation& observation = problem.observations[i];
+    result.is_inlier[i] =
+        selection.point_is_used[observation.point] && squared[i] <= bounds[observation.has_right];
+  }
+  if (options.with_point_covariance || options.with_newest_pose_covariance ||
+      selection.AnyCorrectionIsFree()) {
+    FindCovariances(problem, selection, structure, options,
+                    CovarianceFactor(problem, selection, options, freedom, squared), result);
+  }
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <optional>
+#include <vector>
+
+#include "bundle_structure.h"
+
+namespace arfm_vo {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix63d = Eigen::Matrix<double, 6, 3>;
+
+/// Normal equations H d = b over the free poses and the stereo correction: the part of the whole
+/// that is left when points are held or eliminated.
+struct ReducedSystem {
+  std::vector<Matrix6d> blocks;   ///< of poses by poses, as BundleStructure::columns
+  std::vector<Vector6d> right;    ///< [free poses] of b
+  std::vector<Matrix63d> border;  ///< [free poses] of poses by correction
+  Eigen::Matrix3d corner = Eigen::Matrix3d::Zero();        ///< of correction by correction
+  Eigen::Vector3d corner_right = Eigen::Vector3d::Zero();  ///< of b
+
+  void SetZero(const BundleStructure& structure);
+  ReducedSystem& operator+=(const ReducedSystem& other);
+  ReducedSystem& operator-=(const ReducedSystem& other);
+};
+
+/// Factorises reduced systems of one structure: dense where there are few poses, sparse with a
+/// fill-reducing order where there are many.
+class ReducedSolver {
+ public:
+  explicit ReducedSolver(const BundleStructure& structure);
+
+  /// Returns false where the matrix is not positive definite.
+  bool Factorize(const ReducedSystem& system);
+  /// Six unknowns a free pose in their order, then the three of the correction.
+  Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const;
+  Eigen::VectorXd SolveFor(const ReducedSystem& system) const;
+  int size() const { return 6 * structure_.num_free_poses() + 3; }
+
+ private:
+  bool FactorizeDense(const ReducedSystem& system);
+  bool FactorizeSparse(const ReducedSystem& system);
+
+  const BundleStructure& structure_;
+  const bool is_dense_;
+  Eigen::MatrixXd dense_;
+  Eigen::LLT<Eigen::MatrixXd> dense_factor_;
+  Eigen::SparseMatrix<double> sparse_;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Upper> sparse_factor_;
+};
+
+}  // namespace arfm_vo

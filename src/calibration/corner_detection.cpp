@@ -1,0 +1,150 @@
+#include "arfm_vo/calibration/corner_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace arfm_vo {
+namespace {
+
+/// Longest side in px of the image in which the board is first looked for; the refinement works at
+/// full size.
+constexpr int kSearchSide = 1000;
+/// Half the refinement window: this share of the distance to the next grid line, within bounds, px.
+constexpr double kWindowShare = 0.35;
+constexpr int kMinHalfWindow = 2, kMaxHalfWindow = 11;
+
+/// A grid of corners with bounds-safe central differences along its two directions.
+struct Grid {
+  const BoardCorners& corners;
+  cv::Size size;
+
+  const cv::Point2f& At(int column, int row) const { return corners[row * size.width + column]; }
+  cv::Point2f AlongRow(int column, int row) const {
+    const int first = std::max(column - 1, 0), last = std::min(column + 1, size.width - 1);
+    return (At(last, row) - At(first, row)) / (last - first);
+  }
+  cv::Point2f AlongColumn(int column, int row) const {
+    const int first = std::max(row - 1, 0), last = std::min(row + 1, size.height - 1);
+    return (At(column, last) - At(column, first)) / (last - first);
+  }
+};
+
+BoardCorners Reverse(const BoardCorners& corners) { return {corners.rbegin(), corners.rend()}; }
+
+BoardCorners ReverseRows(const BoardCorners& corners, cv::Size size) {
+  BoardCorners reversed = corners;
+  for (int row = 0; row < size.height; ++row)
+    std::reverse(reversed.begin() + row * size.width, reversed.begin() + (row + 1) * size.width);
+  return reversed;
+}
+
+/// A square grid after a quarter turn: column c, row r takes the corner at column r, row n-1-c.
+BoardCorners QuarterTurn(const BoardCorners& corners, cv::Size size) {
+  BoardCorners turned(corners.size());
+  for (int row = 0; row < size.height; ++row)
+    for (int column = 0; column < size.width; ++column)
+      turned[row * size.width + column] = corners[(size.width - 1 - column) * size.width + row];
+  return turned;
+}
+
+/// Rows and columns turn clockwise in the image, as BoardCorners wants.
+bool IsClockwise(const BoardCorners& corners, cv::Size size) {
+  const cv::Point2f along_row = corners[size.width - 1] - corners.front();
+  const cv::Point2f along_column = corners[corners.size() - size.width] - corners.front();
+  return along_row.cross(along_column) > 0;
+}
+
+/// The sector-based detector, quick first. (OpenCV's older one takes minutes where a board is seen
+/// in part or has another size.)
+bool FindBoard(const cv::Mat& grey, cv::Size size, BoardCorners& corners) {
+  for (const int flags :
+       {0, int(cv::CALIB_CB_ACCURACY), cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE})
+    if (cv::findChessboardCornersSB(grey, size, corners, flags)) return true;
+  return false;
+}
+
+/// The image at the size of the search, and its scale to the image's.
+double ShrinkForSearch(const cv::Mat& grey, cv::Mat& small) {
+  const double scale = std::max(1.0, std::max(grey.cols, grey.rows) / double(kSearchSide));
+  if (scale == 1) {
+    small = grey;
+  } else {
+    cv::resize(grey, small, cv::Size(), 1 / scale, 1 / scale, cv::INTER_AREA);
+  }
+  return scale;
+}
+
+}  // namespace
+
+void RefineCorners(const cv::Mat& grey, cv::Size size, BoardCorners& corners) {
+  const BoardCorners start = corners;
+  const Grid grid{start, size};
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 60, 1e-3);
+  for (int row = 0; row < size.height; ++row) {
+    for (int column = 0; column < size.width; ++column) {
+      const cv::Point2f along_row = grid.AlongRow(column, row);
+      const cv::Point2f along_column = grid.AlongColumn(column, row);
+      const double longer = std::max(cv::norm(along_row), cv::norm(along_column));
+      const double distance = std::abs(along_row.cross(along_column)) / std::max(longer, 1e-9);
+      const int half = std::clamp(int(kWindowShare * distance), kMinHalfWindow, kMaxHalfWindow);
+      std::vector<cv::Point2f> corner{grid.At(column, row)};
+      cv::cornerSubPix(grey, corner, {half, half}, {-1, -1}, until);
+      corners[row * size.width + column] = corner[0];
+    }
+  }
+}
+
+std::optional<BoardCorners> DetectCorners(const cv::Mat& grey, cv::Size size) {
+  cv::Mat small;
+  const double scale = ShrinkForSearch(grey, small);
+  BoardCorners corners;
+  bool is_found = FindBoard(small, size, corners);
+  if (is_found && scale != 1) {
+    RefineCorners(small, size, corners);
+    // Pixel centres are at whole numbers: the centre of the first small pixel is not that of the
+    // first large one.
+    for (cv::Point2f& corner : corners)
+      corner = (corner + cv::Point2f(0.5F, 0.5F)) * scale - cv::Point2f(0.5F, 0.5F);
+  } else if (!is_found && scale != 1) {
+    is_found = FindBoard(grey, size, corners);  // squares too small for the search's size
+  }
+  if (!is_found || static_cast<int>(corners.size()) != size.area()) return std::nullopt;
+  RefineCorners(grey, size, corners);
+  return IsClockwise(corners, size) ? corners : ReverseRows(corners, size);
+}
+
+BoardCorners AlignOrder(const BoardCorners& left, const BoardCorners& right, cv::Size size) {
+  const auto direction = [&](const BoardCorners& corners) {
+    const cv::Point2f along_row = corners.back() - corners[corners.size() - size.width] +
+                                  corners[size.width - 1] - corners.front();
+    return along_row / std::max(cv::norm(along_row), 1e-9);
+  };
+  BoardCorners best = right, turned = right;
+  const bool is_square = size.width == size.height;
+  for (int turn = 1; turn < (is_square ? 4 : 2); ++turn) {
+    turned = is_square ? QuarterTurn(turned, size) : Reverse(turned);
+    if (direction(left).dot(direction(turned)) > direction(left).dot(direction(best)))
+      best = turned;
+  }
+  return best;
+}
+
+BoardCorners MirrorCorners(const BoardCorners& corners, cv::Size size, int image_width) {
+  BoardCorners mirrored = ReverseRows(corners, size);
+  for (cv::Point2f& corner : mirrored) corner.x = image_width - 1 - corner.x;
+  return mirrored;
+}
+
+std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey) {
+  cv::Mat small, grid;
+  ShrinkForSearch(grey, small);
+  BoardCorners corners;
+  if (!cv::findChessboardCornersSB(small, {3, 3}, corners,
+                                   cv::CALIB_CB_LARGER | cv::CALIB_CB_ACCURACY, grid))
+    return std::nullopt;
+  return cv::Size(std::max(grid.cols, grid.rows), std::min(grid.cols, grid.rows));
+}
+
+}  // namespace arfm_vo

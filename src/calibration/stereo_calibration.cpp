@@ -1,0 +1,235 @@
+#include "arfm_vo/calibration/stereo_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/calib3d.hpp>
+
+#include "arfm_vo/calibration/pair_consistency.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Consistency of a pair measured with single poses is noisier than its final error: only what
+/// stands out grossly goes before both eyes are adjusted together.
+constexpr double kGrossFactor = 5, kGrossFloorPx = 2;
+/// Above this the eyes have no common relative pose; a good rig is at a few px.
+constexpr double kNoCommonPosePx = 15;
+
+std::string Format(const char* format, double a, double b = 0) {
+  char text[160];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+std::vector<BoardCorners> LeftViews(const std::vector<CornerPair>& pairs) {
+  std::vector<BoardCorners> views;
+  for (const CornerPair& pair : pairs) views.push_back(pair.left);
+  return views;
+}
+
+std::vector<BoardCorners> RightViews(const std::vector<CornerPair>& pairs) {
+  std::vector<BoardCorners> views;
+  for (const CornerPair& pair : pairs) views.push_back(pair.right);
+  return views;
+}
+
+/// The pairs still in the calibration and those left out so far.
+class PairSelection {
+ public:
+  PairSelection(std::vector<CornerPair> pairs, const StereoCalibrationOptions& options)
+      : pairs_(std::move(pairs)), options_(options), num_given_(pairs_.size()) {
+    CheckEnough();
+  }
+
+  const std::vector<CornerPair>& Pairs() const { return pairs_; }
+  std::vector<LeftOutPair> TakeLeftOut() { return std::move(left_out_); }
+
+  /// Leaves out the pairs whose error stands out, with `cause` in their reason; false where none.
+  bool LeaveOut(const std::vector<double>& errors, double factor, double floor,
+                const std::string& cause) {
+    const std::vector<char> is_outlier = FindOutliers(errors, factor, floor);
+    const double median = Median(errors);
+    std::vector<CornerPair> kept;
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      if (is_outlier[i]) {
+        left_out_.push_back(
+            {pairs_[i].name,
+             cause + Format(": %.2f px rms against a median of %.2f px", errors[i], median)});
+      } else {
+        kept.push_back(std::move(pairs_[i]));
+      }
+    }
+    const bool has_changed = kept.size() < pairs_.size();
+    pairs_ = std::move(kept);
+    CheckEnough();
+    return has_changed;
+  }
+
+ private:
+  void CheckEnough() const {
+    const size_t needed = std::max<size_t>(options_.min_pairs, (num_given_ + 1) / 2);
+    if (pairs_.size() >= needed) return;
+    std::string message = "too few views: " + std::to_string(pairs_.size()) + " good pairs of " +
+                          std::to_string(num_given_) + ", at least " + std::to_string(needed) +
+                          " are needed";
+    for (const LeftOutPair& pair : left_out_)
+      message += "\n  left out " + pair.name + ": " + pair.reason;
+    throw CalibrationError(message);
+  }
+
+  std::vector<CornerPair> pairs_;
+  const StereoCalibrationOptions& options_;
+  const size_t num_given_;
+  std::vector<LeftOutPair> left_out_;
+};
+
+struct BothEyes {
+  EyeCalibration left, right;
+};
+
+/// Each eye for itself, without the views that it finds bad.
+BothEyes CalibrateEyes(PairSelection& selection, const Chessboard& board, cv::Size image_size,
+                       const StereoCalibrationOptions& options) {
+  while (true) {
+    BothEyes eyes{CalibrateEye(LeftViews(selection.Pairs()), board, image_size, options.model),
+                  CalibrateEye(RightViews(selection.Pairs()), board, image_size, options.model)};
+    if (selection.LeaveOut(eyes.left.view_rms_px, options.outlier_factor, options.outlier_floor_px,
+                           "left corners do not fit the left eye"))
+      continue;
+    if (selection.LeaveOut(eyes.right.view_rms_px, options.outlier_factor, options.outlier_floor_px,
+                           "right corners do not fit the right eye"))
+      continue;
+    return eyes;
+  }
+}
+
+void CheckViews(const char* eye, const EyeCalibration& calibration, const EyePrecision& precision,
+                const StereoCalibrationOptions& options) {
+  const double tilt_deg = LargestTilt(calibration.poses) * 180 / M_PI;
+  const std::string advice = "; tilt the board by 20 to 45 degrees about both its axes";
+  if (tilt_deg < options.min_tilt_deg)
+    throw CalibrationError("all views of the " + std::string(eye) +
+                           " eye are parallel: the board's planes differ by " +
+                           Format("%.1f degrees at most", tilt_deg) + advice);
+  const double fx = calibration.eye.matrix(0, 0);
+  if (!(precision.fx_sigma_px <= options.max_focal_sigma * fx))
+    throw CalibrationError(
+        "the views do not determine the focal length of the " + std::string(eye) +
+        Format(" eye, fx = %.1f +- %.1f px (views nearly parallel)", fx, precision.fx_sigma_px) +
+        advice);
+}
+
+/// Throws where no relative pose suits most pairs, naming a mirrored eye where that is the cause.
+void CheckCommonPose(const BothEyes& eyes, const std::vector<double>& consistency,
+                     const std::vector<CornerPair>& pairs, const Chessboard& board,
+                     cv::Size image_size, const StereoCalibrationOptions& options) {
+  const double error = Median(consistency);
+  if (error < kNoCommonPosePx) return;
+  std::vector<CornerPair> mirrored = pairs;
+  for (CornerPair& pair : mirrored)
+    pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, board.Size(), image_size.width),
+                            board.Size());
+  const EyeCalibration right = CalibrateEye(RightViews(mirrored), board, image_size, options.model);
+  const double mirrored_error = Median(MeasureConsistency(eyes.left, right, mirrored, board));
+  if (mirrored_error < error / 4)
+    throw CalibrationError(
+        "one eye is mirrored: with the right images mirrored the pairs agree "
+        "(" +
+        Format("%.1f px instead of %.1f px)", mirrored_error, error));
+  throw CalibrationError("the eyes do not agree: the best relative pose leaves " +
+                         Format("%.1f px (median of the pairs)", error) +
+                         "; are the pairs taken at the same moments, and is the board the same?");
+}
+
+/// Both eyes together by OpenCV, from each eye's own calibration.
+StereoCalibration AdjustTogether(const BothEyes& eyes, const std::vector<CornerPair>& pairs,
+                                 const Chessboard& board, cv::Size image_size) {
+  StereoCalibration calibration;
+  calibration.image_size = image_size;
+  calibration.left = {eyes.left.eye.matrix, eyes.left.eye.distortion.clone()};
+  calibration.right = {eyes.right.eye.matrix, eyes.right.eye.distortion.clone()};
+  const std::vector<std::vector<cv::Point3f>> board_corners(pairs.size(), board.Corners());
+  const bool is_rational = calibration.left.distortion.total() > 5;
+  cv::Mat rotation = cv::Mat::eye(3, 3, CV_64F), translation = cv::Mat::zeros(3, 1, CV_64F);
+  cv::Mat essential, fundamental, errors;
+  calibration.stereo_rms_px = cv::stereoCalibrate(
+      board_corners, LeftViews(pairs), RightViews(pairs), calibration.left.matrix,
+      calibration.left.distortion, calibration.right.matrix, calibration.right.distortion,
+      image_size, rotation, translation, essential, fundamental, errors,
+      cv::CALIB_USE_INTRINSIC_GUESS | (is_rational ? cv::CALIB_RATIONAL_MODEL : 0),
+      {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-9});
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(rotation.ptr<double>());
+  const Eigen::Map<const Eigen::Vector3d> t(translation.ptr<double>());
+  calibration.right_from_left = Rigid3(Eigen::Matrix3d(r), Eigen::Vector3d(t));
+  for (int i = 0; i < errors.rows; ++i) {
+    calibration.left_px.push_back(errors.at<double>(i, 0));
+    calibration.right_px.push_back(errors.at<double>(i, 1));
+  }
+  return calibration;
+}
+
+std::vector<double> WorseEye(const StereoCalibration& calibration) {
+  std::vector<double> errors;
+  for (size_t i = 0; i < calibration.left_px.size(); ++i)
+    errors.push_back(std::max(calibration.left_px[i], calibration.right_px[i]));
+  return errors;
+}
+
+void CheckRig(const Rigid3& right_from_left) {
+  const Eigen::Vector3d right_in_left = right_from_left.Inverse().translation;
+  const std::string where =
+      Format("the right eye is at x = %.4f, y = %.4f", right_in_left.x(), right_in_left.y()) +
+      Format(", z = %.4f of the left eye", right_in_left.z());
+  const double sideways = std::abs(right_in_left.x());
+  if (sideways < std::abs(right_in_left.y()) || sideways < std::abs(right_in_left.z()))
+    throw CalibrationError("the eyes are not side by side: " + where);
+  if (right_in_left.x() < 0)
+    throw CalibrationError("left and right are swapped (or both eyes mirrored or upside down): " +
+                           where);
+}
+
+}  // namespace
+
+void StereoCalibrationOptions::Check() const {
+  Require(min_pairs >= 3, "min_pairs must be at least 3");
+  Require(outlier_factor > 1, "outlier_factor must be above 1");
+  Require(outlier_floor_px >= 0, "outlier_floor_px must not be negative");
+  Require(min_tilt_deg >= 0 && min_tilt_deg < 90, "min_tilt_deg must be in [0, 90)");
+  Require(max_focal_sigma > 0, "max_focal_sigma must be positive");
+}
+
+StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboard& board,
+                                  cv::Size image_size, const StereoCalibrationOptions& options) {
+  board.Check();
+  options.Check();
+  PairSelection selection(std::move(pairs), options);
+  BothEyes eyes = CalibrateEyes(selection, board, image_size, options);
+  CheckViews("left", eyes.left, EvaluatePrecision(eyes.left, LeftViews(selection.Pairs()), board),
+             options);
+  CheckViews("right", eyes.right,
+             EvaluatePrecision(eyes.right, RightViews(selection.Pairs()), board), options);
+  std::vector<double> consistency =
+      MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
+  CheckCommonPose(eyes, consistency, selection.Pairs(), board, image_size, options);
+  while (selection.LeaveOut(consistency, kGrossFactor, kGrossFloorPx,
+                            "the eyes disagree (board moved between the exposures?)")) {
+    eyes = CalibrateEyes(selection, board, image_size, options);
+    consistency = MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
+  }
+  StereoCalibration calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
+  while (selection.LeaveOut(WorseEye(calibration), options.outlier_factor, options.outlier_floor_px,
+                            "does not fit both eyes together")) {
+    eyes = CalibrateEyes(selection, board, image_size, options);
+    calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
+  }
+  CheckRig(calibration.right_from_left);
+  calibration.left_precision = EvaluatePrecision(eyes.left, LeftViews(selection.Pairs()), board);
+  calibration.right_precision = EvaluatePrecision(eyes.right, RightViews(selection.Pairs()), board);
+  calibration.tilt_rad = LargestTilt(eyes.left.poses);
+  calibration.pairs = selection.Pairs();
+  calibration.left_out = selection.TakeLeftOut();
+  return calibration;
+}
+
+}  // namespace arfm_vo

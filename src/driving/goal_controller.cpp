@@ -1,0 +1,172 @@
+#include "arfm_vo/driving/goal_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kCostPerRadian_m = 0.3;
+/// Tolerances widen by this at rest, so that noise does not drive the rover to and fro.
+constexpr double kSettledSlack = 1.5;
+
+}  // namespace
+
+void GoalControllerOptions::Check() const {
+  const auto check = [](double value, double low, double high, const char* name) {
+    Require(value >= low && value <= high, std::string("goal.") + name + " must be in " +
+                                               std::to_string(low) + ".." + std::to_string(high));
+  };
+  check(position_tolerance_m, 0.001, 10, "position_tolerance_m");
+  check(heading_tolerance_rad, 0.001, M_PI, "heading_tolerance_rad");
+  check(waypoint_tolerance_m, position_tolerance_m, 10, "waypoint_tolerance_m");
+  check(cruise_speed_mps, 0.001, 0.1, "cruise_speed_mps");
+  check(cruise_turn_rate_radps, 0.001, 1, "cruise_turn_rate_radps");
+  check(min_speed_mps, 0, cruise_speed_mps, "min_speed_mps");
+  check(min_turn_rate_radps, 0, cruise_turn_rate_radps, "min_turn_rate_radps");
+  check(approach_gain_per_s, 0.01, 100, "approach_gain_per_s");
+  check(turn_gain_per_s, 0.01, 100, "turn_gain_per_s");
+  check(align_rad, 0.001, 1, "align_rad");
+  check(turn_in_place_rad, 1.5 * align_rad, 1.5, "turn_in_place_rad");
+  check(max_backward_m, 0, 1000, "max_backward_m");
+}
+
+const char* ToString(DrivePhase phase) {
+  switch (phase) {
+    case DrivePhase::kTurnToWaypoint:
+      return "turning to the waypoint";
+    case DrivePhase::kDrive:
+      return "driving";
+    case DrivePhase::kTurnToHeading:
+      return "turning to the goal's heading";
+    case DrivePhase::kSettle:
+      return "settling";
+    case DrivePhase::kArrived:
+      return "arrived";
+  }
+  return "unknown";
+}
+
+GoalController::GoalController(const GoalControllerOptions& options, Route route)
+    : options_(options), route_(std::move(route)) {
+  options_.Check();
+  Require(!route_.empty(), "a route needs at least one waypoint");
+}
+
+double GoalController::DistanceToWaypoint(const RoverPose& pose) const {
+  return std::hypot(route_[next_].x_m - pose.x_m, route_[next_].y_m - pose.y_m);
+}
+
+double GoalController::BearingError(const RoverPose& pose) const {
+  const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
+  return WrapAngle(bearing_rad - pose.heading_rad + (is_backward_ ? M_PI : 0));
+}
+
+double GoalController::RemainingDistance(const RoverPose& pose) const {
+  double distance_m = DistanceToWaypoint(pose);
+  for (size_t i = next_ + 1; i < route_.size(); ++i)
+    distance_m += std::hypot(route_[i].x_m - route_[i - 1].x_m, route_[i].y_m - route_[i - 1].y_m);
+  return distance_m;
+}
+
+double GoalController::GoalHeadingError(const RoverPose& pose) const {
+  const auto& heading_rad = route_.back().heading_rad;
+  return heading_rad ? WrapAngle(*heading_rad - pose.heading_rad) : 0;
+}
+
+double GoalController::Cost(const RoverPose& pose) const {
+  const double turn_rad = phase_ == DrivePhase::kTurnToHeading    ? GoalHeadingError(pose)
+                          : phase_ == DrivePhase::kTurnToWaypoint ? BearingError(pose)
+                                                                  : 0;
+  return RemainingDistance(pose) + kCostPerRadian_m * std::abs(turn_rad);
+}
+
+bool GoalController::IsBetterBackward(const RoverPose& pose) const {
+  if (DistanceToWaypoint(pose) > options_.max_backward_m) return false;
+  const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
+  const auto total_turn = [&](double direction_rad) {
+    double turn_rad = std::abs(WrapAngle(direction_rad - pose.heading_rad));
+    if (IsLast() && route_[next_].heading_rad)
+      turn_rad += std::abs(WrapAngle(*route_[next_].heading_rad - direction_rad));
+    return turn_rad;
+  };
+  return total_turn(bearing_rad + M_PI) < total_turn(bearing_rad);
+}
+
+void GoalController::BeginLeg(const RoverPose& pose) {
+  phase_ = DrivePhase::kTurnToWaypoint;
+  is_backward_ = IsBetterBackward(pose);
+}
+
+void GoalController::FollowLeg(const RoverPose& pose) {
+  while (!IsLast() && DistanceToWaypoint(pose) <= options_.waypoint_tolerance_m) {
+    ++next_;
+    BeginLeg(pose);
+  }
+  if (IsLast() && DistanceToWaypoint(pose) <= options_.position_tolerance_m) {
+    phase_ = DrivePhase::kTurnToHeading;
+  } else if (phase_ == DrivePhase::kDrive) {
+    if (std::abs(BearingError(pose)) > options_.turn_in_place_rad) BeginLeg(pose);
+  } else if (std::abs(BearingError(pose)) <= options_.align_rad) {
+    phase_ = DrivePhase::kDrive;
+  }
+}
+
+void GoalController::JudgeRest(const RoverPose& pose) {
+  if (DistanceToWaypoint(pose) > kSettledSlack * options_.position_tolerance_m) {
+    BeginLeg(pose);
+  } else if (std::abs(GoalHeadingError(pose)) > kSettledSlack * options_.heading_tolerance_rad) {
+    phase_ = DrivePhase::kTurnToHeading;
+  } else {
+    phase_ = DrivePhase::kArrived;
+  }
+}
+
+void GoalController::Advance(const RoverPose& pose, bool is_at_rest) {
+  if (!is_leg_begun_) BeginLeg(pose);
+  is_leg_begun_ = true;
+  if (phase_ == DrivePhase::kSettle && is_at_rest) JudgeRest(pose);
+  if (phase_ == DrivePhase::kTurnToWaypoint || phase_ == DrivePhase::kDrive) FollowLeg(pose);
+  if (phase_ == DrivePhase::kTurnToHeading &&
+      std::abs(GoalHeadingError(pose)) <= options_.heading_tolerance_rad)
+    phase_ = DrivePhase::kSettle;
+}
+
+double GoalController::TurnRate(double error_rad) const {
+  const double rate_radps =
+      std::clamp(options_.turn_gain_per_s * std::abs(error_rad), options_.min_turn_rate_radps,
+                 options_.cruise_turn_rate_radps);
+  return std::copysign(rate_radps, error_rad);
+}
+
+PlanarMotion GoalController::DriveMotion(const RoverPose& pose) const {
+  const double error_rad = BearingError(pose);
+  double speed_mps = options_.cruise_speed_mps * std::max(0.0, std::cos(2 * error_rad));
+  if (IsLast())
+    speed_mps = std::min(speed_mps, options_.approach_gain_per_s * DistanceToWaypoint(pose));
+  speed_mps = std::max(speed_mps, options_.min_speed_mps);
+  const double turn_radps =
+      std::clamp(options_.turn_gain_per_s * error_rad, -options_.cruise_turn_rate_radps,
+                 options_.cruise_turn_rate_radps);
+  return {is_backward_ ? -speed_mps : speed_mps, turn_radps};
+}
+
+PlanarMotion GoalController::Update(const RoverPose& pose, bool is_at_rest) {
+  Advance(pose, is_at_rest);
+  switch (phase_) {
+    case DrivePhase::kTurnToWaypoint:
+      return {0, TurnRate(BearingError(pose))};
+    case DrivePhase::kDrive:
+      return DriveMotion(pose);
+    case DrivePhase::kTurnToHeading:
+      return {0, TurnRate(GoalHeadingError(pose))};
+    case DrivePhase::kSettle:
+    case DrivePhase::kArrived:
+      break;
+  }
+  return {};
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,19 @@
+#include "arfm_vo/driving/rover_pose.h"
+
+namespace arfm_vo {
+
+RoverPose ProjectToPlane(const Rigid3& map_from_base) {
+  const Eigen::Vector3d forward = map_from_base.rotation * Eigen::Vector3d::UnitX();
+  return {map_from_base.translation.x(), map_from_base.translation.y(),
+          std::atan2(forward.y(), forward.x())};
+}
+
+RoverPose Advance(const RoverPose& pose, double forward_m, double turn_rad) {
+  const double half = turn_rad / 2;
+  const double chord_m = forward_m * (std::abs(half) < 1e-6 ? 1 : std::sin(half) / half);
+  const double direction_rad = pose.heading_rad + half;
+  return {pose.x_m + chord_m * std::cos(direction_rad),
+          pose.y_m + chord_m * std::sin(direction_rad), WrapAngle(pose.heading_rad + turn_rad)};
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,83 @@
+#include "arfm_vo/hardware/can_udp_bus.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace arfm_vo {
+namespace {
+
+// A datagram: kind, identifier (4 bytes, big-endian), dlc, 8 bytes.
+constexpr size_t kDatagramSize = 14;
+using Datagram = std::array<uint8_t, kDatagramSize>;
+
+sockaddr_in LoopbackAddress(uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  return address;
+}
+
+Datagram ToDatagram(const CanFrame& frame) {
+  Datagram datagram{};
+  datagram[0] = static_cast<uint8_t>(frame.kind);
+  for (int i = 0; i < 4; ++i) datagram[1 + i] = static_cast<uint8_t>(frame.id >> (24 - 8 * i));
+  datagram[5] = frame.dlc;
+  std::copy(frame.bytes.begin(), frame.bytes.end(), datagram.begin() + 6);
+  return datagram;
+}
+
+std::optional<CanFrame> ToFrame(const Datagram& datagram) {
+  if (datagram[0] > static_cast<uint8_t>(CanFrameKind::kError) || datagram[5] > 8) return {};
+  CanFrame frame;
+  frame.kind = static_cast<CanFrameKind>(datagram[0]);
+  for (int i = 0; i < 4; ++i) frame.id = frame.id << 8 | datagram[1 + i];
+  frame.dlc = datagram[5];
+  std::copy(datagram.begin() + 6, datagram.end(), frame.bytes.begin());
+  return frame;
+}
+
+}  // namespace
+
+CanUdpBus::CanUdpBus(uint16_t local_port, uint16_t peer_port)
+    : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+  const sockaddr_in local = LoopbackAddress(local_port), peer = LoopbackAddress(peer_port);
+  const auto size = static_cast<socklen_t>(sizeof(sockaddr_in));
+  const bool is_open =
+      socket_.IsOpen() &&
+      ::bind(socket_.Get(), reinterpret_cast<const sockaddr*>(&local), size) == 0 &&
+      ::connect(socket_.Get(), reinterpret_cast<const sockaddr*>(&peer), size) == 0;
+  if (!is_open) {
+    throw std::system_error(errno, std::generic_category(),
+                            "CAN over UDP from 127.0.0.1:" + std::to_string(local_port));
+  }
+}
+
+CanSendStatus CanUdpBus::Send(const CanFrame& frame) {
+  const Datagram datagram = ToDatagram(frame);
+  // A refusal tells of the datagram before; this one has not been sent then.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (::send(socket_.Get(), datagram.data(), datagram.size(), 0) == kDatagramSize)
+      return attempt == 0 ? CanSendStatus::kSent : CanSendStatus::kBusy;
+    if (errno != ECONNREFUSED) break;
+  }
+  return CanSendStatus::kBusy;
+}
+
+std::optional<CanFrame> CanUdpBus::Receive() {
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    Datagram datagram;
+    const auto size = ::recv(socket_.Get(), datagram.data(), datagram.size(), MSG_TRUNC);
+    if (size == kDatagramSize) return ToFrame(datagram);
+    if (size >= 0) return CanFrame{CanFrameKind::kOther, 0, 0, {}};
+    if (errno != ECONNREFUSED) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace arfm_vo

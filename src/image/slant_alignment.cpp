@@ -1,0 +1,118 @@
+#include "arfm_vo/image/slant_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+#include "cubic_interpolation.h"
+#include "patch_window.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kSize = Patch::kSize;
+
+/// Left pixel steps of right pixel steps where the disparity has the given gradient.
+cv::Matx22f LeftFromRight(const cv::Vec2f& disparity_gradient) {
+  const float stretch = 1 / (1 - disparity_gradient[0]);
+  return {stretch, disparity_gradient[1] * stretch, 0, 1};
+}
+
+cv::Vec2f DisparityGradient(const cv::Matx22f& left_from_right) {
+  return {1 - 1 / left_from_right(0, 0), left_from_right(0, 1) / left_from_right(0, 0)};
+}
+
+}  // namespace
+
+void SlantAlignmentOptions::Check() const {
+  Require(max_rounds >= 0, "slant.max_rounds must not be negative");
+  Require(gradient_sigma > 0, "slant.gradient_sigma must be positive");
+  Require(noise_grey > 0, "slant.noise_grey must be positive");
+  Require(max_gradient > 0 && max_gradient < 1, "slant.max_gradient must be in (0, 1)");
+}
+
+SlantAligner::SlantAligner(const PatchAlignmentOptions& alignment,
+                           const SlantAlignmentOptions& options)
+    : aligner_(alignment), options_(options) {
+  options.Check();
+}
+
+SlantAlignment SlantAligner::Align(const cv::Mat& left, const cv::Point2f& centre,
+                                   const cv::Mat& right, const cv::Point2f& guess) const {
+  SlantAlignment best;
+  const auto upright = Patch::Sample(left, centre);
+  if (!upright) {
+    best.alignment.status = AlignmentStatus::kOutOfImage;
+    return best;
+  }
+  Patch patch = *upright;
+  best.alignment = aligner_.Align(patch, right, guess);
+  cv::Matx22f left_from_right = cv::Matx22f::eye();
+  cv::Point2f position = best.alignment.position;
+  for (int round = 0; round < options_.max_rounds; ++round) {
+    // Where the first alignment failed the slant may be why; its last position is a start.
+    const cv::Vec2f shear = MeasureShear(patch, right, position);
+    left_from_right = left_from_right * cv::Matx22f(1 + shear[0], shear[1], 0, 1);
+    const cv::Vec2f gradient = DisparityGradient(left_from_right);
+    if (!(std::max(std::abs(gradient[0]), std::abs(gradient[1])) < options_.max_gradient)) break;
+    const auto slanted = Patch::Sample(left, centre, LeftFromRight(gradient));
+    if (!slanted) break;
+    patch = *slanted;
+    const PatchAlignment alignment = aligner_.Align(patch, right, position);
+    if (!alignment.IsAligned()) break;
+    if (best.alignment.IsAligned() && alignment.zncc < best.alignment.zncc) break;
+    best = {alignment, gradient};
+    position = alignment.position;
+  }
+  return best;
+}
+
+cv::Vec2f SlantAligner::MeasureShear(const Patch& patch, const cv::Mat& right,
+                                     const cv::Point2f& position) const {
+  Patch::Samples samples;
+  const cv::Point2f corner = position - cv::Point2f(Patch::kHalfSpan, Patch::kHalfSpan);
+  if (!Interpolate<kSize, kSize>(right, corner, samples.data())) return {0, 0};
+  const float gain = Dot(patch.values_, samples) / patch.squared_values_;
+  if (!(gain > 0)) return {0, 0};
+  // right(x, y) = left(x + t + a x + b y): regressors g, g x, g y besides brightness and contrast.
+  const Patch::Samples& g = patch.raw_gradient_x_;
+  Patch::Samples gx, gy;
+  for (int r = 0; r < kSize; ++r) {
+    for (int c = 0; c < kSize; ++c) {
+      const int i = r * kSize + c;
+      gx[i] = g[i] * (static_cast<float>(c) - Patch::kHalfSpan);
+      gy[i] = g[i] * (static_cast<float>(r) - Patch::kHalfSpan);
+    }
+  }
+  const std::array<const Patch::Samples*, 3> regressors = {&g, &gx, &gy};
+  std::array<Patch::Samples, 3> weighted;
+  std::array<float, 3> along_values;
+  for (int k = 0; k < 3; ++k) {
+    const float mean = Dot(kPatchWindow.weights, *regressors[k]);
+    for (int i = 0; i < Patch::kNumSamples; ++i) {
+      weighted[k][i] = kPatchWindow.weights[i] * ((*regressors[k])[i] - mean);
+    }
+    along_values[k] = Dot(patch.values_, *regressors[k]);
+  }
+  // Sums are means under the window: the prior counts in the same unit.
+  const auto prior =
+      static_cast<float>(options_.noise_grey * options_.noise_grey * kPatchWindow.squared_sum /
+                         (options_.gradient_sigma * options_.gradient_sigma));
+  cv::Matx33f normal;
+  cv::Vec3f right_side;
+  const float samples_along_values = Dot(patch.values_, samples);
+  for (int k = 0; k < 3; ++k) {
+    const float share = along_values[k] / patch.squared_values_;
+    for (int l = 0; l < 3; ++l) {
+      normal(k, l) = Dot(weighted[k], *regressors[l]) - share * along_values[l];
+    }
+    right_side[k] = (Dot(weighted[k], samples) - share * samples_along_values) / gain;
+  }
+  normal(0, 0) += 1e-6f;
+  normal(1, 1) += prior;
+  normal(2, 2) += prior;
+  const cv::Vec3f solution = normal.solve(right_side, cv::DECOMP_CHOLESKY);
+  return {solution[1], solution[2]};
+}
+
+}  // namespace arfm_vo

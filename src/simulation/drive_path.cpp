@@ -1,0 +1,94 @@
+#include "arfm_vo/simulation/drive_path.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kDone = 1e-9;
+
+/// The pose a share in [0, 1] of the way along a segment that begins at `start`.
+PlanarPose Along(const PlanarPose& start, const PathSegment& segment, double share) {
+  const double turn = share * segment.turn_rad, length = share * segment.length_m;
+  const double half = turn / 2;
+  const double chord = std::abs(half) < 1e-9 ? length : length * std::sin(half) / half;
+  const double direction = start.heading_rad + half;
+  return {start.position + chord * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
+          start.heading_rad + turn};
+}
+
+}  // namespace
+
+PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& segments,
+                      double step_m, double turn_step_rad, int num_poses) {
+  Require(num_poses >= 1, "path: the number of poses must be at least 1");
+  Require(step_m > 0 && turn_step_rad > 0, "path: steps must be positive");
+  double steps_in_all = 0;
+  const auto num_steps = [&](const PathSegment& segment) {
+    return segment.length_m > 0 ? segment.length_m / step_m
+                                : std::abs(segment.turn_rad) / turn_step_rad;
+  };
+  for (const PathSegment& segment : segments) steps_in_all += num_steps(segment);
+  Require(steps_in_all > kDone, "path: it has no length and no turn");
+  PlanarPath path{start};
+  PlanarPose segment_start = start;
+  double until_next = 1;  // in steps
+  for (size_t i = 0; static_cast<int>(path.size()) < num_poses; i = (i + 1) % segments.size()) {
+    const double steps = num_steps(segments[i]);
+    double done = until_next;
+    for (; done <= steps + kDone && static_cast<int>(path.size()) < num_poses; ++done) {
+      path.push_back(Along(segment_start, segments[i], done / steps));
+    }
+    until_next = done - steps;
+    segment_start = Along(segment_start, segments[i], 1);
+  }
+  return path;
+}
+
+void RoverShape::Check() const {
+  Require(track_length_m > 0 && track_gauge_m > 0, "rover: the tracks' sizes must be positive");
+  Require(camera_height_m > 0, "rover.camera_height_m must be positive");
+  Require(std::abs(camera_tilt_deg) <= 90, "rover.camera_tilt_deg must be in [-90, 90]");
+}
+
+Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverShape& shape) {
+  const Eigen::Vector2d ahead(std::cos(pose.heading_rad), std::sin(pose.heading_rad));
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  constexpr int kSide = 5;  // samples along each side of the footprint
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const double x = shape.track_length_m * (i / (kSide - 1.0) - 0.5);
+      const double y = shape.track_gauge_m * (j / (kSide - 1.0) - 0.5);
+      const Eigen::Vector2d p = pose.position + x * ahead + y * left;
+      const Eigen::Vector3d row(x, y, 1);
+      normal_matrix += row * row.transpose();
+      right_side += row * terrain.Height(p.x(), p.y());
+    }
+  }
+  const Eigen::Vector3d plane = normal_matrix.ldlt().solve(right_side);
+  Eigen::Matrix3d world_from_base;
+  world_from_base.col(0) = Eigen::Vector3d(ahead.x(), ahead.y(), plane.x()).normalized();
+  world_from_base.col(2) = Eigen::Vector3d(ahead.x(), ahead.y(), plane.x())
+                               .cross(Eigen::Vector3d(left.x(), left.y(), plane.y()))
+                               .normalized();
+  world_from_base.col(1) = world_from_base.col(2).cross(world_from_base.col(0));
+  return {world_from_base, Eigen::Vector3d(pose.position.x(), pose.position.y(), plane.z())};
+}
+
+Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad, double tilt_rad) {
+  const double tilt = shape.camera_tilt_deg * M_PI / 180 + tilt_rad;
+  Eigen::Matrix3d tilted_from_eye;  // the eye's axes in x ahead, y left, z up, before pan and tilt
+  tilted_from_eye << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const Eigen::Quaterniond head_from_eye = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
+                                           Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
+                                           Eigen::Quaterniond(tilted_from_eye);
+  const Eigen::Vector3d eye_in_head = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
+                                      Eigen::Vector3d(0, shape.camera_left_m, 0);
+  return {head_from_eye.normalized(),
+          Eigen::Vector3d(shape.camera_forward_m, 0, shape.camera_height_m) + eye_in_head};
+}
+
+}  // namespace arfm_vo

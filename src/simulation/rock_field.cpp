@@ -1,0 +1,154 @@
+#include "arfm_vo/simulation/rock_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/simulation/hash_noise.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kCell = 2.0;         ///< m, of placing and culling
+constexpr double kShadowCell = 0.4;   ///< m, of the shadow lists
+constexpr double kShadowReach = 2.0;  ///< shadows on falling ground are longer than on level ground
+
+/// Repeatable draws for one rock.
+struct Draw {
+  uint32_t word;
+  double operator()(int what) const { return HashUnit(word + 0x9e3779b9u * (what + 1)); }
+  double operator()(int what, double low, double high) const {
+    return low + (high - low) * (*this)(what);
+  }
+};
+
+double DrawRadius(const RockOptions& options, double unit) {
+  // Inverse of the truncated power law's distribution.
+  const double rarest = std::pow(options.max_radius_m / options.min_radius_m, -options.power);
+  return options.min_radius_m * std::pow(1 - unit * (1 - rarest), -1 / options.power);
+}
+
+/// An angular rock: an ellipsoid with flat faces cut off, part of it in the ground.
+Solid MakeRock(const Draw& draw, const Eigen::Vector3d& ground, double radius, double flatness) {
+  Solid rock;
+  const Eigen::Vector3d axes(radius, radius * draw(10, 0.65, 1),
+                             radius * flatness * draw(11, 0.7, 1.3));
+  const Eigen::Quaterniond turn =
+      Eigen::AngleAxisd(draw(12, 0, 2 * M_PI), Eigen::Vector3d::UnitZ()) *
+      Eigen::AngleAxisd(draw(13, -0.35, 0.35), Eigen::Vector3d::UnitX()) *
+      Eigen::AngleAxisd(draw(14, -0.35, 0.35), Eigen::Vector3d::UnitY());
+  rock.body_from_world = turn.conjugate().toRotationMatrix();
+  rock.unit_from_world = axes.cwiseInverse().asDiagonal() * rock.body_from_world;
+  rock.center = ground + Eigen::Vector3d(0, 0, axes.z() * draw(15, -0.1, 0.45));
+  rock.bounding_radius_m = axes.maxCoeff();
+  const int num_planes = 5 + static_cast<int>(draw(16, 0, 4));
+  for (int i = 0; i < num_planes; ++i) {
+    const double azimuth = (i + draw(20 + 3 * i, -0.4, 0.4)) * 2 * M_PI / num_planes;
+    const double height = draw(21 + 3 * i, -0.2, 0.9);
+    const double across = std::sqrt(1 - height * height);
+    rock.planes.emplace_back(across * std::cos(azimuth), across * std::sin(azimuth), height,
+                             draw(22 + 3 * i, 0.6, 0.95));
+  }
+  rock.albedo = draw(17, 0.22, 0.5);
+  rock.contrast = draw(18, 0.5, 1);
+  rock.texture_offset_m = {draw(19, 0, 500), draw(9, 0, 500)};
+  return rock;
+}
+
+}  // namespace
+
+void RockOptions::Check() const {
+  Require(density_per_m2 >= 0 && density_per_m2 <= 100, "rocks.density_per_m2 must be in [0, 100]");
+  Require(min_radius_m > 0 && max_radius_m > min_radius_m,
+          "rocks.max_radius_m must be above rocks.min_radius_m, and that above 0");
+  Require(power > 0, "rocks.power must be positive");
+  Require(flatness > 0, "rocks.flatness must be positive");
+}
+
+RockField::RockField(const RockOptions& options, const RockBed& bed, double side_m,
+                     const Eigen::Vector3d& to_sun, uint32_t seed)
+    : side_m_(side_m), to_sun_(to_sun) {
+  options.Check();
+  const int num_cells = static_cast<int>(std::floor(side_m / kCell));
+  for (int j = 0; j < num_cells; ++j) {
+    for (int i = 0; i < num_cells; ++i) FillCell(options, bed, i, j, seed);
+  }
+  IndexShadows();
+}
+
+void RockField::FillCell(const RockOptions& options, const RockBed& bed, int i, int j,
+                         uint32_t seed) {
+  const int begin = static_cast<int>(rocks_.size());
+  const uint32_t cell_word = HashCell(i, j, seed);
+  const double expected = options.density_per_m2 * kCell * kCell;
+  const int number = static_cast<int>(expected + HashUnit(cell_word));
+  double lowest = 1e9, highest = -1e9, reach = 0;
+  for (int k = 0; k < number; ++k) {
+    const Draw draw{HashCell(k, 77, cell_word)};
+    const double x = (i + draw(0)) * kCell - side_m_ / 2, y = (j + draw(1)) * kCell - side_m_ / 2;
+    const double radius = DrawRadius(options, draw(2));
+    if (draw(3) > bed.cover(x, y) || radius > bed.max_radius_m(x, y)) continue;
+    rocks_.push_back(MakeRock(draw, {x, y, bed.height_m(x, y)}, radius, options.flatness));
+    lowest = std::min(lowest, rocks_.back().center.z());
+    highest = std::max(highest, rocks_.back().center.z());
+    reach = std::max(reach, rocks_.back().bounding_radius_m);
+  }
+  const Eigen::Vector3d center((i + 0.5) * kCell - side_m_ / 2, (j + 0.5) * kCell - side_m_ / 2,
+                               (lowest + highest) / 2);
+  cells_.push_back({begin, static_cast<int>(rocks_.size()), center,
+                    std::hypot(kCell * M_SQRT1_2, (highest - lowest) / 2) + reach});
+}
+
+template <class Visit>
+void RockField::VisitShadowCells(const Solid& rock, const Visit& visit) const {
+  const Eigen::Vector2d away = -to_sun_.head<2>();
+  const double length =
+      kShadowReach * 2 * rock.bounding_radius_m / std::max(to_sun_.z(), 0.05) * away.norm();
+  const Eigen::Vector2d direction =
+      away.norm() > 1e-9 ? Eigen::Vector2d(away.normalized()) : Eigen::Vector2d::UnitX();
+  const double wide = rock.bounding_radius_m + kShadowCell * M_SQRT1_2;
+  const Eigen::Vector2d start = rock.center.head<2>(), stop = start + length * direction;
+  const auto cell_of = [&](double x) {
+    return std::clamp(static_cast<int>((x + side_m_ / 2) / kShadowCell), 0, shadow_side_ - 1);
+  };
+  const int low_x = cell_of(std::min(start.x(), stop.x()) - wide);
+  const int high_x = cell_of(std::max(start.x(), stop.x()) + wide);
+  const int low_y = cell_of(std::min(start.y(), stop.y()) - wide);
+  const int high_y = cell_of(std::max(start.y(), stop.y()) + wide);
+  for (int j = low_y; j <= high_y; ++j) {
+    for (int i = low_x; i <= high_x; ++i) {
+      const Eigen::Vector2d offset = kShadowCell * Eigen::Vector2d(i + 0.5, j + 0.5) -
+                                     Eigen::Vector2d::Constant(side_m_ / 2) - start;
+      const double along = std::clamp(offset.dot(direction), 0.0, length);
+      if ((offset - along * direction).norm() <= wide) visit(j * shadow_side_ + i);
+    }
+  }
+}
+
+void RockField::IndexShadows() {
+  shadow_side_ = std::max(1, static_cast<int>(std::ceil(side_m_ / kShadowCell)));
+  shadow_begin_.assign(static_cast<size_t>(shadow_side_) * shadow_side_ + 1, 0);
+  for (const Solid& rock : rocks_) {
+    VisitShadowCells(rock, [&](int cell) { ++shadow_begin_[cell + 1]; });
+  }
+  for (size_t i = 1; i < shadow_begin_.size(); ++i) shadow_begin_[i] += shadow_begin_[i - 1];
+  shadow_rocks_.resize(shadow_begin_.back());
+  std::vector<int> next(shadow_begin_.begin(), shadow_begin_.end() - 1);
+  for (size_t rock = 0; rock < rocks_.size(); ++rock) {
+    VisitShadowCells(rocks_[rock],
+                     [&](int cell) { shadow_rocks_[next[cell]++] = static_cast<int>(rock); });
+  }
+}
+
+bool RockField::IsShadowed(const Eigen::Vector3d& point) const {
+  const int i = static_cast<int>(std::floor((point.x() + side_m_ / 2) / kShadowCell));
+  const int j = static_cast<int>(std::floor((point.y() + side_m_ / 2) / kShadowCell));
+  if (i < 0 || j < 0 || i >= shadow_side_ || j >= shadow_side_) return false;
+  const int cell = j * shadow_side_ + i;
+  const Ray ray{point, to_sun_};
+  for (int k = shadow_begin_[cell]; k < shadow_begin_[cell + 1]; ++k) {
+    if (rocks_[shadow_rocks_[k]].Blocks(ray)) return true;
+  }
+  return false;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,118 @@
+#include "arfm_vo/simulation/view_solids.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kTile = 8;                              ///< px
+constexpr double kVanishPx = 0.8, kFullSizePx = 1.8;  ///< radii between which a solid shrinks away
+constexpr double kNearest = 0.02;                     ///< m, before the camera
+
+/// Whether a sphere can be seen by a camera: against the five sides of its view.
+bool MayBeSeen(const StereoCamera& camera, const Eigen::Vector3d& center, double radius) {
+  if (center.z() < -radius) return false;
+  const auto outside = [&](double focal, double offset, double x, double low, double high) {
+    const double left = (low - offset) / focal, right = (high - offset) / focal;
+    return (left * center.z() - x) > radius * std::hypot(1, left) ||
+           (x - right * center.z()) > radius * std::hypot(1, right);
+  };
+  return !outside(camera.fx, camera.cx, center.x(), -1, camera.width) &&
+         !outside(camera.fy, camera.cy, center.y(), -1, camera.height);
+}
+
+}  // namespace
+
+ViewSolids::ViewSolids(const StereoCamera& camera, const Rigid3& world_from_camera,
+                       const RockField& rocks, const std::vector<Solid>& bodies)
+    : num_tiles_u_((camera.width + kTile - 1) / kTile),
+      num_tiles_v_((camera.height + kTile - 1) / kTile) {
+  const Rigid3 camera_from_world = world_from_camera.Inverse();
+  rocks.VisitCells(
+      [&](const Eigen::Vector3d& center, double radius) {
+        return MayBeSeen(camera, camera_from_world * center, radius);
+      },
+      [&](const Solid& rock) { Add(rock, camera, camera_from_world); });
+  for (const Solid& body : bodies) {
+    if (body.is_visible) Add(body, camera, camera_from_world);
+  }
+  IndexTiles();
+}
+
+bool ViewSolids::Bound(const Solid& solid, const Eigen::Vector3d& c, const StereoCamera& camera,
+                       Entry& entry) const {
+  const double radius = solid.bounding_radius_m;
+  const double near = c.z() - radius, far = c.z() + radius;
+  entry.low_u = entry.low_v = 0;
+  entry.high_u = num_tiles_u_ - 1;
+  entry.high_v = num_tiles_v_ - 1;
+  if (near < kNearest) return true;  // about the camera: anywhere in the image
+  const auto bound = [&](double x, double focal, double offset, int num_tiles, int& low,
+                         int& high) {
+    const double first = focal * std::min((x - radius) / near, (x - radius) / far) + offset - 1;
+    const double last = focal * std::max((x + radius) / near, (x + radius) / far) + offset + 1;
+    low = static_cast<int>(std::clamp(std::floor(first / kTile), 0.0, double(num_tiles)));
+    high = static_cast<int>(std::clamp(std::floor(last / kTile), -1.0, num_tiles - 1.0));
+    return low <= high;
+  };
+  return bound(c.x(), camera.fx, camera.cx, num_tiles_u_, entry.low_u, entry.high_u) &&
+         bound(c.y(), camera.fy, camera.cy, num_tiles_v_, entry.low_v, entry.high_v);
+}
+
+void ViewSolids::Add(const Solid& solid, const StereoCamera& camera,
+                     const Rigid3& camera_from_world) {
+  const Eigen::Vector3d center = camera_from_world * solid.center;
+  if (center.z() < -solid.bounding_radius_m) return;
+  const double radius_px = camera.fx * solid.bounding_radius_m / std::max(center.norm(), 1e-3);
+  if (radius_px <= kVanishPx) return;
+  Entry entry;
+  if (!Bound(solid, center, camera, entry)) return;
+  entry.solid = &solid;
+  if (radius_px < kFullSizePx) {
+    shrunk_.push_back(solid);
+    shrunk_.back().unit_from_world *= (kFullSizePx - kVanishPx) / (radius_px - kVanishPx);
+    entry.solid = &shrunk_.back();
+  }
+  entries_.push_back(entry);
+}
+
+void ViewSolids::IndexTiles() {
+  tile_begin_.assign(num_tiles_u_ * num_tiles_v_ + 1, 0);
+  const auto visit_tiles = [&](const Entry& entry, const auto& visit) {
+    for (int tv = entry.low_v; tv <= entry.high_v; ++tv) {
+      for (int tu = entry.low_u; tu <= entry.high_u; ++tu) visit(tv * num_tiles_u_ + tu);
+    }
+  };
+  for (const Entry& entry : entries_) {
+    visit_tiles(entry, [&](int tile) { ++tile_begin_[tile + 1]; });
+  }
+  for (size_t i = 1; i < tile_begin_.size(); ++i) tile_begin_[i] += tile_begin_[i - 1];
+  tile_entries_.resize(tile_begin_.back());
+  std::vector<int> next(tile_begin_.begin(), tile_begin_.end() - 1);
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    visit_tiles(entries_[i], [&](int tile) { tile_entries_[next[tile]++] = static_cast<int>(i); });
+  }
+}
+
+ViewSolids::Hit ViewSolids::Intersect(const Ray& ray, double u, double v, double end) const {
+  const int tile_u = std::clamp(static_cast<int>(u / kTile), 0, num_tiles_u_ - 1);
+  const int tile_v = std::clamp(static_cast<int>(v / kTile), 0, num_tiles_v_ - 1);
+  const int tile = tile_v * num_tiles_u_ + tile_u;
+  const double direction_squared = ray.direction.squaredNorm();
+  Hit best;
+  for (int k = tile_begin_[tile]; k < tile_begin_[tile + 1]; ++k) {
+    const Solid& solid = *entries_[tile_entries_[k]].solid;
+    const Eigen::Vector3d offset = solid.center - ray.origin;
+    const double along = offset.dot(ray.direction);
+    const double miss_squared = offset.squaredNorm() - along * along / direction_squared;
+    if (miss_squared > solid.bounding_radius_m * solid.bounding_radius_m) continue;
+    const SolidHit hit = solid.Intersect(ray, kNearest, end);
+    if (hit.parameter >= end) continue;
+    end = hit.parameter;
+    best = {hit, &solid, tile_entries_[k]};
+  }
+  return best;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,105 @@
+#include "arfm_vo/calibration/corner_detection.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "calibration/rendered_board.h"
+
+namespace arfm_vo {
+namespace {
+
+const Chessboard kBoard{9, 6, 0.1};
+
+double Rms(const BoardCorners& a, const BoardCorners& b) {
+  return cv::norm(a, b, cv::NORM_L2) / std::sqrt(double(a.size()));
+}
+
+TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
+  const TrueRig rig = MakeRig(0.5);
+  RandomEngine engine(11);
+  const BoardRenderer renderer(rig.left, kBoard);
+  for (const Rigid3& pose : RandomBoardPoses(rig, kBoard, 4, 0.7, engine)) {
+    const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kBoard.Size());
+    ASSERT_TRUE(corners);
+    const BoardCorners truth =
+        AlignOrder(*corners, ProjectBoard(rig.left, kBoard, pose), kBoard.Size());
+    EXPECT_LT(Rms(*corners, truth), 0.06);
+  }
+}
+
+TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
+  const TrueRig rig = MakeRig(1);  // wider than the search's image
+  RandomEngine engine(12);
+  const Rigid3 pose = RandomBoardPoses(rig, kBoard, 1, 0.3, engine)[0];
+  const cv::Mat image = BoardRenderer(rig.left, kBoard).Render(pose, 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kBoard.Size());
+  ASSERT_TRUE(corners);
+  const BoardCorners truth =
+      AlignOrder(*corners, ProjectBoard(rig.left, kBoard, pose), kBoard.Size());
+  EXPECT_LT(Rms(*corners, truth), 0.06);
+  cv::Point2f mean(0, 0);
+  for (size_t i = 0; i < truth.size(); ++i)
+    mean += ((*corners)[i] - truth[i]) / double(truth.size());
+  EXPECT_LT(cv::norm(mean), 0.015);
+}
+
+TEST(CornerDetection, NothingInAnImageWithoutTheWholeBoard) {
+  EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kBoard.Size()));
+  const TrueRig rig = MakeRig(0.5);
+  RandomEngine engine(13);
+  cv::Mat image = BoardRenderer(rig.left, kBoard)
+                      .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kBoard.Size());
+  ASSERT_TRUE(corners);
+  cv::circle(image, (*corners)[4], 40, cv::Scalar(128), cv::FILLED);  // a hand over the board
+  EXPECT_FALSE(DetectCorners(image, kBoard.Size()));
+}
+
+TEST(CornerDetection, GuessesTheSizeOfTheBoard) {
+  const TrueRig rig = MakeRig(0.5);
+  RandomEngine engine(14);
+  const cv::Mat image =
+      BoardRenderer(rig.left, kBoard)
+          .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+  const auto size = GuessBoardSize(image);
+  ASSERT_TRUE(size);
+  EXPECT_EQ(*size, cv::Size(9, 6));
+  EXPECT_FALSE(GuessBoardSize(cv::Mat(480, 640, CV_8U, cv::Scalar(128))));
+}
+
+/// A level grid with 10 px between corners, rows first.
+BoardCorners LevelGrid(cv::Size size) {
+  BoardCorners grid;
+  for (int v = 0; v < size.height; ++v)
+    for (int u = 0; u < size.width; ++u) grid.emplace_back(100 + 10.F * u, 50 + 10.F * v);
+  return grid;
+}
+
+TEST(AlignOrder, UndoesAHalfTurnOfTheOrder) {
+  const cv::Size size(5, 4);
+  const BoardCorners left = LevelGrid(size);
+  EXPECT_EQ(AlignOrder(left, {left.rbegin(), left.rend()}, size), left);
+  EXPECT_EQ(AlignOrder(left, left, size), left);
+}
+
+TEST(AlignOrder, UndoesQuarterTurnsOfASquareBoard) {
+  const cv::Size size(4, 4);
+  const BoardCorners left = LevelGrid(size);
+  BoardCorners turned;  // down the last column first
+  for (int u = 3; u >= 0; --u)
+    for (int v = 0; v < 4; ++v) turned.push_back(left[v * 4 + u]);
+  EXPECT_EQ(AlignOrder(left, turned, size), left);
+}
+
+TEST(MirrorCorners, TwiceIsTheSameAndOnceKeepsTheSenseOfTurn) {
+  const cv::Size size(5, 4);
+  const BoardCorners grid = LevelGrid(size);
+  const BoardCorners mirrored = MirrorCorners(grid, size, 640);
+  EXPECT_EQ(mirrored[0], cv::Point2f(639 - grid[4].x, grid[4].y));
+  EXPECT_GT(mirrored[1].x, mirrored[0].x);
+  EXPECT_EQ(MirrorCorners(mirrored, size, 640), grid);
+}
+
+}  // namespace
+}  // namespace arfm_vo

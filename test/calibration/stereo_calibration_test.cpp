@@ -1,0 +1,221 @@
+#include "arfm_vo/calibration/stereo_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "arfm_vo/calibration/rectification.h"
+#include "calibration/rendered_board.h"
+
+namespace arfm_vo {
+namespace {
+
+const Chessboard kBoard{9, 6, 0.1};
+
+/// Corners as the true rig would see them, with Gaussian noise.
+class SyntheticPairs {
+ public:
+  explicit SyntheticPairs(uint32_t seed, TrueRig rig = MakeRig(0.5)) : rig(rig), engine_(seed) {}
+
+  std::vector<Rigid3> Poses(int count, double max_tilt_rad = 0.7) {
+    return RandomBoardPoses(rig, kBoard, count, max_tilt_rad, engine_);
+  }
+  std::vector<CornerPair> See(const std::vector<Rigid3>& poses, double noise_px) {
+    std::vector<CornerPair> pairs;
+    for (const Rigid3& pose : poses)
+      pairs.push_back(
+          {std::to_string(pairs.size()), Disturb(ProjectBoard(rig.left, kBoard, pose), noise_px),
+           Disturb(ProjectBoard(rig.right, kBoard, rig.right_from_left * pose), noise_px)});
+    return pairs;
+  }
+  BoardCorners Disturb(BoardCorners corners, double noise_px) {
+    for (cv::Point2f& corner : corners)
+      corner += cv::Point2f(float(noise_px * Normal()), float(noise_px * Normal()));
+    return corners;
+  }
+
+  TrueRig rig;
+
+ private:
+  double Normal() {  // Box and Muller, the same on every platform
+    const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine_)));
+    return radius * std::cos(2 * M_PI * RandomUnit(engine_));
+  }
+  RandomEngine engine_;
+};
+
+StereoCalibration Calibrate(const std::vector<CornerPair>& pairs, const TrueRig& rig) {
+  return CalibrateStereo(pairs, kBoard, rig.left.size);
+}
+
+std::string MessageOf(const std::vector<CornerPair>& pairs, const TrueRig& rig) {
+  try {
+    Calibrate(pairs, rig);
+  } catch (const CalibrationError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(StereoCalibration, ExactCornersGiveTheTrueRig) {
+  SyntheticPairs synthetic(1);
+  const auto calibration = Calibrate(synthetic.See(synthetic.Poses(10), 0), synthetic.rig);
+  const TrueRig& truth = synthetic.rig;
+  EXPECT_LT(calibration.stereo_rms_px, 1e-3);
+  EXPECT_NEAR(calibration.left.matrix(0, 0), truth.left.matrix(0, 0), 0.05);
+  EXPECT_NEAR(calibration.right.matrix(1, 1), truth.right.matrix(1, 1), 0.05);
+  EXPECT_NEAR(calibration.left.matrix(0, 2), truth.left.matrix(0, 2), 0.05);
+  EXPECT_NEAR(calibration.left.distortion.at<double>(0), -0.18, 2e-3);
+  EXPECT_LT((calibration.right_from_left.translation - truth.right_from_left.translation).norm(),
+            2e-5);
+  EXPECT_LT((calibration.right_from_left.rotation.conjugate() * truth.right_from_left.rotation)
+                .vec()
+                .norm(),
+            2e-5);
+  EXPECT_NEAR(calibration.left_precision.skew_px, 0, 0.02);
+  EXPECT_EQ(calibration.pairs.size(), 10U);
+}
+
+TEST(StereoCalibration, NoiseStaysWithinTheStatedPrecision) {
+  SyntheticPairs synthetic(2);
+  const auto calibration = Calibrate(synthetic.See(synthetic.Poses(20), 0.1), synthetic.rig);
+  const auto& [skew, skew_sigma, fx_sigma, fy_sigma, cx_sigma, cy_sigma] =
+      calibration.left_precision;
+  EXPECT_NEAR(calibration.stereo_rms_px, 0.1 * std::sqrt(2), 0.01);  // of both coordinates
+  EXPECT_NEAR(calibration.left.matrix(0, 0), synthetic.rig.left.matrix(0, 0), 4 * fx_sigma);
+  EXPECT_NEAR(calibration.left.matrix(1, 1), synthetic.rig.left.matrix(1, 1), 4 * fy_sigma);
+  EXPECT_NEAR(calibration.left.matrix(0, 2), synthetic.rig.left.matrix(0, 2), 4 * cx_sigma);
+  EXPECT_NEAR(calibration.left.matrix(1, 2), synthetic.rig.left.matrix(1, 2), 4 * cy_sigma);
+  EXPECT_NEAR(skew, 0, 4 * skew_sigma);
+  EXPECT_LT(fx_sigma, 1);
+  EXPECT_LT(skew_sigma, 0.5);
+}
+
+TEST(StereoCalibration, SkewIsReported) {
+  constexpr double kSkewPx = 2.5;
+  SyntheticPairs synthetic(3);
+  auto pairs = synthetic.See(synthetic.Poses(20), 0.05);
+  const cv::Matx33d& k = synthetic.rig.left.matrix;
+  for (CornerPair& pair : pairs)
+    for (cv::Point2f& corner : pair.left)
+      corner.x += float(kSkewPx * (corner.y - k(1, 2)) / k(1, 1));
+  const auto calibration = Calibrate(pairs, synthetic.rig);
+  EXPECT_NEAR(calibration.left_precision.skew_px, kSkewPx, 0.15);
+  EXPECT_NEAR(calibration.right_precision.skew_px, 0, 0.15);
+}
+
+TEST(StereoCalibration, EyesOfDifferentFocalLength) {
+  TrueRig rig = MakeRig(0.5);
+  rig.right.matrix(0, 0) = rig.right.matrix(1, 1) = 600;
+  SyntheticPairs synthetic(4, rig);
+  const auto calibration = Calibrate(synthetic.See(synthetic.Poses(15), 0.1), rig);
+  EXPECT_NEAR(calibration.left.matrix(0, 0), 710, 3);
+  EXPECT_NEAR(calibration.right.matrix(0, 0), 600, 3);
+  EXPECT_NEAR(calibration.BaselineM(), 0.24, 0.001);
+}
+
+TEST(StereoCalibration, ABoardThatMovedBetweenTheExposuresIsLeftOut) {
+  SyntheticPairs synthetic(5);
+  const auto poses = synthetic.Poses(14);
+  auto pairs = synthetic.See(poses, 0.1);
+  Rigid3 moved = poses[3];
+  moved.translation += Eigen::Vector3d(0.004, 0.003, 0);
+  pairs[3].right = synthetic.See({moved}, 0.1)[0].right;
+  pairs[8].right = pairs[9].right;  // of another moment altogether
+  const auto calibration = Calibrate(pairs, synthetic.rig);
+  ASSERT_EQ(calibration.left_out.size(), 2U);
+  EXPECT_EQ(calibration.left_out[0].name, "8");
+  EXPECT_THAT(calibration.left_out[0].reason, testing::HasSubstr("eyes disagree"));
+  EXPECT_EQ(calibration.left_out[1].name, "3");
+  EXPECT_EQ(calibration.pairs.size(), 12U);
+  EXPECT_NEAR(calibration.BaselineM(), 0.24, 0.0005);
+}
+
+TEST(StereoCalibration, CornersThatDoNotFitTheirEyeAreLeftOut) {
+  SyntheticPairs synthetic(6);
+  auto pairs = synthetic.See(synthetic.Poses(12), 0.1);
+  pairs[5].left = synthetic.Disturb(pairs[5].left, 1);
+  const auto calibration = Calibrate(pairs, synthetic.rig);
+  ASSERT_EQ(calibration.left_out.size(), 1U);
+  EXPECT_EQ(calibration.left_out[0].name, "5");
+  EXPECT_THAT(calibration.left_out[0].reason, testing::HasSubstr("left eye"));
+}
+
+TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
+  SyntheticPairs synthetic(7);
+  auto pairs = synthetic.See(synthetic.Poses(5), 0.1);
+  pairs[2].left = synthetic.Disturb(pairs[2].left, 2);
+  const std::string message = MessageOf(pairs, synthetic.rig);
+  EXPECT_THAT(message, testing::HasSubstr("too few views: 4 good pairs of 5"));
+  EXPECT_THAT(message, testing::HasSubstr("left out 2:"));
+  pairs.resize(2);
+  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("too few views"));
+  EXPECT_THAT(MessageOf({}, synthetic.rig), testing::HasSubstr("too few views"));
+}
+
+TEST(StereoCalibration, SwappedEyesAreRefused) {
+  SyntheticPairs synthetic(8);
+  auto pairs = synthetic.See(synthetic.Poses(8), 0.1);
+  for (CornerPair& pair : pairs) std::swap(pair.left, pair.right);
+  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("swapped"));
+}
+
+TEST(StereoCalibration, AMirroredEyeIsRefused) {
+  SyntheticPairs synthetic(9);
+  auto pairs = synthetic.See(synthetic.Poses(8), 0.1);
+  for (CornerPair& pair : pairs)
+    pair.right = AlignOrder(pair.left,
+                            MirrorCorners(pair.right, kBoard.Size(), synthetic.rig.left.size.width),
+                            kBoard.Size());
+  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("one eye is mirrored"));
+}
+
+TEST(StereoCalibration, PairsOfDifferentMomentsAreRefused) {
+  SyntheticPairs synthetic(10);
+  auto pairs = synthetic.See(synthetic.Poses(9), 0.1);
+  for (size_t i = 0; i + 1 < pairs.size(); ++i) std::swap(pairs[i].right, pairs[i + 1].right);
+  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("eyes do not agree"));
+}
+
+TEST(StereoCalibration, ParallelViewsAreRefused) {
+  SyntheticPairs synthetic(11);
+  EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(12, 0), 0.1), synthetic.rig),
+              testing::HasSubstr("parallel"));
+  EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(12, 0), 0), synthetic.rig),
+              testing::HasSubstr("parallel"));
+  // Parallel to each other, slanted to the image.
+  std::vector<Rigid3> slanted = synthetic.Poses(12, 0);
+  for (Rigid3& pose : slanted) pose.rotation = ExpSO3({0.4, 0.3, 0}) * pose.rotation;
+  EXPECT_THAT(MessageOf(synthetic.See(slanted, 0.1), synthetic.rig),
+              testing::HasSubstr("parallel"));
+}
+
+TEST(StereoCalibration, EyesAboveEachOtherAreRefused) {
+  TrueRig rig = MakeRig(0.5);
+  rig.right_from_left.translation = {0.01, -0.2, 0};
+  SyntheticPairs synthetic(12, rig);
+  EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(8), 0.1), rig),
+              testing::HasSubstr("not side by side"));
+}
+
+TEST(Rectification, RowsOfExactCornersAgreeAndP3IsMinusFxTimesBaseline) {
+  SyntheticPairs synthetic(13);
+  const auto calibration = Calibrate(synthetic.See(synthetic.Poses(10), 0), synthetic.rig);
+  const Rectification rectification = Rectify(calibration);
+  EXPECT_LT(MeasureRowResiduals(calibration, rectification).back(), 2e-3);
+  const cv::Matx34d& p = rectification.right_projection;
+  EXPECT_NEAR(p(0, 3), -p(0, 0) * synthetic.rig.right_from_left.translation.norm(), 0.02);
+  const StereoCamera camera = rectification.Camera(calibration.image_size);
+  EXPECT_NO_THROW(camera.Check());
+  EXPECT_NEAR(camera.baseline_m, 0.24, 1e-4);
+}
+
+TEST(Percentile, TakesTheNearestOfTheSorted) {
+  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 0.5), 3);
+  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 1), 5);
+  EXPECT_EQ(Percentile({}, 0.5), 0);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,195 @@
+#include "arfm_vo/driving/goal_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "arfm_vo/base/random.h"
+#include "arfm_vo/driving/speed_limiter.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kTick_s = 0.02;
+
+/// A base that moves as it is told, times a gain, behind the limiter.
+struct IdealDrive {
+  RoverPose pose;
+  double forward_gain = 1, turn_gain = 1;
+  double time_s = 0, rest_s = 0;
+  double min_forward_mps = 0, max_forward_mps = 0;
+  SpeedLimiter limiter{SpeedLimiterOptions{}, TrackKinematics(TrackKinematicsOptions{})};
+
+  bool DriveTo(GoalController& controller, double limit_s = 1000) {
+    for (; time_s < limit_s; time_s += kTick_s) {
+      const PlanarMotion wanted = controller.Update(pose, rest_s > 0.5);
+      if (controller.HasArrived()) return true;
+      const PlanarMotion motion = limiter.Limit(wanted, kTick_s);
+      rest_s = motion.IsZero() ? rest_s + kTick_s : 0;
+      min_forward_mps = std::min(min_forward_mps, motion.forward_mps);
+      max_forward_mps = std::max(max_forward_mps, motion.forward_mps);
+      pose = Advance(pose, forward_gain * motion.forward_mps * kTick_s,
+                     turn_gain * motion.turn_radps * kTick_s);
+    }
+    return false;
+  }
+};
+
+void ExpectAt(const RoverPose& pose, const Waypoint& goal) {
+  EXPECT_LT(std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m), 0.045);
+  if (goal.heading_rad) {
+    EXPECT_LT(std::abs(WrapAngle(pose.heading_rad - *goal.heading_rad)), 0.045);
+  }
+}
+
+TEST(GoalController, DrivesStraightToAGoalAhead) {
+  GoalController controller({}, {{2, 0, 0.0}});
+  IdealDrive drive;
+  EXPECT_EQ(controller.Update(drive.pose, false).turn_radps, 0);
+  EXPECT_EQ(controller.Phase(), DrivePhase::kDrive);
+  EXPECT_TRUE(drive.DriveTo(controller));
+  ExpectAt(drive.pose, {2, 0, 0.0});
+  EXPECT_NEAR(drive.pose.y_m, 0, 1e-9);
+  EXPECT_LT(drive.time_s, 2 / 0.1 + 10);
+}
+
+TEST(GoalController, TurnsInPlaceFirstWhereTheGoalLiesBeside) {
+  GoalController controller({}, {{0, 3, std::nullopt}});
+  const PlanarMotion motion = controller.Update({}, false);
+  EXPECT_EQ(motion.forward_mps, 0);
+  EXPECT_DOUBLE_EQ(motion.turn_radps, 0.15);
+  GoalController to_the_right({}, {{0, -3, std::nullopt}});
+  EXPECT_DOUBLE_EQ(to_the_right.Update({}, false).turn_radps, -0.15);
+}
+
+TEST(GoalController, BacksToANearGoalBehind) {
+  GoalController controller({}, {{-0.5, 0, 0.0}});
+  IdealDrive drive;
+  EXPECT_TRUE(drive.DriveTo(controller));
+  ExpectAt(drive.pose, {-0.5, 0, 0.0});
+  EXPECT_EQ(drive.max_forward_mps, 0);
+  EXPECT_LT(drive.min_forward_mps, -0.05);
+}
+
+TEST(GoalController, TurnsRoundToAFarGoalBehind) {
+  GoalController controller({}, {{-3, 0, M_PI}});
+  IdealDrive drive;
+  EXPECT_TRUE(drive.DriveTo(controller));
+  ExpectAt(drive.pose, {-3, 0, M_PI});
+  EXPECT_EQ(drive.min_forward_mps, 0);
+}
+
+TEST(GoalController, NeverBacksWhereThatIsForbidden) {
+  GoalControllerOptions options;
+  options.max_backward_m = 0;
+  GoalController controller(options, {{-0.5, 0, 0.0}});
+  IdealDrive drive;
+  EXPECT_TRUE(drive.DriveTo(controller));
+  EXPECT_EQ(drive.min_forward_mps, 0);
+}
+
+TEST(GoalController, AGoalUnderTheRoverOnlyTurnsIt) {
+  GoalController controller({}, {{0, 0, -2.0}});
+  IdealDrive drive;
+  EXPECT_TRUE(drive.DriveTo(controller));
+  ExpectAt(drive.pose, {0, 0, -2.0});
+  EXPECT_EQ(drive.max_forward_mps, 0);
+}
+
+TEST(GoalController, ReachesAnyGoalInSpiteOfSlip) {
+  RandomEngine engine(3);
+  for (int i = 0; i < 200; ++i) {
+    IdealDrive drive;
+    drive.pose.heading_rad = WrapAngle(7 * RandomUnit(engine));
+    drive.forward_gain = 0.8 + 0.3 * RandomUnit(engine);
+    drive.turn_gain = 0.5 + 0.7 * RandomUnit(engine);
+    const Waypoint goal{8 * RandomUnit(engine) - 4, 8 * RandomUnit(engine) - 4,
+                        6 * RandomUnit(engine) - 3};
+    GoalController controller({}, {goal});
+    EXPECT_TRUE(drive.DriveTo(controller)) << i;
+    ExpectAt(drive.pose, goal);
+  }
+}
+
+TEST(GoalController, PassesTheWaypointsOfARouteInOrder) {
+  const Route route{{1, 0, {}}, {1, 1, {}}, {0, 1, M_PI}};
+  GoalController controller({}, route);
+  EXPECT_NEAR(controller.RemainingDistance({}), 3, 1e-12);
+  IdealDrive drive;
+  EXPECT_TRUE(drive.DriveTo(controller));
+  EXPECT_EQ(controller.NextWaypoint(), 2u);
+  ExpectAt(drive.pose, route.back());
+}
+
+TEST(GoalController, WaypointsAlreadyPassedAreSkippedAtOnce) {
+  GoalController controller({}, {{0, 0, {}}, {0.05, 0, {}}, {2, 0, {}}});
+  controller.Update({}, false);
+  EXPECT_EQ(controller.NextWaypoint(), 2u);
+}
+
+TEST(GoalController, IsNotArrivedBeforeAPoseAtRestConfirmsIt) {
+  GoalController controller({}, {{0, 0, 0.0}});
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(controller.Update({}, false).IsZero());
+  EXPECT_EQ(controller.Phase(), DrivePhase::kSettle);
+  controller.Update({}, true);
+  EXPECT_TRUE(controller.HasArrived());
+}
+
+TEST(GoalController, GoesBackToTheGoalWhereRestShowsItMissed) {
+  GoalController controller({}, {{1, 0, 0.0}});
+  controller.Update({1, 0, 0}, false);
+  EXPECT_EQ(controller.Phase(), DrivePhase::kSettle);
+  const PlanarMotion motion = controller.Update({0.8, 0, 0}, true);
+  EXPECT_GT(motion.forward_mps, 0);
+  EXPECT_EQ(controller.Phase(), DrivePhase::kDrive);
+  controller.Update({1, 0, 0}, false);
+  EXPECT_NE(controller.Update({1, 0, 0.1}, true).turn_radps, 0);
+  EXPECT_EQ(controller.Phase(), DrivePhase::kTurnToHeading);
+}
+
+TEST(GoalController, StopsToTurnWhereItIsPushedAside) {
+  GoalController controller({}, {{5, 0, {}}});
+  controller.Update({0, 0, 0}, false);
+  const PlanarMotion motion = controller.Update({0, 0, 1.0}, false);
+  EXPECT_EQ(motion.forward_mps, 0);
+  EXPECT_LT(motion.turn_radps, 0);
+}
+
+TEST(GoalController, ARouteNeedsAWaypoint) {
+  EXPECT_THROW(GoalController({}, {}), std::invalid_argument);
+}
+
+TEST(GoalController, OptionsAreNamedInTheError) {
+  GoalControllerOptions options;
+  options.cruise_speed_mps = 0.2;
+  try {
+    GoalController(options, {{1, 0, {}}});
+    FAIL() << "took a cruise speed above the paper's limit";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("goal.cruise_speed_mps"), std::string::npos);
+  }
+}
+
+TEST(Route, GoalsWithFlawsAreToldWhy) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::Quaterniond level = Eigen::Quaterniond::Identity();
+  const auto flaw = [](const Eigen::Quaterniond& rotation, double x) {
+    Rigid3 goal;
+    goal.rotation = rotation;
+    goal.translation.x() = x;
+    return FindGoalFlaw(goal);
+  };
+  EXPECT_EQ(flaw(level, 3), "");
+  EXPECT_EQ(flaw(level, nan), "its position is not finite");
+  EXPECT_EQ(flaw(level, infinity), "its position is not finite");
+  EXPECT_EQ(flaw(level, 1e6), "it is more than 100 km away");
+  EXPECT_EQ(flaw(Eigen::Quaterniond(nan, 0, 0, 1), 0), "its orientation is not finite");
+  EXPECT_EQ(flaw(Eigen::Quaterniond(0, 0, 0, 0), 0), "its quaternion is not of unit length");
+  EXPECT_EQ(flaw(Eigen::Quaterniond(0.5, 0, 0, 0), 0), "its quaternion is not of unit length");
+  EXPECT_EQ(flaw(Eigen::Quaterniond(std::sqrt(0.5), 0, std::sqrt(0.5), 0), 0),
+            "its x axis stands on end");
+}
+
+}  // namespace
+}  // namespace arfm_vo

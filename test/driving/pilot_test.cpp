@@ -1,0 +1,352 @@
+#include "arfm_vo/driving/pilot.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kTick_s = 0.02;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A pilot whose pose, chassis and bus are well unless a test says otherwise. The rover itself does
+/// not move: what counts is what the pilot commands.
+class PilotTest : public ::testing::Test {
+ protected:
+  static PilotOptions Options() {
+    PilotOptions options;
+    options.max_stall_s = 1e9;
+    return options;
+  }
+
+  void Observe() {
+    if (bus_up_) {
+      pilot_.ObserveChassis(now_s_, chassis_);
+      pilot_.ObserveTracks(now_s_, 0, 0);
+    }
+    pilot_.ObserveBus(bus_up_);
+    if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_});
+    if (has_pose_) pilot_.ObserveUncertainty({now_s_ - 0.1, sigma_m_, 0.01});
+  }
+
+  DriveCommand Run(double duration_s) {
+    DriveCommand command;
+    const int num_ticks = static_cast<int>(std::round(duration_s / kTick_s));
+    for (int i = 0; i < num_ticks; ++i) {
+      now_s_ += kTick_s;
+      Observe();
+      command = pilot_.Tick(now_s_);
+    }
+    return command;
+  }
+
+  /// Started and driving at a goal 5 m ahead.
+  void StartDriving() {
+    Run(0.1);
+    chassis_.authority = ChassisAuthority::kUs;
+    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+    pilot_.SetRoute({{5, 0, {}}});
+    ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  }
+
+  DriveState State() const { return pilot_.Status().state; }
+  StopReason Reason() const { return pilot_.Status().reason; }
+
+  Pilot pilot_{Options()};
+  double now_s_ = 100;
+  ChassisStatus chassis_;
+  bool bus_up_ = true, has_pose_ = true;
+  Rigid3 pose_;
+  double sigma_m_ = 0.01;
+};
+
+TEST_F(PilotTest, SaysNothingAndMovesNothingBeforeStart) {
+  chassis_.authority = ChassisAuthority::kUs;
+  pilot_.SetRoute({{5, 0, {}}});
+  for (int i = 0; i < 100; ++i) {
+    const DriveCommand command = Run(kTick_s);
+    EXPECT_FALSE(command.may_speak);
+    EXPECT_FALSE(command.wants_authority);
+    EXPECT_TRUE(command.chassis_motion.IsZero());
+  }
+  EXPECT_EQ(State(), DriveState::kStandby);
+  EXPECT_EQ(Reason(), StopReason::kNotStarted);
+}
+
+TEST_F(PilotTest, AGoalSentBeforeStartIsDrivenToAfterIt) {
+  pilot_.SetRoute({{5, 0, {}}});
+  StartDriving();
+}
+
+TEST_F(PilotTest, WaitsForTheChassisToTakeCommands) {
+  Run(0.1);
+  pilot_.SetRoute({{5, 0, {}}});
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  const DriveCommand command = Run(1);
+  EXPECT_TRUE(command.may_speak);
+  EXPECT_TRUE(command.wants_authority);
+  EXPECT_TRUE(command.chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kArming);
+  Run(2);
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_EQ(Reason(), StopReason::kModeLost);
+}
+
+TEST_F(PilotTest, StopWinsAndDropsTheGoal) {
+  StartDriving();
+  pilot_.Stop();
+  const DriveCommand command = Run(kTick_s);
+  EXPECT_TRUE(command.chassis_motion.IsZero());
+  EXPECT_TRUE(command.may_speak);
+  EXPECT_FALSE(command.wants_authority);
+  const auto results = pilot_.TakeResults();
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].outcome, GoalOutcome::kCancelled);
+  EXPECT_EQ(results[0].reason, StopReason::kStopped);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_TRUE(Run(2).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kReady);
+}
+
+TEST_F(PilotTest, CancelStopsAtOnce) {
+  StartDriving();
+  pilot_.CancelRoute();
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kReady);
+  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kCancelled);
+}
+
+TEST_F(PilotTest, EmergencyStopBlocksUntilReleasedAndStarted) {
+  StartDriving();
+  pilot_.SetEmergencyStop(true);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kEmergencyStop);
+  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kBlocked);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  pilot_.SetEmergencyStop(false);
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumes) {
+  StartDriving();
+  has_pose_ = false;
+  Run(0.88);
+  EXPECT_EQ(State(), DriveState::kDriving);
+  EXPECT_TRUE(Run(0.06).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kPaused);
+  EXPECT_EQ(Reason(), StopReason::kPoseStale);
+  has_pose_ = true;
+  EXPECT_TRUE(Run(0.9).chassis_motion.IsZero());
+  EXPECT_GT(Run(1).chassis_motion.forward_mps, 0.05);
+}
+
+TEST_F(PilotTest, APoseThatFlickersDoesNotMoveTheRover) {
+  StartDriving();
+  for (int i = 0; i < 20; ++i) {
+    pilot_.ObserveNoPose();
+    has_pose_ = false;
+    Run(kTick_s);
+    has_pose_ = true;
+    EXPECT_TRUE(Run(0.8).chassis_motion.IsZero());
+  }
+}
+
+TEST_F(PilotTest, ALongPauseNeedsANewStart) {
+  StartDriving();
+  has_pose_ = false;
+  Run(65);
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_EQ(Reason(), StopReason::kPoseLost);
+  has_pose_ = true;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  pilot_.Start(now_s_);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, AnUncertainPosePauses) {
+  for (const double sigma_m : {2.1, 99.99, kNaN}) {
+    pilot_ = Pilot(Options());
+    sigma_m_ = 0.01;
+    StartDriving();
+    sigma_m_ = sigma_m;
+    EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero()) << sigma_m;
+    EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+  }
+}
+
+TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
+  pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
+  pilot_.ObserveTracks(now_s_, 0, 0);
+  pilot_.ObservePose(now_s_, {now_s_, pose_});
+  pilot_.Start(now_s_);
+  pilot_.SetRoute({{5, 0, {}}});
+  pilot_.Tick(now_s_);
+  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+}
+
+TEST_F(PilotTest, PosesThatCannotBeAreNotDrivenBy) {
+  const Rigid3 not_finite(Eigen::Quaterniond::Identity(), Eigen::Vector3d(kNaN, 0, 0));
+  Rigid3 no_rotation;
+  no_rotation.rotation.coeffs().setZero();
+  for (const Rigid3& pose : {not_finite, no_rotation}) {
+    pilot_ = Pilot(Options());
+    pose_ = Rigid3();
+    StartDriving();
+    pose_ = pose;
+    EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+    EXPECT_EQ(Reason(), StopReason::kPoseInvalid);
+  }
+}
+
+TEST_F(PilotTest, APoseFromTheFutureIsNotDrivenBy) {
+  StartDriving();
+  has_pose_ = false;
+  pilot_.ObservePose(now_s_, {now_s_ + 5, pose_});
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kPoseInvalid);
+}
+
+TEST_F(PilotTest, WhatTheChassisSaysBlocks) {
+  const std::pair<ChassisStatus, StopReason> kCases[] = {
+      {{true, false, ChassisAuthority::kUs}, StopReason::kChassisEmergency},
+      {{false, true, ChassisAuthority::kUs}, StopReason::kChassisFault},
+      {{false, false, ChassisAuthority::kRemoteControl}, StopReason::kRemoteControl},
+      {{false, false, ChassisAuthority::kNobody}, StopReason::kModeLost},
+      {{false, false, ChassisAuthority::kOther}, StopReason::kModeLost},
+  };
+  for (const auto& [status, reason] : kCases) {
+    pilot_ = Pilot(Options());
+    StartDriving();
+    chassis_ = status;
+    const DriveCommand command = Run(kTick_s);
+    EXPECT_TRUE(command.chassis_motion.IsZero());
+    EXPECT_TRUE(command.wants_authority);
+    EXPECT_EQ(State(), DriveState::kBlocked);
+    EXPECT_EQ(Reason(), reason);
+    chassis_ = {false, false, ChassisAuthority::kUs};
+    EXPECT_TRUE(Run(5).chassis_motion.IsZero()) << "went on without being started";
+    pilot_.Start(now_s_);
+    EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  }
+}
+
+TEST_F(PilotTest, StartIsRefusedWhileTheRemoteControlHasTheRover) {
+  chassis_.authority = ChassisAuthority::kRemoteControl;
+  Run(0.1);
+  const Reply reply = pilot_.Start(now_s_);
+  EXPECT_FALSE(reply.is_accepted);
+  EXPECT_EQ(reply.text, "not started: remote control has the rover");
+  EXPECT_FALSE(Run(0.1).may_speak);
+}
+
+TEST_F(PilotTest, ABusThatGoesDownBlocksAndIsNotResumedWithoutStart) {
+  StartDriving();
+  bus_up_ = false;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kBusDown);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  bus_up_ = true;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  pilot_.Start(now_s_);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, ASilentChassisBlocks) {
+  StartDriving();
+  for (int i = 0; i < 30; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObservePose(now_s_, {now_s_, pose_});
+    pilot_.ObserveUncertainty({now_s_, 0.01, 0.01});
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_EQ(Reason(), StopReason::kNoFeedback);
+}
+
+TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(pilot_.SetVelocity(now_s_, {0.05, 0}).is_accepted);
+    Run(0.1);
+  }
+  EXPECT_NEAR(Run(kTick_s).chassis_motion.forward_mps, 0.05, 1e-9);
+  EXPECT_TRUE(Run(0.2).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, VelocityNeverExceedsTheCap) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  for (int i = 0; i < 200; ++i) {
+    pilot_.SetVelocity(now_s_, {5, 5});
+    EXPECT_LE(Run(kTick_s).chassis_motion.forward_mps, 0.1);
+  }
+}
+
+TEST_F(PilotTest, VelocityIsRefusedWhileThereIsAGoalOrWhereItIsNotFinite) {
+  StartDriving();
+  EXPECT_FALSE(pilot_.SetVelocity(now_s_, {0, 0.1}).is_accepted);
+  pilot_.CancelRoute();
+  EXPECT_FALSE(pilot_.SetVelocity(now_s_, {kNaN, 0}).is_accepted);
+  EXPECT_TRUE(Run(1).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ANewGoalReplacesTheOld) {
+  StartDriving();
+  pilot_.SetRoute({{-5, 0, {}}});
+  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kReplaced);
+  EXPECT_EQ(pilot_.Status().num_waypoints, 1u);
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5, 1e-9);
+}
+
+TEST_F(PilotTest, AGoalThatComesNoNearerBlocks) {
+  PilotOptions options;
+  options.max_stall_s = 3;
+  pilot_ = Pilot(options);
+  StartDriving();
+  Run(5);
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_EQ(Reason(), StopReason::kNoProgress);
+}
+
+TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
+  StartDriving();
+  for (int i = 0; i < 100 && State() == DriveState::kDriving; ++i) {
+    now_s_ += 0.1;
+    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
+    pilot_.ObservePose(now_s_, {now_s_, pose_});
+    pilot_.ObserveUncertainty({now_s_, 0.01, 0.01});
+    pilot_.ObserveOdometry(now_s_, pose_);
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_EQ(Reason(), StopReason::kSlip);
+  EXPECT_GT(*pilot_.Status().slip->forward_ratio, 0.9);
+}
+
+TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
+  StartDriving();
+  for (int i = 0; i < 10; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-6);
+}
+
+TEST_F(PilotTest, WrongOptionsAreNamed) {
+  PilotOptions options;
+  options.velocity_timeout_s = 1;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  options = PilotOptions();
+  options.limits.max_speed_mps = 0.5;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include "arfm_vo/driving/slip_estimator.h"
+#include "arfm_vo/driving/stop_look_go.h"
+
+namespace arfm_vo {
+namespace {
+
+const TrackKinematics kKinematics(TrackKinematicsOptions{0.583, 1.0});
+
+Rigid3 Pose(double x_m, double yaw_rad) {
+  return {ExpSO3({0, 0, yaw_rad}), Eigen::Vector3d(x_m, 0, 0)};
+}
+
+/// Feeds a drive of `track_m` by the tracks, of which the rover sees itself go `share`.
+SlipEstimator Driven(double track_m, double share, int num_poses = 40) {
+  SlipEstimator slip({}, kKinematics);
+  for (int i = 0; i <= num_poses; ++i) {
+    const double way_m = track_m * i / num_poses;
+    slip.Add(Pose(share * way_m, 0), {way_m, way_m});
+  }
+  return slip;
+}
+
+/// The same in place, by an angle.
+SlipEstimator Turned(double track_rad, double share) {
+  SlipEstimator slip({}, kKinematics);
+  for (int i = 0; i <= 40; ++i) {
+    const double turn_rad = track_rad * i / 40;
+    const double way_m = turn_rad * 0.583 / 2;
+    slip.Add(Pose(0, share * turn_rad), {-way_m, way_m});
+  }
+  return slip;
+}
+
+TEST(SlipEstimator, SaysNothingBeforeTheWindowIsFull) {
+  EXPECT_FALSE(Driven(0.29, 1).Estimate());
+  EXPECT_FALSE(SlipEstimator({}, kKinematics).Estimate());
+}
+
+TEST(SlipEstimator, NoSlipIsZero) {
+  const auto slip = Driven(1, 1).Estimate();
+  EXPECT_NEAR(*slip->forward_ratio, 0, 1e-9);
+  EXPECT_FALSE(slip->turn_ratio);
+}
+
+TEST(SlipEstimator, TenPercentSlipIsATenth) {
+  const auto slip = Driven(1, 0.9).Estimate();
+  EXPECT_NEAR(*slip->forward_ratio, 0.1, 1e-9);
+  EXPECT_NEAR(slip->track_forward_m, 0.3, 0.03);
+}
+
+TEST(SlipEstimator, RunningTracksUnderAStandingRoverAreOne) {
+  EXPECT_NEAR(*Driven(1, 0).Estimate()->forward_ratio, 1, 1e-9);
+  EXPECT_TRUE(Driven(1, 0).IsExcessive());
+  EXPECT_TRUE(Driven(-1, 0).IsExcessive());
+}
+
+TEST(SlipEstimator, SlidingIsNegative) {
+  EXPECT_NEAR(*Driven(1, 2).Estimate()->forward_ratio, -0.5, 1e-9);
+  EXPECT_TRUE(Driven(1, 2.5).IsExcessive());
+}
+
+TEST(SlipEstimator, TheLimitIsOnTheRatio) {
+  EXPECT_FALSE(Driven(1, 0.55).IsExcessive());
+  EXPECT_TRUE(Driven(1, 0.45).IsExcessive());
+}
+
+TEST(SlipEstimator, TurningIsJudgedByItself) {
+  const auto slip = Turned(2, 0.75).Estimate();
+  EXPECT_FALSE(slip->forward_ratio);
+  EXPECT_NEAR(*slip->turn_ratio, 0.25, 1e-9);
+  EXPECT_TRUE(Turned(2, 0.2).IsExcessive());
+  EXPECT_FALSE(Turned(-2, 0.5).IsExcessive());
+}
+
+TEST(SlipEstimator, OnlyTheLastWindowCounts) {
+  SlipEstimator slip = Driven(1, 1);
+  for (int i = 1; i <= 40; ++i) slip.Add(Pose(1, 0), {1 + 0.01 * i, 1 + 0.01 * i});
+  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 1, 1e-9);
+}
+
+TEST(SlipEstimator, ALeapOfThePoseBeginsANewWindow) {
+  SlipEstimator slip = Driven(1, 1);
+  slip.Add(Pose(30, 0), {1.01, 1.01});
+  EXPECT_FALSE(slip.Estimate());
+}
+
+TEST(SlipEstimator, StandingStillForLongChangesNothing) {
+  SlipEstimator slip = Driven(1, 0.9);
+  for (int i = 0; i < 10000; ++i) slip.Add(Pose(0.9, 0), {1, 1});
+  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0.1, 1e-9);
+}
+
+TEST(SlipEstimator, ASlopeIsNoSlip) {
+  SlipEstimator slip({}, kKinematics);
+  const Eigen::Quaterniond nose_up(Eigen::AngleAxisd(-0.17, Eigen::Vector3d::UnitY()));
+  for (int i = 0; i <= 50; ++i) {
+    const double way_m = 0.01 * i;
+    slip.Add(Rigid3(nose_up, Eigen::Vector3d(nose_up * Eigen::Vector3d(way_m, 0, 0))),
+             {way_m, way_m});
+  }
+  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
+}
+
+StopLookGoOptions SwitchedOn() {
+  StopLookGoOptions options;
+  options.is_on = true;
+  return options;
+}
+
+TEST(StopLookGo, SwitchedOffItPassesEverything) {
+  StopLookGo gate({});
+  EXPECT_EQ(gate.Gate({0.1, 0}, {}, false).forward_mps, 0.1);
+}
+
+TEST(StopLookGo, LooksBeforeTheFirstStep) {
+  StopLookGo gate(SwitchedOn());
+  EXPECT_TRUE(gate.Gate({0.1, 0}, {}, false).IsZero());
+  EXPECT_EQ(gate.Gate({0.1, 0}, {}, true).forward_mps, 0.1);
+}
+
+TEST(StopLookGo, EndsTheStepByTheFasterTrackAndLooksAgain) {
+  StopLookGo gate(SwitchedOn());
+  gate.Gate({0.1, 0}, {7, 7}, true);
+  EXPECT_FALSE(gate.Gate({0.1, 0}, {7.1, 7.24}, false).IsZero());
+  EXPECT_TRUE(gate.Gate({0.1, 0}, {7.1, 7.25}, false).IsZero());
+  EXPECT_TRUE(gate.IsLooking());
+  EXPECT_TRUE(gate.Gate({0.1, 0}, {7.1, 7.26}, false).IsZero());
+  EXPECT_FALSE(gate.Gate({0.1, 0}, {7.1, 7.26}, true).IsZero());
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,116 @@
+#include "arfm_vo/hardware/can_udp_bus.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <system_error>
+
+namespace arfm_vo {
+namespace {
+
+const CanFrame kFrame = MakeCanFrame(0x111, {0, 100, 0xFF, 0x9C, 0, 0, 0, 1});
+
+struct LoopbackSocket {
+  FileDescriptor fd{::socket(AF_INET, SOCK_DGRAM, 0)};
+  sockaddr_in address{};
+
+  LoopbackSocket() {
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::bind(fd.Get(), reinterpret_cast<sockaddr*>(&address), sizeof(address));
+    socklen_t size = sizeof(address);
+    ::getsockname(fd.Get(), reinterpret_cast<sockaddr*>(&address), &size);
+  }
+  uint16_t Port() const { return ntohs(address.sin_port); }
+};
+
+uint16_t FreePort() { return LoopbackSocket().Port(); }
+
+std::string Address(uint16_t local, uint16_t peer) {
+  return "udp:" + std::to_string(local) + ":" + std::to_string(peer);
+}
+
+class CanUdpBusTest : public ::testing::Test {
+ protected:
+  const uint16_t port_a_ = FreePort(), port_b_ = FreePort();
+};
+
+TEST_F(CanUdpBusTest, FramesArriveByteForByteInOrder) {
+  const auto a = OpenCanBus(Address(port_a_, port_b_)), b = OpenCanBus(Address(port_b_, port_a_));
+  EXPECT_FALSE(b->Receive());
+  EXPECT_EQ(a->Send(kFrame), CanSendStatus::kSent);
+  EXPECT_EQ(a->Send(MakeCanFrame(0x421, {1})), CanSendStatus::kSent);
+  EXPECT_EQ(b->Receive(), kFrame);
+  EXPECT_EQ(b->Receive(), MakeCanFrame(0x421, {1}));
+  EXPECT_FALSE(b->Receive());
+}
+
+TEST_F(CanUdpBusTest, WhereNobodyListensFramesAreRefused) {
+  CanUdpBus a(port_a_, port_b_);
+  a.Send(kFrame);
+  EXPECT_EQ(a.Send(kFrame), CanSendStatus::kBusy);
+}
+
+TEST_F(CanUdpBusTest, TheOtherEndMayComeBack) {
+  CanUdpBus a(port_a_, port_b_);
+  for (int i = 0; i < 3; ++i) a.Send(kFrame);
+  CanUdpBus b(port_b_, port_a_);
+  a.Send(kFrame);
+  EXPECT_EQ(a.Send(kFrame), CanSendStatus::kSent);
+  EXPECT_EQ(b.Receive(), kFrame);
+}
+
+TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {
+  CanUdpBus a(port_a_, port_b_);
+  const LoopbackSocket stranger;
+  sockaddr_in to = stranger.address;
+  to.sin_port = htons(port_a_);
+  const char garbage[] = "not a frame at all, and longer than one";
+  ASSERT_GT(::sendto(stranger.fd.Get(), garbage, sizeof(garbage), 0,
+                     reinterpret_cast<sockaddr*>(&to), sizeof(to)),
+            0);
+  EXPECT_FALSE(a.Receive());
+}
+
+TEST_F(CanUdpBusTest, DatagramsOfAWrongSizeAreHandedOutAsOther) {
+  CanUdpBus a(port_a_, port_b_);
+  FileDescriptor peer(::socket(AF_INET, SOCK_DGRAM, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(port_b_);
+  ASSERT_EQ(::bind(peer.Get(), reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  address.sin_port = htons(port_a_);
+  for (const size_t size : {size_t{3}, size_t{64}}) {
+    const std::vector<char> bytes(size, 'x');
+    ::sendto(peer.Get(), bytes.data(), size, 0, reinterpret_cast<sockaddr*>(&address),
+             sizeof(address));
+    EXPECT_EQ(a.Receive()->kind, CanFrameKind::kOther) << size;
+  }
+}
+
+TEST_F(CanUdpBusTest, ATakenPortIsAnError) {
+  CanUdpBus a(port_a_, port_b_);
+  EXPECT_THROW(CanUdpBus(port_a_, port_b_), std::system_error);
+}
+
+TEST(CanAddress, IsAnInterfaceOrTwoPorts) {
+  for (const char* address :
+       {"", "udp:1", "udp:1:", "udp:0:5", "udp:1:70000", "can 0", "an_interface_name_too_long"}) {
+    EXPECT_THROW(OpenCanBus(address), std::invalid_argument) << address;
+  }
+}
+
+TEST(CanAddress, AnInterfaceThatIsNotThereIsNamedInTheError) {
+  try {
+    OpenCanBus("nocan7");
+    FAIL() << "opened a bus that is not there";
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("nocan7"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo

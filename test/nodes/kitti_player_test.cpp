@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <map>
+
+#include "arfm_vo/ros/stereo_camera_model.h"
+#include "arfm_vo/ros/stereo_messages.h"
+#include "datasets/sequence_folder.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Starts the player in namespace /stereo. Its parameters stay after it under its `name`.
+FILE* StartPlayer(const std::string& name, const std::string& parameters) {
+  const std::string program = "rosrun arfm_vo kitti_player_node __ns:=/stereo __name:=" + name;
+  return popen((program + " " + parameters + " 2>&1").c_str(), "r");
+}
+
+/// What it printed; fills its exit status.
+std::string Finish(FILE* player, int& status) {
+  std::string text;
+  for (char buffer[500]; std::fgets(buffer, sizeof(buffer), player);) text += buffer;
+  status = WEXITSTATUS(pclose(player));
+  return text;
+}
+
+TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
+  constexpr int kNumPairs = 5;
+  const SequenceFolder folder(kNumPairs);
+  std::map<double, int> left, right, num_infos;
+  std::vector<double> truth_z;
+  sensor_msgs::CameraInfo left_info, right_info;
+  ros::NodeHandle node("/stereo");
+  using Image = sensor_msgs::Image;
+  using Info = sensor_msgs::CameraInfo;
+  const auto keep_grey = [](std::map<double, int>& greys) {
+    return [&greys](const Image::ConstPtr& image) {
+      greys[image->header.stamp.toSec()] = image->data.at(0);
+    };
+  };
+  const auto keep_info = [&](Info& last) {
+    return [&](const Info::ConstPtr& info) {
+      last = *info;
+      ++num_infos[info->header.stamp.toSec()];
+    };
+  };
+  const std::vector<ros::Subscriber> subscribers = {
+      node.subscribe<Image>("left/image_rect", 100, keep_grey(left)),
+      node.subscribe<Image>("right/image_rect", 100, keep_grey(right)),
+      node.subscribe<Info>("left/camera_info", 100, keep_info(left_info)),
+      node.subscribe<Info>("right/camera_info", 100, keep_info(right_info)),
+      node.subscribe<geometry_msgs::PoseStamped>(
+          "ground_truth", 100, [&](const geometry_msgs::PoseStamped::ConstPtr& pose) {
+            truth_z.push_back(pose->pose.position.z);
+          })};
+  FILE* player =
+      StartPlayer("player", "_sequence:=" + folder.Path() + " _rate_hz:=30 _end_delay_s:=0.5");
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(30);
+  while (left.size() + right.size() < 2 * kNumPairs || num_infos[kStampOffset_s + 0.4] < 2 ||
+         truth_z.size() < kNumPairs || ros::Time::now().toSec() < kStampOffset_s + 0.4) {
+    ASSERT_LT(ros::WallTime::now(), deadline);
+    ros::spinOnce();
+    ros::WallDuration(0.001).sleep();
+  }
+  int status = -1;
+  const std::string text = Finish(player, status);
+  EXPECT_EQ(status, 0) << text;
+  ASSERT_EQ(left.size(), size_t(kNumPairs));
+  for (int i = 0; i < kNumPairs; ++i) {
+    EXPECT_EQ(left.at((ros::Time(kStampOffset_s) + ros::Duration(0.1 * i)).toSec()), 10 * i);
+    EXPECT_EQ(right.at((ros::Time(kStampOffset_s) + ros::Duration(0.1 * i)).toSec()), 10 * i + 5);
+    EXPECT_EQ(truth_z[i], i);
+  }
+  EXPECT_NEAR(MakeStereoCamera(left_info, right_info).baseline_m, 0.5, 1e-9);
+}
+
+TEST(KittiPlayer, AMistypedParameterStopsItWithItsName) {
+  int status = -1;
+  const std::string text = Finish(StartPlayer("mistyped", "_sequence:=x _rate:=3"), status);
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(text.find("rate: unknown key"), std::string::npos) << text;
+}
+
+TEST(KittiPlayer, AMissingFolderStopsItWithItsName) {
+  int status = -1;
+  const std::string text = Finish(StartPlayer("missing", "_sequence:=/no/such/folder"), status);
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(text.find("/no/such/folder: no such folder"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "kitti_player_test");
+  ros::NodeHandle keeps_node_alive;
+  return RUN_ALL_TESTS();
+}

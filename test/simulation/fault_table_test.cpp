@@ -1,0 +1,345 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include "simulation/simulated_drive.h"
+
+// Injects every fault into a rover that drives at 0.1 m/s, measures how long it goes on, and makes
+// the table docs/faults.md of it (ARFM_VO_FAULT_TABLE names the file to write).
+
+namespace arfm_vo {
+namespace {
+
+using Action = std::function<void(SimulatedDrive&)>;
+using Condition = std::function<bool(const SimulatedDrive&, double injected_s)>;
+
+/// Who brings the rover to a stand.
+enum class Stopper { kDriver, kChassisTimeout };
+
+struct Fault {
+  std::string name;
+  Action inject;
+  std::string remedy;  ///< what must be done before the rover may go on
+  Action mend;
+  std::string limit = "";  ///< what the fault must exceed before it counts as one
+  Condition is_beyond_limit = [](const SimulatedDrive&, double) { return true; };
+  Stopper stopper = Stopper::kDriver;
+  bool by_velocity = false;  ///< drives by velocity commands, not to a goal
+};
+
+struct Row {
+  Fault fault;
+  double injected_s = 0, limit_s = 0, stop_s = 0, standing_s = 0;
+  std::string reason = "";
+  std::string go_on = "";
+  bool has_stopped = false;
+};
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Condition PoseOlderThan(double age_s) {
+  return [age_s](const SimulatedDrive& drive, double) {
+    return drive.Now() - drive.LastPoseTaken() > age_s;
+  };
+}
+
+Condition TimeSince(double duration_s) {
+  return [duration_s](const SimulatedDrive& drive, double injected_s) {
+    return drive.Now() - injected_s > duration_s;
+  };
+}
+
+bool IsSlipBeyondLimit(const SimulatedDrive& drive, double) {
+  const auto slip = drive.pilot().Status().slip;
+  return slip && slip->forward_ratio.value_or(0) > SlipOptions().max_slip_ratio;
+}
+
+const Action kNothing = [](SimulatedDrive&) {};
+
+std::vector<Fault> OperatorFaults() {
+  return {
+      {"stop service called", [](SimulatedDrive& d) { d.pilot().Stop(); }, "", kNothing},
+      {"software emergency stop set", [](SimulatedDrive& d) { d.pilot().SetEmergencyStop(true); },
+       "clear the emergency stop", [](SimulatedDrive& d) { d.pilot().SetEmergencyStop(false); }},
+      {"goal cancelled", [](SimulatedDrive& d) { d.pilot().CancelRoute(); }, "", kNothing},
+      {"velocity commands cease", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", kNothing,
+       "0.15 s", TimeSince(0.15), Stopper::kDriver, true},
+      {"velocity command is not a number",
+       [](SimulatedDrive& d) {
+         d.each_tick_ = [&d] { d.pilot().SetVelocity(d.Now(), {kNaN, 0}); };
+       },
+       "", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", TimeSince(0), Stopper::kDriver,
+       true},
+  };
+}
+
+std::vector<Fault> PoseFaults() {
+  const auto mend_pose = [](SimulatedDrive& d) {
+    d.has_pose_ = d.has_covariance_ = true;
+    d.is_tf_missing_ = false;
+    d.sigma_m_ = 0.01;
+    d.stamp_offset_s_ = 0;
+    d.false_pose_.reset();
+  };
+  const auto covariance_old = [](const SimulatedDrive& d, double) {
+    return d.Now() - d.LastCovarianceTaken() > 1.0;
+  };
+  return {
+      {"odometry falls silent (pose stale)", [](SimulatedDrive& d) { d.has_pose_ = false; }, "",
+       mend_pose, "pose older than 1 s", PoseOlderThan(1.0)},
+      {"odometry is lost (covariance 9999)", [](SimulatedDrive& d) { d.sigma_m_ = 99.99; }, "",
+       mend_pose},
+      {"covariance too large", [](SimulatedDrive& d) { d.sigma_m_ = 2.1; }, "", mend_pose,
+       "sigma above 2 m"},
+      {"covariance is not a number", [](SimulatedDrive& d) { d.sigma_m_ = kNaN; }, "", mend_pose},
+      {"covariance ceases", [](SimulatedDrive& d) { d.has_covariance_ = false; }, "", mend_pose,
+       "older than 1 s", covariance_old},
+      {"tf from map to base is missing", [](SimulatedDrive& d) { d.is_tf_missing_ = true; }, "",
+       mend_pose},
+      {"pose is not a number",
+       [](SimulatedDrive& d) {
+         d.false_pose_ = Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(kNaN, 0, 0));
+       },
+       "", mend_pose},
+      {"pose's quaternion is all zeros",
+       [](SimulatedDrive& d) {
+         d.false_pose_.emplace();
+         d.false_pose_->rotation.coeffs().setZero();
+       },
+       "", mend_pose},
+      {"clock leaps back (poses from the future)",
+       [](SimulatedDrive& d) { d.stamp_offset_s_ = 30; }, "", mend_pose},
+      {"clock leaps ahead (poses of long ago)", [](SimulatedDrive& d) { d.stamp_offset_s_ = -30; },
+       "", mend_pose, "pose older than 1 s", PoseOlderThan(1.0)},
+      {"tracks run and the rover is stuck", [](SimulatedDrive& d) { d.plant().SetForwardSlip(1); },
+       "free the rover", [](SimulatedDrive& d) { d.plant().SetForwardSlip(0.1); },
+       "slip ratio above 0.5 over 0.3 m", IsSlipBeyondLimit},
+  };
+}
+
+std::vector<Fault> ChassisFaults() {
+  const auto power_on = [](SimulatedDrive& d) { d.chassis().SetPower(true); };
+  const auto clear = [](SimulatedDrive& d) { d.driver().link().SendClearErrors(); };
+  return {
+      {"emergency stop button (0x211)",
+       [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(true); }, "release the button",
+       [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(false); }},
+      {"chassis fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
+       "clear_errors", clear},
+      {"under-voltage fault (0x211)",
+       [](SimulatedDrive& d) { d.chassis().SetFault(kUnderVoltageFault); }, "charge, clear_errors",
+       clear},
+      {"remote control takes over (0x211)",
+       [](SimulatedDrive& d) {
+         d.chassis().TakeRemoteControl({0.05, 0});
+       },
+       "hand back (CAN mode is asked for again)",
+       [](SimulatedDrive& d) { d.chassis().HandBack(); }},
+      {"chassis restarts into standby (0x211)",
+       [power_on](SimulatedDrive& d) {
+         d.chassis().SetPower(false);
+         power_on(d);
+       },
+       "", kNothing},
+      {"chassis loses power (silent)", [](SimulatedDrive& d) { d.chassis().SetPower(false); },
+       "switch it on", power_on, "silent for 0.5 s", TimeSince(0.5)},
+      {"track odometer falls silent",
+       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(true); }, "mend it",
+       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(false); }, "silent for 0.5 s",
+       TimeSince(0.5)},
+  };
+}
+
+/// As many frames as 500 kbit/s can carry, and the button pressed at the same time.
+void FloodAndPress(SimulatedDrive& d) {
+  d.chassis().PressEmergencyStop(true);
+  const std::shared_ptr<CanBus> end = d.bus_.OpenEnd();
+  d.each_tick_ = [end] {
+    for (int i = 0; i < 160; ++i) end->Send(MakeCanFrame(0x3FF, {1, 2, 3}));
+  };
+}
+
+std::vector<Fault> BusFaults() {
+  const auto set_state = [](CanBusState state) {
+    return [state](SimulatedDrive& d) { d.bus_.SetState(state); };
+  };
+  return {
+      {"CAN controller goes bus-off", set_state(CanBusState::kBusOff), "controller restarts",
+       set_state(CanBusState::kUp), "", TimeSince(0), Stopper::kChassisTimeout},
+      {"CAN interface goes down", set_state(CanBusState::kDown), "interface up",
+       set_state(CanBusState::kUp), "", TimeSince(0), Stopper::kChassisTimeout},
+      {"send queue stays full (ENOBUFS)", [](SimulatedDrive& d) { d.bus_.SetBusy(true); },
+       "queue runs again", [](SimulatedDrive& d) { d.bus_.SetBusy(false); }, "", TimeSince(0),
+       Stopper::kChassisTimeout},
+      {"flood of foreign frames, and the button is pressed", FloodAndPress,
+       "end the flood, release the button",
+       [](SimulatedDrive& d) {
+         d.each_tick_ = [] {};
+         d.chassis().PressEmergencyStop(false);
+       }},
+  };
+}
+
+std::vector<Fault> NodeFaults() {
+  return {
+      {"node ends (SIGINT, SIGTERM)", [](SimulatedDrive& d) { d.EndDriver(); }, "new node",
+       kNothing},
+      {"node hangs or is killed", [](SimulatedDrive& d) { d.is_driver_hung_ = true; }, "new node",
+       kNothing, "", TimeSince(0), Stopper::kChassisTimeout},
+  };
+}
+
+void SendVelocity(SimulatedDrive& drive) { drive.pilot().SetVelocity(drive.Now(), {0.1, 0}); }
+
+/// A rover at full speed, at a moment between two ticks.
+void BringToSpeed(SimulatedDrive& drive, bool by_velocity) {
+  drive.Run(0.5);
+  ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
+  if (by_velocity) drive.each_tick_ = [&drive] { SendVelocity(drive); };
+  if (!by_velocity) drive.pilot().SetRoute({{500, 0, {}}});
+  drive.Run(4.011);
+  ASSERT_GT(drive.Commanded().forward_mps, 0.099);
+  ASSERT_GT(drive.FastestTrack(), 0.099);
+}
+
+bool Moves(SimulatedDrive& drive, double within_s) {
+  return drive.RunUntil(within_s, [&] { return drive.Commanded().forward_mps > 0.05; });
+}
+
+/// What it takes, beyond the remedy, until the rover drives again.
+std::string FindWhatItTakes(SimulatedDrive& drive, const Fault& fault) {
+  if (Moves(drive, 5)) return "by itself, after 1 s of good poses";
+  const bool was_ready = drive.pilot().Status().state == DriveState::kReady;
+  if (!was_ready && !drive.pilot().Start(drive.Now()).is_accepted) return "cannot be started";
+  const std::string start = was_ready ? "" : "start";
+  if (Moves(drive, 5)) return start;
+  if (fault.by_velocity) {
+    drive.each_tick_ = [&drive] { SendVelocity(drive); };
+    return Moves(drive, 5) ? "a new velocity command" : "does not go on";
+  }
+  drive.pilot().SetRoute({{500, 0, {}}});
+  if (!Moves(drive, 5)) return "does not go on";
+  return start.empty() ? "a new goal" : start + " and a new goal";
+}
+
+Row Measure(const Fault& fault) {
+  Row row{fault};
+  SimulatedDrive drive;
+  BringToSpeed(drive, fault.by_velocity);
+  row.injected_s = drive.Now();
+  fault.inject(drive);
+  row.limit_s = row.standing_s = std::numeric_limits<double>::infinity();
+  const bool is_node_gone = fault.remedy == "new node";
+  drive.RunUntil(30, [&] {
+    if (std::isinf(row.limit_s) && (is_node_gone || fault.is_beyond_limit(drive, row.injected_s)))
+      row.limit_s = drive.Now();
+    if (std::isinf(row.standing_s) && drive.FastestTrack() < 0.001) row.standing_s = drive.Now();
+    const bool is_quiet = drive.Now() - drive.LastMovingCommandTime() > 1;
+    return is_quiet && (std::isfinite(row.standing_s) || fault.name.find("remote") == 0);
+  });
+  row.has_stopped = drive.Now() - drive.LastMovingCommandTime() > 1;
+  const bool has_stop_frame = drive.FirstStopCommandTime() > drive.LastMovingCommandTime();
+  row.stop_s = has_stop_frame ? drive.FirstStopCommandTime() : drive.LastMovingCommandTime();
+  if (is_node_gone) {
+    row.reason = "-";
+    row.go_on = "new node, start and a new goal";
+    return row;
+  }
+  row.reason = ToString(drive.pilot().Status().reason);
+  fault.mend(drive);
+  drive.Run(0.3);
+  const std::string needed = FindWhatItTakes(drive, fault);
+  row.go_on = fault.remedy.empty() ? needed : fault.remedy + "; " + needed;
+  return row;
+}
+
+std::vector<Row> MeasureAll() {
+  std::vector<Row> rows;
+  for (const auto& faults :
+       {OperatorFaults(), PoseFaults(), ChassisFaults(), BusFaults(), NodeFaults()})
+    for (const Fault& fault : faults) rows.push_back(Measure(fault));
+  return rows;
+}
+
+const std::vector<Row>& Rows() {
+  static const std::vector<Row> rows = MeasureAll();
+  return rows;
+}
+
+std::string Milliseconds(double duration_s) {
+  if (!std::isfinite(duration_s)) return "-";
+  return std::to_string(std::max(0L, std::lround(1000 * duration_s)));
+}
+
+std::string Table() {
+  std::ostringstream text;
+  text << "# Faults, and how the rover stops\n\n"
+       << "Made by `scripts/fault_table.sh` (the test `FaultTable`): each fault is injected into a "
+          "simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real chassis, on a "
+          "simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the moment it "
+          "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
+          "last frame that moves); *tracks stand* is when both tracks run below 1 mm/s, their own "
+          "inertia\n(time constant 0.1 s) included. Where no stop frame gets through, the chassis' "
+          "own command timeout of\n500 ms stops it. Every fault is then mended, to see what it "
+          "takes to go on.\n\n"
+       << "| fault | limit | stop after the fault, ms | after the limit, ms | tracks stand, ms | "
+          "status says | to go on |\n"
+       << "|---|---|---|---|---|---|---|\n";
+  for (const Row& row : Rows()) {
+    const bool by_timeout = row.fault.stopper == Stopper::kChassisTimeout;
+    text << "| " << row.fault.name << " | " << row.fault.limit << " | "
+         << Milliseconds(row.stop_s - row.injected_s) << (by_timeout ? " (no frame)" : "") << " | "
+         << Milliseconds(row.stop_s - row.limit_s) << " | "
+         << Milliseconds(row.standing_s - row.injected_s) << " | " << row.reason << " | "
+         << row.go_on << " |\n";
+  }
+  return text.str();
+}
+
+TEST(FaultTable, HoldsAtLeastFifteenFaults) { EXPECT_GE(Rows().size(), 15u); }
+
+TEST(FaultTable, EveryFaultStopsTheRoverWithin200Milliseconds) {
+  for (const Row& row : Rows()) {
+    EXPECT_TRUE(row.has_stopped) << row.fault.name;
+    EXPECT_LE(row.stop_s - row.limit_s, 0.2) << row.fault.name;
+    EXPECT_GE(row.stop_s, row.injected_s - 0.02) << row.fault.name;
+  }
+}
+
+TEST(FaultTable, WhereNoFrameGetsThroughTheChassisStopsItself) {
+  for (const Row& row : Rows()) {
+    if (row.fault.stopper == Stopper::kChassisTimeout) {
+      EXPECT_LE(row.standing_s - row.injected_s, 0.5 + 0.5) << row.fault.name;
+    }
+  }
+}
+
+TEST(FaultTable, OnlyFaultsOfThePoseAreLeftWithoutAHand) {
+  for (const Row& row : Rows()) {
+    const bool by_itself = row.go_on.find("by itself") != std::string::npos;
+    const bool is_of_pose = row.reason.find("pose") != std::string::npos;
+    EXPECT_EQ(by_itself, is_of_pose) << row.fault.name << ": " << row.go_on;
+    EXPECT_EQ(row.go_on.find("not"), std::string::npos) << row.fault.name << ": " << row.go_on;
+  }
+}
+
+TEST(FaultTable, TheDocumentIsWhatTheTestMeasured) {
+  if (const char* path = std::getenv("ARFM_VO_FAULT_TABLE")) {
+    const std::string temporary = std::string(path) + ".new";
+    std::ofstream(temporary) << Table();
+    ASSERT_EQ(std::rename(temporary.c_str(), path), 0) << path;
+    return;
+  }
+  std::ifstream file(ARFM_VO_SOURCE_DIR "/docs/faults.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), Table()) << "docs/faults.md is out of date: run scripts/fault_table.sh";
+}
+
+}  // namespace
+}  // namespace arfm_vo

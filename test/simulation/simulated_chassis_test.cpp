@@ -1,0 +1,236 @@
+#include "arfm_vo/simulation/simulated_chassis.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_drive.h"
+
+namespace arfm_vo {
+namespace {
+
+/// The simulated chassis with the test at the other end of the bus.
+class SimulatedChassisTest : public ::testing::Test {
+ protected:
+  static TrackedPlantOptions WithoutSlip() {
+    TrackedPlantOptions options;
+    options.turn_slip_factor = 1;
+    options.forward_slip = options.slip_variation = options.sideways_slip = 0;
+    return options;
+  }
+
+  void Run(double duration_s) {
+    const int num_ticks = static_cast<int>(std::lround(duration_s * 100));
+    for (int i = 0; i < num_ticks; ++i) {
+      now_s_ += 0.01;
+      chassis_.Tick(now_s_);
+      while (const auto frame = bus_end_->Receive()) {
+        ++num_frames_[frame->id];
+        const ChassisFeedback feedback = DecodeFeedback(*frame);
+        if (const auto* state = std::get_if<SystemState>(&feedback)) state_ = *state;
+        if (const auto* odometer = std::get_if<TrackOdometer>(&feedback)) odometer_ = *odometer;
+      }
+    }
+  }
+  template <class Message>
+  void Tell(const Message& message) {
+    bus_end_->Send(EncodeFrame(message));
+  }
+  /// Keeps telling it to drive ahead at 0.1 m/s.
+  void Drive(double duration_s) {
+    for (int i = 0; i < static_cast<int>(std::lround(duration_s * 50)); ++i) {
+      Tell(MotionCommand{{0.1, 0}});
+      Run(0.02);
+    }
+  }
+  double X() const { return chassis_.plant().Pose().x_m; }
+
+  CanMemoryBus bus_;
+  std::unique_ptr<CanBus> bus_end_ = bus_.OpenEnd();
+  SimulatedChassis chassis_{bus_.OpenEnd(), TrackedPlant(WithoutSlip(), RoverPose{})};
+  double now_s_ = 50;
+  std::map<uint32_t, int> num_frames_;
+  SystemState state_;
+  TrackOdometer odometer_;
+};
+
+TEST_F(SimulatedChassisTest, PowersUpInStandbyAndHearsOnlyTheMode) {
+  Drive(1);
+  EXPECT_EQ(X(), 0);
+  EXPECT_EQ(state_.mode, ControlMode::kStandby);
+  Tell(ControlModeCommand{ControlMode::kCan});
+  Drive(1);
+  EXPECT_GT(X(), 0.08);
+  EXPECT_EQ(state_.mode, ControlMode::kCan);
+}
+
+TEST_F(SimulatedChassisTest, StopsHalfASecondAfterTheLastCommand) {
+  Tell(ControlModeCommand{ControlMode::kCan});
+  Drive(2);
+  Run(0.45);
+  EXPECT_GT(chassis_.plant().Speeds().left_mps, 0.09);
+  Run(0.07 + 0.5);
+  EXPECT_LT(chassis_.plant().Speeds().left_mps, 0.001);
+}
+
+TEST_F(SimulatedChassisTest, SendsItsFeedbackAtTheManualsRates) {
+  Run(10);
+  EXPECT_NEAR(num_frames_[0x221], 500, 2);
+  EXPECT_NEAR(num_frames_[0x251], 500, 2);
+  EXPECT_NEAR(num_frames_[0x311], 500, 2);
+  EXPECT_NEAR(num_frames_[0x211], 100, 2);
+  EXPECT_NEAR(num_frames_[0x361], 100, 2);
+}
+
+TEST_F(SimulatedChassisTest, ItsOdometerCountsTheTracks) {
+  Tell(ControlModeCommand{ControlMode::kCan});
+  Drive(10);
+  EXPECT_NEAR(odometer_.left_mm, 990, 5);
+  EXPECT_EQ(odometer_.left_mm, odometer_.right_mm);
+}
+
+TEST_F(SimulatedChassisTest, TheRemoteControlOutranksCanAndHandsBackToStandby) {
+  Tell(ControlModeCommand{ControlMode::kCan});
+  Drive(1);
+  chassis_.TakeRemoteControl({-0.1, 0});
+  const double x_m = X();
+  Tell(ControlModeCommand{ControlMode::kCan});
+  Drive(1);
+  EXPECT_LT(X(), x_m);
+  EXPECT_EQ(state_.mode, ControlMode::kRemote);
+  chassis_.HandBack();
+  Drive(0.5);
+  EXPECT_EQ(state_.mode, ControlMode::kStandby);
+  EXPECT_LT(std::abs(chassis_.plant().Speeds().left_mps), 0.001);
+}
+
+TEST_F(SimulatedChassisTest, AFaultStandsUntilItIsCleared) {
+  Tell(ControlModeCommand{ControlMode::kCan});
+  chassis_.SetFault(0x0001);
+  Drive(1);
+  EXPECT_EQ(X(), 0);
+  EXPECT_EQ(state_.vehicle, VehicleState::kFault);
+  Tell(ClearErrorsCommand{});
+  Drive(1);
+  EXPECT_GT(X(), 0.05);
+}
+
+TEST(TrackedPlant, SlipsAsItIsTold) {
+  TrackedPlantOptions options;
+  options.slip_variation = 0;
+  options.forward_slip = 0.1;
+  TrackedPlant plant(options, {0, 0, M_PI / 2});
+  for (int i = 0; i < 10000; ++i) plant.Step({0.1, 0.1}, 0.01);
+  EXPECT_NEAR(plant.Ways().left_m, 10, 0.02);
+  EXPECT_NEAR(plant.Pose().y_m, 0.9 * plant.Ways().left_m, 1e-9);
+}
+
+TEST(TrackedPlant, SkidsInTurns) {
+  TrackedPlantOptions options;
+  options.turn_slip_factor = 1.5;
+  TrackedPlant plant(options, {});
+  for (int i = 0; i < 1000; ++i) plant.Step({-0.05, 0.05}, 0.01);
+  const double track_turn_rad = (plant.Ways().right_m - plant.Ways().left_m) / 0.583;
+  EXPECT_NEAR(plant.Pose().heading_rad, track_turn_rad / 1.5, 1e-9);
+  EXPECT_NEAR(plant.Pose().x_m, 0, 1e-9);
+}
+
+TEST(TrackedPlant, VariesItsSlipAboutTheMean) {
+  TrackedPlant plant({}, {});
+  for (int i = 0; i < 100000; ++i) plant.Step({0.1, 0.1}, 0.01);
+  EXPECT_NEAR(plant.DrivenDistance() / plant.Ways().left_m, 0.9, 0.02);
+}
+
+TEST(TrackedPlant, ClimbsAlongTheSlopeAndSlidesDownIt) {
+  TrackedPlantOptions options;
+  options.forward_slip = options.slip_variation = 0;
+  const double slope_rad = 10 * M_PI / 180;
+  const auto place = [slope_rad](const RoverPose& pose) {
+    const Eigen::Quaterniond slope(Eigen::AngleAxisd(slope_rad, -Eigen::Vector3d::UnitY()));
+    return Rigid3(slope * ExpSO3({0, 0, pose.heading_rad}),
+                  Eigen::Vector3d(pose.x_m, pose.y_m, std::tan(slope_rad) * pose.x_m));
+  };
+  TrackedPlant up(options, {}, place);
+  for (int i = 0; i < 1000; ++i) up.Step({0.1, 0.1}, 0.01);
+  EXPECT_NEAR(up.Pose().x_m, up.Ways().left_m * std::cos(slope_rad), 1e-9);
+  TrackedPlant across(options, {0, 0, M_PI / 2}, place);
+  for (int i = 0; i < 1000; ++i) across.Step({0.1, 0.1}, 0.01);
+  EXPECT_LT(across.Pose().x_m, -0.01);
+  EXPECT_NEAR(across.Pose().y_m, across.Ways().left_m, 1e-6);
+}
+
+TEST(ClosedLoop, EveryGoalIsReachedInSpiteOfSlip) {
+  RandomEngine engine(11);
+  for (int i = 0; i < 20; ++i) {
+    SimulatedDrive drive;
+    drive.Run(0.5);
+    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
+    const double bearing_rad = 2 * M_PI * RandomUnit(engine), way_m = 0.3 + 3 * RandomUnit(engine);
+    const Waypoint goal{way_m * std::cos(bearing_rad), way_m * std::sin(bearing_rad),
+                        WrapAngle(2 * M_PI * RandomUnit(engine))};
+    drive.pilot().SetRoute({goal});
+    ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; })) << i;
+    EXPECT_EQ(drive.pilot().TakeResults().at(0).outcome, GoalOutcome::kArrived) << i;
+    const RoverPose& pose = drive.plant().Pose();
+    EXPECT_LT(std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m), 0.045) << i;
+    EXPECT_LT(std::abs(WrapAngle(pose.heading_rad - *goal.heading_rad)), 0.045) << i;
+    EXPECT_LE(drive.FastestCommand(), 0.1);
+  }
+}
+
+TEST(ClosedLoop, StopLookGoReachesTheGoalAndLooksAtRest) {
+  PilotOptions options;
+  options.stop_look_go.is_on = true;
+  SimulatedDrive drive(options);
+  drive.Run(0.5);
+  drive.pilot().Start(drive.Now());
+  drive.pilot().SetRoute({{1.5, 1, 0.0}});
+  int num_stops = 0;
+  bool was_moving = false;
+  drive.each_tick_ = [&] {
+    const bool is_moving = !drive.Commanded().IsZero();
+    num_stops += was_moving && !is_moving;
+    was_moving = is_moving;
+  };
+  ASSERT_TRUE(drive.RunUntil(600, [&] { return !drive.pilot().Status().has_goal; }));
+  EXPECT_GE(num_stops, 8);
+  const RoverPose& pose = drive.plant().Pose();
+  EXPECT_LT(std::hypot(pose.x_m - 1.5, pose.y_m - 1), 0.045);
+}
+
+TEST(ClosedLoop, StopLookGoDrivesBySightThatComesOncePerMinute) {
+  PilotOptions options;
+  options.stop_look_go.is_on = true;
+  options.stop_look_go.max_pose_age_s = 90;
+  SimulatedDrive drive(options);
+  drive.Run(0.5);
+  drive.pilot().Start(drive.Now());
+  drive.pilot().SetRoute({{1, 0, 0.0}});
+  int tick = 0;
+  drive.each_tick_ = [&] { drive.has_pose_ = ++tick % 1500 < 5; };  // 0.1 s of each 30 s
+  ASSERT_TRUE(drive.RunUntil(1200, [&] { return !drive.pilot().Status().has_goal; }));
+  EXPECT_EQ(drive.pilot().TakeResults().at(0).outcome, GoalOutcome::kArrived);
+  EXPECT_NEAR(drive.plant().Pose().x_m, 1, 0.045);
+}
+
+TEST(ClosedLoop, ARouteIsDrivenThroughItsWaypoints) {
+  SimulatedDrive drive;
+  drive.Run(0.5);
+  drive.pilot().Start(drive.Now());
+  drive.pilot().SetRoute({{1, 0, {}}, {1, 1, {}}, {0, 1, {}}});
+  double max_x_m = 0;
+  drive.each_tick_ = [&] { max_x_m = std::max(max_x_m, drive.plant().Pose().x_m); };
+  ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; }));
+  EXPECT_GT(max_x_m, 0.84);
+  EXPECT_NEAR(drive.plant().Pose().x_m, 0, 0.045);
+  EXPECT_NEAR(drive.plant().Pose().y_m, 1, 0.045);
+}
+
+TEST(ClosedLoop, NoFrameIsSentBeforeStart) {
+  SimulatedDrive drive;
+  drive.pilot().SetRoute({{1, 0, {}}});
+  drive.Run(5);
+  EXPECT_EQ(drive.NumCommandFrames(), 0);
+  EXPECT_EQ(drive.plant().DrivenDistance(), 0);
+}
+
+}  // namespace
+}  // namespace arfm_vo

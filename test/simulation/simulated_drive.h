@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "arfm_vo/hardware/can_memory_bus.h"
+#include "arfm_vo/hardware/chassis_driver.h"
+#include "arfm_vo/simulation/simulated_chassis.h"
+
+namespace arfm_vo {
+
+/// A chassis driver, a simulated chassis on the same bus, and a perfect sight that is 100 ms late,
+/// all on one clock of 1 ms. What a test may break stands open.
+class SimulatedDrive {
+ public:
+  explicit SimulatedDrive(const PilotOptions& pilot = {}, const TrackedPlantOptions& plant = {})
+      : listener_(bus_.OpenEnd()),
+        chassis_(std::in_place, bus_.OpenEnd(), TrackedPlant(plant, RoverPose{})),
+        driver_(std::in_place, pilot, bus_.OpenEnd()) {}
+
+  /// Goes on by `duration_s`.
+  void Run(double duration_s) {
+    const long end_ms = now_ms_ + std::lround(duration_s * 1000);
+    while (now_ms_ < end_ms) Step();
+  }
+  /// Goes on until done() or for `limit_s`; says whether it was done.
+  template <class Done>
+  bool RunUntil(double limit_s, Done&& done) {
+    const long end_ms = now_ms_ + std::lround(limit_s * 1000);
+    while (now_ms_ < end_ms && !done()) Step();
+    return done();
+  }
+
+  double Now() const { return 0.001 * now_ms_; }
+  Pilot& pilot() { return driver_->pilot(); }
+  const Pilot& pilot() const { return driver_->pilot(); }
+  SimulatedChassis& chassis() { return *chassis_; }
+  TrackedPlant& plant() { return chassis_->plant(); }
+  ChassisDriver& driver() { return *driver_; }
+  /// The driver ends as a program that is asked to.
+  void EndDriver() { driver_.reset(); }
+
+  /// Of the last 0x111 on the bus.
+  PlanarMotion Commanded() const { return commanded_; }
+  /// When the last 0x111 that was not zero was on the bus, and the first that was zero after it
+  /// (before it where there is none).
+  double LastMovingCommandTime() const { return last_moving_s_; }
+  double FirstStopCommandTime() const { return first_stop_s_; }
+  double LastPoseTaken() const { return pose_taken_s_; }
+  double LastCovarianceTaken() const { return covariance_taken_s_; }
+  double FastestCommand() const { return fastest_mps_; }
+  double FastestTrack() const {
+    return std::max(std::abs(chassis_->plant().Speeds().left_mps),
+                    std::abs(chassis_->plant().Speeds().right_mps));
+  }
+  long NumCommandFrames() const { return num_command_frames_; }
+
+  CanMemoryBus bus_;
+  bool is_driver_hung_ = false, has_pose_ = true, has_covariance_ = true, is_tf_missing_ = false;
+  double sigma_m_ = 0.01;
+  double stamp_offset_s_ = 0;
+  std::optional<Rigid3> false_pose_;
+  std::function<void()> each_tick_ = [] {};
+
+ private:
+  static constexpr int kDriverPeriod_ms = 20, kChassisPeriod_ms = 5, kPosePeriod_ms = 100;
+  static constexpr double kLatency_s = 0.1;
+
+  struct Sight {
+    double taken_s;
+    Rigid3 world_from_base;
+  };
+
+  void Step() {
+    ++now_ms_;
+    if (now_ms_ % kChassisPeriod_ms == 0) chassis_->Tick(Now());
+    if (now_ms_ % kPosePeriod_ms == 0) See();
+    if (now_ms_ % kDriverPeriod_ms == 3 && driver_ && !is_driver_hung_) {
+      each_tick_();
+      if (driver_) driver_->Tick(Now());
+    }
+    Listen();
+  }
+
+  void See() {
+    sights_.push_back({Now(), chassis_->plant().WorldFromBase()});
+    while (!sights_.empty() && sights_.front().taken_s <= Now() - kLatency_s + 1e-9) {
+      if (driver_) Tell(sights_.front());
+      sights_.pop_front();
+    }
+  }
+
+  void Tell(const Sight& sight) {
+    const double taken_s = sight.taken_s + stamp_offset_s_;
+    if (has_pose_) pose_taken_s_ = taken_s;
+    if (has_pose_ && has_covariance_) covariance_taken_s_ = taken_s;
+    if (is_tf_missing_) pilot().ObserveNoPose();
+    if (has_pose_ && !is_tf_missing_)
+      pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(sight.world_from_base)});
+    if (has_pose_ && has_covariance_) pilot().ObserveUncertainty({taken_s, sigma_m_, 0.01});
+    if (has_pose_) pilot().ObserveOdometry(taken_s, sight.world_from_base);
+  }
+
+  void Listen() {
+    while (const auto frame = listener_->Receive()) {
+      const ChassisCommand command = DecodeCommand(*frame);
+      num_command_frames_ += command.index() != 0;
+      if (const auto* motion = std::get_if<MotionCommand>(&command)) {
+        commanded_ = motion->motion;
+        fastest_mps_ = std::max(fastest_mps_, std::abs(commanded_.forward_mps));
+        if (!commanded_.IsZero()) last_moving_s_ = Now();
+        if (commanded_.IsZero() && first_stop_s_ < last_moving_s_) first_stop_s_ = Now();
+      }
+    }
+  }
+
+  std::unique_ptr<CanBus> listener_;
+  std::optional<SimulatedChassis> chassis_;
+  std::optional<ChassisDriver> driver_;
+  std::deque<Sight> sights_;
+  long now_ms_ = 100000, num_command_frames_ = 0;
+  PlanarMotion commanded_;
+  double last_moving_s_ = -1, first_stop_s_ = -2, fastest_mps_ = 0;
+  double pose_taken_s_ = 0, covariance_taken_s_ = 0;
+};
+
+}  // namespace arfm_vo
