@@ -20,30 +20,46 @@ void ArfmNodeOptions::Check() const {
 
 ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<ArfmNodeOptions>(private_node)),
-      features_(node.advertise<StereoFrameStamped>("features", 2)),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(options_.max_waiting_pairs,
-              [this](const std::exception& error) {
-                ++figures_.num_refused;
-                figures_.refusal = error.what();
-                ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
-              }),
-      input_(node, private_node, [this](const StereoMessagePair& pair) {
-        worker_.PostLossy([this, pair] { Process(pair); });
+      worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
+        ++figures_.num_refused;
+        figures_.refusal = error.what();
+        ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
       }) {
   diagnostics_.setHardwareID("arfm_vo");
   diagnostics_.add("stereo pairs", this, &ArfmNode::Report);
-  timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
-    worker_.Post([this, counts = input_.counts()] {
-      figures_.input = counts;
-      diagnostics_.force_update();
-      figures_.input_before = counts;
-    });
+  features_ = node.advertise<StereoFrameStamped>(
+      "features", 2,
+      [this, node, private_node](const ros::SingleSubscriberPublisher&) {
+        Connect(node, private_node);
+      },
+      [this](const ros::SingleSubscriberPublisher&) { Disconnect(); });
+  timer_ = node.createWallTimer(ros::WallDuration(1),
+                                [this](const ros::WallTimerEvent&) { ReportFigures(); });
+}
+
+void ArfmNode::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+  if (input_) return;
+  input_ = std::make_unique<StereoInput>(node, private_node, [this](const StereoMessagePair& pair) {
+    worker_.PostLossy([this, pair] { Process(pair); });
+  });
+}
+
+void ArfmNode::Disconnect() {
+  if (features_.getNumSubscribers() == 0) input_.reset();
+}
+
+void ArfmNode::ReportFigures() {
+  const bool is_idle = !input_;
+  worker_.Post([this, is_idle, counts = is_idle ? StereoInputCounts() : input_->counts()] {
+    figures_.is_idle = is_idle;
+    figures_.input = counts;
+    diagnostics_.force_update();
+    figures_.input_before = counts;
   });
 }
 
 void ArfmNode::Process(const StereoMessagePair& pair) {
-  if (features_.getNumSubscribers() == 0) return;
   Stopwatch stopwatch;
   PrepareFrontend(pair);
   const std::string left_topic = "left/image_rect", right_topic = "right/image_rect";
@@ -87,12 +103,12 @@ void ArfmNode::Publish(const StereoMessagePair& pair, const StereoFrame& frame,
 
 void ArfmNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string obstacle = figures_.input.Explain(figures_.input_before);
-  if (!figures_.refusal.empty())
+  if (figures_.is_idle)
+    status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");
+  else if (!figures_.refusal.empty())
     status.summary(DiagnosticStatus::ERROR, "pair refused: " + figures_.refusal);
   else if (!obstacle.empty())
     status.summary(DiagnosticStatus::WARN, "no pairs: " + obstacle);
-  else if (features_.getNumSubscribers() == 0)
-    status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");
   else
     status.summary(DiagnosticStatus::OK, "pairs come");
   status.addf("pairs a second", "%.1f", figures_.rate.Get());

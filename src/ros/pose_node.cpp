@@ -7,6 +7,7 @@
 #include "arfm_vo/ros/image_conversion.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/trigger_service.h"
 
 namespace arfm_vo {
 namespace {
@@ -49,7 +50,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
 PoseNode::~PoseNode() {
   if (!trajectory_output_.is_enabled()) return;
   try {
-    worker_.RunAndWait([this] { ROS_INFO("%s", Save().c_str()); });
+    ROS_INFO("%s", Save().c_str());
   } catch (const std::exception& error) {
     ROS_ERROR("the trajectory is not saved: %s", error.what());
   }
@@ -63,19 +64,12 @@ void PoseNode::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     worker_.Post([this] { diagnostics_.force_update(); });
   });
-  using Callback = boost::function<bool(Trigger::Request&, Trigger::Response&)>;
-  reset_ = private_node.advertiseService(
-      "reset", Callback([this](Trigger::Request&, Trigger::Response& response) {
-        return Answer(response, [this] {
-          rover_->StartWorld();
-          ROS_WARN("reset: world %u starts where the base stands", rover_->world());
-          return "world " + std::to_string(rover_->world()) + " starts with the next pair";
-        });
-      }));
-  save_ = private_node.advertiseService(
-      "save_trajectory", Callback([this](Trigger::Request&, Trigger::Response& response) {
-        return Answer(response, [this] { return Save(); });
-      }));
+  reset_ = OfferTrigger(private_node, "reset", [this] {
+    worker_.RunAndWait([this] { rover_->StartWorld(); });
+    ROS_WARN("reset: the next pair starts a new world where the base stands");
+    return std::string("the next pair starts a new world where the base stands");
+  });
+  save_ = OfferTrigger(private_node, "save_trajectory", [this] { return Save(); });
 }
 
 void PoseNode::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node) {
@@ -130,7 +124,8 @@ bool PoseNode::AcceptStamp(const ros::Time& stamp) {
   if (stamp == last_stamp_) return false;  // the same pair again
   if (stamp < last_stamp_) {
     ROS_WARN("time jumped back by %.3f s: starting anew", (last_stamp_ - stamp).toSec());
-    if (trajectory_output_.is_enabled()) ROS_INFO("%s", Save().c_str());
+    if (trajectory_output_.is_enabled())
+      ROS_INFO("%s", trajectory_output_.Save(rover_->MakeTrajectory()).c_str());
     trajectory_output_.StartRun();
     rover_ = std::make_unique<RoverOdometry>(options_.algorithm.odometry, mount_,
                                              options_.restart_after_lost_s, rover_->world() + 1);
@@ -157,20 +152,9 @@ void PoseNode::ApplyUpdate(const MapUpdateStamped& message) {
 }
 
 std::string PoseNode::Save() {
-  Require(trajectory_output_.is_enabled(),
-          "no trajectory_dir is set: there is nowhere to save the trajectory to");
-  return trajectory_output_.Save(rover_->MakeTrajectory());
-}
-
-bool PoseNode::Answer(Trigger::Response& response, const std::function<std::string()>& action) {
-  try {
-    worker_.RunAndWait([&] { response.message = action(); });
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-  }
-  return true;
+  Trajectory trajectory;
+  worker_.RunAndWait([&] { trajectory = rover_->MakeTrajectory(); });
+  return trajectory_output_.Save(trajectory);
 }
 
 }  // namespace arfm_vo

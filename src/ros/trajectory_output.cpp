@@ -2,12 +2,14 @@
 
 #include <filesystem>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/odometry/trajectory_files.h"
 
 namespace arfm_vo {
 
 std::string TrajectoryOutput::Save(const Trajectory& trajectory) const {
+  Require(is_enabled(), "trajectory_dir is not set: there is nowhere to save the trajectory to");
   const std::filesystem::path directory(directory_);
   std::filesystem::create_directories(directory);
   const std::string suffix = run_ == 1 ? "" : "_" + std::to_string(run_);

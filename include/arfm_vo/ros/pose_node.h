@@ -9,7 +9,6 @@
 #include <message_filters/synchronizer.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
@@ -58,19 +57,16 @@ class PoseNode {
   using Frame = StereoFrameStamped;
   using Image = sensor_msgs::Image;
   using Policy = message_filters::sync_policies::ExactTime<Frame, Image, Image>;
-  using Trigger = std_srvs::Trigger;
 
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node);
   void Offer(ros::NodeHandle node, ros::NodeHandle private_node);
+  std::string Save();
   // On the worker's thread:
   void Process(const Frame& frame, const sensor_msgs::ImageConstPtr& left,
                const sensor_msgs::ImageConstPtr& right);
   bool AcceptStamp(const ros::Time& stamp);
   uint32_t CountDropped(uint32_t pair_number);
   void ApplyUpdate(const MapUpdateStamped& message);
-  std::string Save();
-  /// Runs `action` on the worker and answers with what it says.
-  bool Answer(Trigger::Response& response, const std::function<std::string()>& action);
 
   const PoseNodeOptions options_;
   tf2_ros::Buffer buffer_;

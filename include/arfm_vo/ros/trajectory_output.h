@@ -15,7 +15,7 @@ class TrajectoryOutput {
   explicit TrajectoryOutput(std::string directory) : directory_(std::move(directory)) {}
 
   bool is_enabled() const { return !directory_.empty(); }
-  /// Returns what was written, in words.
+  /// Returns what was written, in words. Throws std::invalid_argument where there is no directory.
   std::string Save(const Trajectory& trajectory) const;
   /// What is saved from now on is another run.
   void StartRun() { ++run_; }
