@@ -23,7 +23,7 @@ def read_floors(cmake_text):
         words = call.group(1).split()
         name, used, is_depends = words[0], set(), False
         for word in words[1:]:
-            if word in ("DEPENDS", "LIBRARIES"):
+            if word in ("DEPENDS", "LIBRARIES", "TEST_LIBRARIES"):
                 is_depends = word == "DEPENDS"
             elif is_depends:
                 if word not in floors:
