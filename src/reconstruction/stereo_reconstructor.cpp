@@ -1,6 +1,7 @@
 #include "arfm_vo/reconstruction/stereo_reconstructor.h"
 
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
 
@@ -90,11 +91,17 @@ StereoReconstructor::Sightings StereoReconstructor::Refine(
     const StereoImages& images) const {
   const auto inflation = static_cast<float>(options_.sigma_inflation * options_.sigma_inflation);
   const auto floor = static_cast<float>(options_.sigma_floor_px * options_.sigma_floor_px);
+  std::vector<SlantAlignment> alignments(left.size());
+  cv::parallel_for_(cv::Range(0, left.size()), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      if (!guesses[i]) continue;
+      alignments[i] =
+          aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+    }
+  });
   Sightings sightings;
   for (int i = 0; i < left.size(); ++i) {
-    if (!guesses[i]) continue;
-    const SlantAlignment slanted =
-        aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+    const SlantAlignment& slanted = alignments[i];
     const PatchAlignment& alignment = slanted.alignment;
     if (!alignment.IsAligned()) continue;
     cv::Vec3f covariance = inflation * alignment.covariance;
