@@ -10,7 +10,7 @@ speeds=("$@"); [ ${#speeds[@]} -gt 0 ] || speeds=(1 2 3 4)
 [ -r "$bag" ] || { echo "$bag: no such bag" >&2; exit 1; }
 export PATH=/usr/bin:$PATH
 # shellcheck disable=SC1091
-. "${BUILD_DIR:-_b}/devel/setup.sh"
+set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
 # A master of its own, so that no other ROS on the machine is disturbed.
 export ROS_MASTER_URI=http://localhost:$((20000 + RANDOM % 10000))
 logs=$(mktemp -d)
