@@ -56,6 +56,9 @@ void SceneOptions::Check() const {
   Require(width >= 0 && height >= 0 && width <= 8192 && height <= 8192,
           "width and height must be in 0..8192");
   Require(num_threads >= 1, "threads must be at least 1");
+  for (const double angle : {right_x_mrad, right_y_mrad, right_z_mrad}) {
+    Require(std::abs(angle) <= 50, "right-x, right-y and right-z must be in [-50, 50] mrad");
+  }
 }
 
 Scene::Scene(const SceneOptions& options) : options_(options) {
@@ -121,7 +124,8 @@ TerrainOptions Scene::ChooseTerrain(const PlanarPath& path) const {
     terrain.relief_m = 0.8;
     terrain.relief_wavelength_m = 60;
     terrain.hills_m = 140;
-    terrain.rocks = {0.6, 0.06, 4, 1.4, 0.9};
+    terrain.texture_contrast = 0.4;
+    terrain.rocks = {0.3, 0.08, 4, 1.2, 0.9};
   }
   PlanarPath centered = path;
   const double half = CenterPath(centered) + kMargin + (options_.path == "wide_turn" ? 60 : 0);
@@ -143,9 +147,9 @@ Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
   corridor.points.push_back(
       last.position + 10 * Eigen::Vector2d(std::cos(last.heading_rad), std::sin(last.heading_rad)));
   if (options_.path == "wide_turn") {
-    corridor.half_width_m = 4.5;
+    corridor.half_width_m = 9;
     corridor.max_rock_radius_m = 0;
-    corridor.contrast = 0.25;
+    corridor.contrast = 0.4;
     corridor.tone = 0.8;
   }
   return corridor;
@@ -165,8 +169,20 @@ std::vector<Solid> Scene::Bodies(int pair) const {
   return {box};
 }
 
+Rigid3 Scene::WorldFromRight(int pair) const {
+  const Eigen::Vector3d rotation(options_.right_x_mrad, options_.right_y_mrad,
+                                 options_.right_z_mrad);
+  const Rigid3 nominal_from_right(ExpSO3(-1e-3 * rotation), Eigen::Vector3d::Zero());
+  return RightEyePose(camera_, WorldFromLeft(pair)) * nominal_from_right;
+}
+
 StereoImages Scene::RenderPair(int pair) const {
-  return renderer_->RenderPair(camera_, WorldFromLeft(pair), pair, Stamp(pair), Bodies(pair));
+  const std::vector<Solid> bodies = Bodies(pair);
+  StereoImages images;
+  images.stamp_s = Stamp(pair);
+  images.left = renderer_->Render(camera_, WorldFromLeft(pair), 2 * pair, bodies);
+  images.right = renderer_->Render(camera_, WorldFromRight(pair), 2 * pair + 1, bodies);
+  return images;
 }
 
 }  // namespace arfm_vo

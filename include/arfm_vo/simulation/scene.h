@@ -22,6 +22,8 @@ struct SceneOptions {
   int num_threads = 1;
   int width = 0, height = 0;  ///< px; 0: as the path's camera has it
   double noise_grey_levels = 1;
+  /// A fault of rectification: the right camera's residual rotation as in StereoCorrection, mrad.
+  double right_x_mrad = 0, right_y_mrad = 0, right_z_mrad = 0;
 
   void Check() const;
 };
@@ -49,6 +51,7 @@ class Scene {
   std::vector<Solid> Bodies(int pair) const;
 
  private:
+  Rigid3 WorldFromRight(int pair) const;
   void ChooseCamera();
   TerrainOptions ChooseTerrain(const PlanarPath& path) const;
   Corridor ChooseCorridor(const PlanarPath& path) const;
