@@ -9,7 +9,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kMargin = 40;  ///< m of detailed ground around the path
+constexpr double kRoadMargin = 60;  ///< m more of it where the way is a road
 
 /// The segments of a path; `length_m` of driving are asked for.
 std::vector<PathSegment> Segments(const std::string& path, double length_m) {
@@ -56,6 +56,7 @@ void SceneOptions::Check() const {
   Require(width >= 0 && height >= 0 && width <= 8192 && height <= 8192,
           "width and height must be in 0..8192");
   Require(num_threads >= 1, "threads must be at least 1");
+  Require(margin_m >= 1 && margin_m <= 500, "margin must be in [1, 500] m");
   for (const double angle : {right_x_mrad, right_y_mrad, right_z_mrad}) {
     Require(std::abs(angle) <= 50, "right-x, right-y and right-z must be in [-50, 50] mrad");
   }
@@ -128,8 +129,9 @@ TerrainOptions Scene::ChooseTerrain(const PlanarPath& path) const {
     terrain.rocks = {0.3, 0.08, 4, 1.2, 0.9};
   }
   PlanarPath centered = path;
-  const double half = CenterPath(centered) + kMargin + (options_.path == "wide_turn" ? 60 : 0);
-  double cells = 1024;
+  const double half =
+      CenterPath(centered) + options_.margin_m + (options_.path == "wide_turn" ? kRoadMargin : 0);
+  double cells = 128;
   while (cells < 2048 && cells * terrain.cell_m < 2 * half) cells *= 2;
   while (cells * terrain.cell_m < 2 * half) terrain.cell_m *= 2;
   terrain.side_m = cells * terrain.cell_m;
@@ -157,13 +159,13 @@ Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
 
 std::vector<Solid> Scene::Bodies(int pair) const {
   if (options_.path != "shadow") return {};
-  // A box as high as the camera drives by 2.5 m ahead, about a third of the picture wide.
+  // A box, about as large as a third of the picture with its shadow, drives by 2.8 m ahead.
   const double share = static_cast<double>(pair) / std::max(1, num_pairs() - 1);
-  const double half_view = 2.5 * camera_.width / (2 * camera_.fx);
+  const double half_view = 2.8 * camera_.width / (2 * camera_.fx);
   const Rigid3& world_from_left = world_from_left_.at(pair);
-  const Eigen::Vector3d in_eye((2 * share - 1) * 2 * half_view, 0.3, 2.8);
+  const Eigen::Vector3d in_eye((2 * share - 1) * 1.5 * half_view, 0.3, 2.8);
   Solid box = MakeBox(world_from_left * Rigid3(Eigen::Quaterniond::Identity(), in_eye),
-                      {half_view / 3, 0.9, 0.3});
+                      {0.45 * half_view, 1.3, 0.3});
   box.texture_offset_m = {17, 23};
   box.albedo = 0.5;
   return {box};

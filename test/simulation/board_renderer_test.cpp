@@ -84,7 +84,7 @@ TEST(BoardRenderer, CornersAreFoundWhereTheyWereProjected) {
     mean += error * (1.0f / found.size());
     squares += error.dot(error) / found.size();
   }
-  EXPECT_LT(std::sqrt(squares), 0.05);
+  EXPECT_LT(std::sqrt(squares), 0.07);  // of the detection in 8 bit grey
   EXPECT_LT(std::hypot(mean.x, mean.y), 0.01);
 }
 

@@ -14,6 +14,7 @@ TEST(Scene, SlopesReachButDoNotPassWhatARoverClimbs) {
   SceneOptions options;
   options.path = "slopes";
   options.num_pairs = 200;
+  options.margin_m = 5;
   const Scene scene(options);
   double steepest = 0, length = 0;
   for (int i = 0; i < scene.num_pairs(); ++i) {
@@ -55,17 +56,17 @@ SceneOptions TinyOptions(const std::string& path) {
   options.width = 128;
   options.height = 96;
   options.noise_grey_levels = 0;
+  options.margin_m = 5;
   return options;
 }
 
 TEST(Scene, EveryPathRendersPairsThatFitItsCamera) {
   for (const std::string& path : Scene::PathNames()) {
-    if (path == "wide_turn" || path == "slopes") continue;  // large terrains: tested above
     const Scene scene(TinyOptions(path));
     const StereoImages images = scene.RenderPair(5);
     EXPECT_NO_THROW(images.Check()) << path;
     EXPECT_EQ(images.left.size(), cv::Size(128, 96)) << path;
-    EXPECT_DOUBLE_EQ(scene.camera().cx, 63.5) << path;
+    EXPECT_NEAR(scene.camera().cx, 63.5, 2) << path;
     EXPECT_NEAR(scene.FirstFromLeft(0).Angle(), 0, 1e-7) << path;
     const double moved = scene.FirstFromLeft(9).translation.norm();
     EXPECT_EQ(moved < 1e-9, path == "rest" || path == "shadow") << path;
@@ -75,12 +76,12 @@ TEST(Scene, EveryPathRendersPairsThatFitItsCamera) {
 TEST(Scene, SomethingLargeMovesThroughTheViewOfTheRoverAtRest) {
   const Scene empty(TinyOptions("rest")), scene(TinyOptions("shadow"));
   double largest = 0;
-  for (int pair = 0; pair < scene.num_pairs(); pair += 3) {
+  for (int pair = 0; pair < scene.num_pairs(); ++pair) {
     cv::Mat difference;
     cv::absdiff(empty.RenderPair(pair).left, scene.RenderPair(pair).left, difference);
     largest = std::max(largest, cv::countNonZero(difference > 10) / (128.0 * 96));
   }
-  EXPECT_GT(largest, 0.2);
+  EXPECT_GT(largest, 0.25);
   EXPECT_LT(largest, 0.5);
 }
 
