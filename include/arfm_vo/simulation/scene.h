@@ -22,6 +22,9 @@ struct SceneOptions {
   int num_threads = 1;
   int width = 0, height = 0;  ///< px; 0: as the path's camera has it
   double noise_grey_levels = 1;
+  double margin_m = 40;  ///< of ground with rocks and full detail around the path
+  /// A fault of rectification: the right camera's residual rotation as in StereoCorrection, mrad.
+  double right_x_mrad = 0, right_y_mrad = 0, right_z_mrad = 0;
 
   void Check() const;
 };
@@ -49,6 +52,7 @@ class Scene {
   std::vector<Solid> Bodies(int pair) const;
 
  private:
+  Rigid3 WorldFromRight(int pair) const;
   void ChooseCamera();
   TerrainOptions ChooseTerrain(const PlanarPath& path) const;
   Corridor ChooseCorridor(const PlanarPath& path) const;
