@@ -57,6 +57,9 @@ void SceneOptions::Check() const {
           "width and height must be in 0..8192");
   Require(num_threads >= 1, "threads must be at least 1");
   Require(margin_m >= 1 && margin_m <= 500, "margin must be in [1, 500] m");
+  for (const double sweep : {sweep_pan_deg, sweep_tilt_deg}) {
+    Require(sweep >= 0 && sweep <= 180, "sweep-pan and sweep-tilt must be in [0, 180] deg");
+  }
   for (const double angle : {right_x_mrad, right_y_mrad, right_z_mrad}) {
     Require(std::abs(angle) <= 50, "right-x, right-y and right-z must be in [-50, 50] mrad");
   }
@@ -74,10 +77,16 @@ Scene::Scene(const SceneOptions& options) : options_(options) {
   render.sensor.noise_grey_levels = options.noise_grey_levels;
   render.sensor.seed = options.seed;
   renderer_ = std::make_unique<TerrainRenderer>(*terrain_, render);
-  const Rigid3 base_from_left = BaseFromLeftEye(shape_);
-  for (const PlanarPose& pose : path) {
-    world_from_left_.push_back(PlaceRover(*terrain_, pose, shape_) * base_from_left);
+  for (size_t i = 0; i < path.size(); ++i) {
+    world_from_left_.push_back(PlaceRover(*terrain_, path[i], shape_) *
+                               BaseFromLeft(Stamp(static_cast<int>(i))));
   }
+}
+
+Rigid3 Scene::BaseFromLeft(double stamp_s) const {
+  const double angle = 2 * M_PI * stamp_s / Stamp(std::max(1, options_.num_pairs - 1));
+  return BaseFromLeftEye(shape_, options_.sweep_pan_deg / 2 * kDegree * std::sin(angle),
+                         options_.sweep_tilt_deg / 2 * kDegree * std::sin(2 * angle));
 }
 
 void Scene::ChooseCamera() {

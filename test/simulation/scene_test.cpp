@@ -5,8 +5,6 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "arfm_vo/geometry/stereo_correction.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -93,13 +91,9 @@ TEST(Scene, FaultOfRectificationMovesTheRightRows) {
   const Scene scene(faulty);
   const StereoImages good = right.RenderPair(0), bad = scene.RenderPair(0);
   EXPECT_EQ(cv::norm(good.left, bad.left, cv::NORM_INF), 0);
-  const StereoCorrection correction{1e-3 * Eigen::Vector3d(faulty.right_x_mrad, 0, 0)};
-  const Eigen::Vector4d seen =
-      ProjectStereo4(scene.camera(), correction, Eigen::Vector3d(0.1, 0, 3));
-  const int shift = static_cast<int>(std::lround(seen[3] - seen[1]));
-  ASSERT_EQ(std::abs(shift), 1);
+  // What lies ahead turns from z towards -y, one row up.
   const cv::Rect inner(2, 20, 124, 60);
-  const cv::Mat moved = bad.right(inner + cv::Point(0, shift));
+  const cv::Mat moved = bad.right(inner - cv::Point(0, 1));
   EXPECT_LT(cv::norm(moved, good.right(inner), cv::NORM_L1),
             0.3 * cv::norm(bad.right(inner), good.right(inner), cv::NORM_L1));
 }
