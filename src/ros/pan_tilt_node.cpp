@@ -46,6 +46,13 @@ PanTiltGoal ReadGoal(const sensor_msgs::JointState& command, const PanTiltNodeOp
   return goal;
 }
 
+std::optional<double> AngleAt(double time_s, const std::optional<PtuReading>& before,
+                              const PtuReading& after) {
+  if (!before || time_s < before->time_s || time_s > after.time_s) return std::nullopt;
+  const double share = (time_s - before->time_s) / (after.time_s - before->time_s);
+  return before->position_rad + share * (after.position_rad - before->position_rad);
+}
+
 PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<PanTiltNodeOptions>(private_node)),
       head_(
@@ -71,8 +78,7 @@ PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
 void PanTiltNode::Tick() {
   const PanTiltReadings readings = head_.Step();
-  PublishReading(options_.pan_joint, readings.pan);
-  PublishReading(options_.tilt_joint, readings.tilt);
+  PublishReadings(readings);
   PublishSettled();
   if (head_.problem() != said_) {
     if (head_.problem().empty())
@@ -84,16 +90,19 @@ void PanTiltNode::Tick() {
   updater_.update();
 }
 
-void PanTiltNode::PublishReading(const std::string& joint,
-                                 const std::optional<PtuReading>& reading) {
+void PanTiltNode::PublishReadings(const PanTiltReadings& readings) {
+  if (readings.pan && readings.tilt && !head_.HasLostPosition()) {
+    if (const auto tilt_rad = AngleAt(readings.pan->time_s, last_tilt_, *readings.tilt)) {
+      sensor_msgs::JointState message;
+      message.header.stamp = ros::Time(clock_.ToWall(readings.pan->time_s));
+      message.name = {options_.pan_joint, options_.tilt_joint};
+      message.position = {readings.pan->position_rad, *tilt_rad};
+      joint_states_.publish(message);
+      ++num_readings_;
+    }
+  }
   // Where an axis has lost its place, its readings would turn the map.
-  if (!reading || head_.HasLostPosition()) return;
-  sensor_msgs::JointState message;
-  message.header.stamp = ros::Time(clock_.ToWall(reading->time_s));
-  message.name = {joint};
-  message.position = {reading->position_rad};
-  joint_states_.publish(message);
-  ++num_readings_;
+  last_tilt_ = head_.HasLostPosition() ? std::nullopt : readings.tilt;
 }
 
 void PanTiltNode::PublishSettled() {

@@ -42,7 +42,10 @@ class NumberedCameras {
   static constexpr int kWidth = 320, kHeight = 240;
   static constexpr double kRate_hz = 20;
 
-  NumberedCameras() : thread_([this] { Run(); }) {}
+  NumberedCameras()
+      : left_(kLeft, kWidth, kHeight),
+        right_(kRight, kWidth, kHeight),
+        thread_([this] { Run(); }) {}
   ~NumberedCameras() {
     is_stopping_ = true;
     thread_.join();
@@ -54,20 +57,20 @@ class NumberedCameras {
 
  private:
   void Run() {
-    LoopbackWriter left(kLeft, kWidth, kHeight), right(kRight, kWidth, kHeight);
     double next_s = MonotonicNow();
     for (int number = 1; !is_stopping_; ++number) {
       SleepUntil(next_s);
       cv::Mat picture(kHeight, kWidth, CV_8UC1, cv::Scalar(number % 200));
       std::copy_n(reinterpret_cast<const uint8_t*>(&number), sizeof(number), picture.data);
-      if (!IsDropped(number, drop_left_every)) left.Write(picture);
+      if (!IsDropped(number, drop_left_every)) left_.Write(picture);
       SleepUntil(MonotonicNow() + right_late_s);
-      if (!is_right_silent && !IsDropped(number, drop_right_every)) right.Write(picture);
+      if (!is_right_silent && !IsDropped(number, drop_right_every)) right_.Write(picture);
       next_s = std::max(next_s + 1 / kRate_hz, MonotonicNow() + 0.2 / kRate_hz);
     }
   }
   static bool IsDropped(int number, int every) { return every > 0 && number % every == 0; }
 
+  LoopbackWriter left_, right_;
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;
 };

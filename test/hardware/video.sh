@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 status=0
 output=$(mktemp)
 "${BUILD_DIR:-_b}/devel/lib/arfm_vo/test_hardware" --gtest_filter='V4l2CameraTest.*' > "$output" 2>&1 || status=1
-grep -E '^\[ .*(OK|FAILED|SKIPPED)|^\||Failure|Which|actual|Value|Expected' "$output" || true
+grep -E '^\[ .*(OK|FAILED|SKIPPED)|^\||Failure|Which|actual|Value|Expected|what\(\)|C\+\+ exception' "$output" || true
 # A test that is skipped here has not shown anything.
 if grep -q '^\[  SKIPPED' "$output"; then status=1; fi
 exit $status

@@ -23,6 +23,7 @@ struct Drift {
 /// Renders a drive and runs the odometry on it with the head's tf as a unit on a serial line gives
 /// it: read at its own times, 8 times a second, and interpolated to the images' stamps.
 Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
+  constexpr int kStride = 2;  // 5 pairs a second
   constexpr double kReading_s = 0.125, kStart_s = 100;
   const Scene scene(options);
   tf2::BufferCore buffer{ros::Duration(600)};
@@ -41,7 +42,7 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   RoverOdometry rover({}, mount, 0, 1);
   Drift drift;
   std::optional<Rigid3> first_from_odom;
-  for (int i = 0; i < scene.num_pairs(); ++i) {
+  for (int i = 0; i < scene.num_pairs(); i += kStride) {
     StereoImages images = scene.RenderPair(i);
     images.stamp_s += kStart_s;
     std_msgs::Header header;
@@ -60,8 +61,8 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   }
   std::printf(
       "  %d pairs, %d tracked, %d slewing, way %.2f m: base off by at most %.4f m, %.3f deg\n",
-      scene.num_pairs(), drift.num_tracked, drift.num_slewing, drift.way_m, drift.position_m,
-      drift.turn_deg);
+      (scene.num_pairs() + 1) / kStride, drift.num_tracked, drift.num_slewing, drift.way_m,
+      drift.position_m, drift.turn_deg);
   return drift;
 }
 
@@ -71,6 +72,8 @@ SceneOptions SweepOptions(const char* path, int num_pairs) {
   options.num_pairs = num_pairs;
   options.sweep_pan_deg = 60;
   options.sweep_tilt_deg = 30;
+  options.width = 320;
+  options.height = 240;
   options.margin_m = 10;
   options.num_threads = 2;
   return options;
@@ -78,7 +81,7 @@ SceneOptions SweepOptions(const char* path, int num_pairs) {
 
 TEST(HeadSweep, AParkedRoverStaysWhereItIs) {
   const Drift drift = Drive(SweepOptions("rest", 81));
-  EXPECT_EQ(drift.num_tracked, 81);
+  EXPECT_EQ(drift.num_tracked, 41);
   EXPECT_LT(drift.position_m, 0.01);
   EXPECT_LT(drift.turn_deg, 0.3);
 }
@@ -87,18 +90,18 @@ TEST(HeadSweep, ADrivingRoverGoesItsWayAllTheSame) {
   SceneOptions options = SweepOptions("straight", 81);
   options.step_m = 0.02;
   const Drift drift = Drive(options);
-  EXPECT_EQ(drift.num_tracked, 81);
+  EXPECT_EQ(drift.num_tracked, 41);
   EXPECT_NEAR(drift.way_m, 1.6, 0.05);
   EXPECT_LT(drift.position_m, 0.01);
   EXPECT_LT(drift.turn_deg, 0.3);
 }
 
 TEST(HeadSweep, TheGateSkipsPairsOfAFastHead) {
-  // The head passes its middle at 33 deg/s and stands still at its ends.
-  const Drift drift = Drive(SweepOptions("rest", 81), 15);
+  // The head passes its middle at 33 deg/s and turns at 17 deg/s halfway to its ends.
+  const Drift drift = Drive(SweepOptions("rest", 81), 24);
   EXPECT_GT(drift.num_slewing, 10);
   EXPECT_GT(drift.num_tracked, 5);
-  EXPECT_EQ(drift.num_tracked + drift.num_slewing, 81);
+  EXPECT_EQ(drift.num_tracked + drift.num_slewing, 41);
   EXPECT_LT(drift.position_m, 0.01);
   EXPECT_LT(drift.turn_deg, 0.3);
 }

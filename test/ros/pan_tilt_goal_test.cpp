@@ -45,6 +45,14 @@ TEST(PanTiltGoal, WrongCommandsSayWhatIsWrong) {
   EXPECT_THAT(Refusal(fast), HasSubstr("pan_speed_rad_s"));
 }
 
+TEST(AngleAt, LiesOnTheLineBetweenTwoReadings) {
+  const PtuReading before{1, 10}, after{2, 10.5};
+  EXPECT_DOUBLE_EQ(*AngleAt(10.125, before, after), 1.25);
+  EXPECT_FALSE(AngleAt(9.9, before, after));
+  EXPECT_FALSE(AngleAt(10.6, before, after));
+  EXPECT_FALSE(AngleAt(10.2, std::nullopt, after));
+}
+
 TEST(PanTiltNodeOptions, ShippedConfigIsReadStrictly) {
   const auto options =
       ReadYamlFile<PanTiltNodeOptions>(std::string(ARFM_VO_SOURCE_DIR) + "/config/pan_tilt.yaml");

@@ -36,8 +36,15 @@ struct PanTiltNodeOptions {
 /// (the speeds are parameters).
 PanTiltGoal ReadGoal(const sensor_msgs::JointState& command, const PanTiltNodeOptions& options);
 
-/// A pan-tilt unit in ROS: `cmd` (JointState) in; `joint_states`, `settled` and `refused` out. Each
-/// axis has a message of its own, stamped at the middle of its query.
+/// The angle at `time_s` on the line from one reading to the next; nothing outside of it or where
+/// there was none before.
+std::optional<double> AngleAt(double time_s, const std::optional<PtuReading>& before,
+                              const PtuReading& after);
+
+/// A pan-tilt unit in ROS: `cmd` (JointState) in; `joint_states`, `settled` and `refused` out. The
+/// axes are read one after the other; a message has both as they were at the middle of pan's query,
+/// tilt between its readings. (In messages of their own the second would push the first out of
+/// robot_state_publisher's queue of one.)
 class PanTiltNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter. A unit that is not there is no error:
@@ -46,7 +53,7 @@ class PanTiltNode {
 
  private:
   void Tick();
-  void PublishReading(const std::string& joint, const std::optional<PtuReading>& reading);
+  void PublishReadings(const PanTiltReadings& readings);
   void PublishSettled();
   void TakeCommand(const sensor_msgs::JointState& command);
   void Refuse(const std::string& why);
@@ -57,6 +64,7 @@ class PanTiltNode {
   const PanTiltNodeOptions options_;
   PanTilt head_;
   ClockOffset clock_;
+  std::optional<PtuReading> last_tilt_;
   uint32_t num_readings_ = 0, num_refused_ = 0;
   std::string said_;  ///< the problem that was last logged
   ros::Publisher joint_states_, settled_, refused_;
