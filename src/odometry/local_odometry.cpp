@@ -5,6 +5,8 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/odometry/drift_estimator.h"
 
 namespace arfm_vo {
 
@@ -43,6 +45,7 @@ class LocalOdometry::Implementation {
       Continue(frame, images, update);
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
+    if (update.pose.IsTracked()) AddDrift(update);
     if (update.is_keyframe) AddKeyframe(frame, images, update);
     update.stage_ms.emplace_back("map", stopwatch.LapMs());
     return update;
@@ -79,6 +82,7 @@ class LocalOdometry::Implementation {
     FinishBundle();
     map_.Clear();
     standstill_.Reset();
+    drift_.Clear();
     last_.reset();
     record_.reset();
   }
@@ -86,6 +90,11 @@ class LocalOdometry::Implementation {
   const LocalMap& map() const { return map_; }
 
  private:
+  struct AdjustedWindow {
+    LocalBundle bundle;
+    BundleResult result;
+    Eigen::MatrixXd information;  ///< FindPoseInformation
+  };
   struct Motion {
     double stamp_s;
     Rigid3 camera_from_world;
@@ -165,21 +174,37 @@ class LocalOdometry::Implementation {
                                     landmark->second.keypoint.laplacian_sign,
                                     landmark->second.descriptor});
     }
+    drift_.Add(keyframe.id, update.covariance_from_start);
+    drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
-    LocalBundle bundle = MakeLocalBundle(camera_, map_, options_.bundle.num_keyframes);
-    pending_ = std::async(std::launch::async,
-                          [bundle = std::move(bundle), solver = options_.bundle.solver]() mutable {
-                            BundleResult result = AdjustBundle(bundle.problem, solver);
-                            return std::make_pair(std::move(bundle), std::move(result));
-                          });
+    pending_ = std::async(std::launch::async, Adjust,
+                          MakeLocalBundle(camera_, map_, options_.bundle.num_keyframes),
+                          options_.bundle.solver);
+  }
+
+  static AdjustedWindow Adjust(LocalBundle bundle, const BundleOptions& solver) {
+    AdjustedWindow window{std::move(bundle), {}, {}};
+    window.result = AdjustBundle(window.bundle.problem, solver);
+    window.information = FindPoseInformation(window.bundle.problem, window.result, solver);
+    return window;
+  }
+
+  void AddDrift(OdometryUpdate& update) const {
+    update.covariance_from_start = update.pose.covariance;
+    if (map_.keyframes().empty()) return;
+    const Keyframe& newest = map_.keyframes().back();
+    update.covariance_from_start +=
+        CarryCovariance(update.pose.camera_from_world * newest.camera_from_world.Inverse(),
+                        drift_.Covariance(newest.id));
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
   /// that the result does not depend on how fast threads run.
   void FinishBundle() {
     if (!pending_.valid()) return;
-    const auto [bundle, result] = pending_.get();
-    ApplyLocalBundle(bundle, result, map_);
+    const AdjustedWindow window = pending_.get();
+    ApplyLocalBundle(window.bundle, window.result, map_);
+    drift_.Update(window.bundle.keyframes, window.bundle.problem.pose_is_fixed, window.information);
   }
 
   StereoCamera camera_;
@@ -189,7 +214,8 @@ class LocalOdometry::Implementation {
   StandstillLock standstill_;
   std::optional<Motion> last_;
   std::optional<KeyframeRecord> record_;
-  std::future<std::pair<LocalBundle, BundleResult>> pending_;
+  DriftEstimator drift_;
+  std::future<AdjustedWindow> pending_;
 };
 
 LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options)

@@ -21,10 +21,15 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
 OdometryUpdate VisualOdometry::Process(const StereoImages& images) {
   StageTimes frontend_ms;
   const StereoFrame frame = frontend_.Process(images, &frontend_ms);
+  OdometryUpdate update = Process(frame, images);
+  update.stage_ms.insert(update.stage_ms.begin(), frontend_ms.begin(), frontend_ms.end());
+  return update;
+}
+
+OdometryUpdate VisualOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
   OdometryUpdate update = local_.Process(frame, images);
   if (const auto keyframe = local_.TakeKeyframe()) global_.Add(*keyframe);
   Remember(update);
-  update.stage_ms.insert(update.stage_ms.begin(), frontend_ms.begin(), frontend_ms.end());
   return update;
 }
 

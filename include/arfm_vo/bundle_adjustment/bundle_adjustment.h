@@ -93,6 +93,9 @@ struct BundleResult {
   std::vector<char> point_is_used;  ///< [points]; 0: seen too little to be placed, left as it was
   double scale = 1;                 ///< measured size of the residuals in stated sigmas
 
+  /// What the inverse of a weighted normal matrix has to be multiplied with to be a covariance; 1
+  /// unless a covariance is asked for.
+  double covariance_factor = 1;
   /// Marginal covariance of the correction, rad^2; zero for axes that stay where they start.
   Eigen::Matrix3d correction_covariance = Eigen::Matrix3d::Zero();
   /// [points] m^2, given the poses; zero for points not used. Empty unless asked for.

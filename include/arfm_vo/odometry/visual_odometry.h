@@ -36,6 +36,8 @@ class VisualOdometry {
   /// Takes the next pair, later than the one before. Throws std::invalid_argument where the images
   /// do not fit the camera.
   OdometryUpdate Process(const StereoImages& images);
+  /// The same for a pair whose frame was made elsewhere.
+  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images);
 
   /// Global bundle adjustment over all keyframes and points (Fig. 4) where it is switched on, then
   /// the pose of every frame, relative to its refined keyframe.
