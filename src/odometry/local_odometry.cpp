@@ -133,9 +133,12 @@ class LocalOdometry::Implementation {
       standstill_.Reset();
       return;
     }
-    map_.CountSightings(tracked.expected, tracked.observations);
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
-    if (resting) update.pose.camera_from_world = *resting;
+    if (resting) {
+      update.pose.camera_from_world = *resting;
+    } else {  // at rest something may stand before a good point for long
+      map_.CountSightings(tracked.expected, tracked.observations);
+    }
     update.is_keyframe =
         !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
                                   tracked.observations, options_.keyframes);
