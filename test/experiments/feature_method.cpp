@@ -1,5 +1,6 @@
 #include "experiments/feature_method.h"
 
+#include <algorithm>
 #include <opencv2/features2d.hpp>
 
 namespace arfm_vo {
@@ -30,9 +31,12 @@ std::vector<Neighbours> FindNeighbours(const DescribedPoints& from, const Descri
   if (from.points.empty() || to.points.empty()) return all;
   std::vector<std::vector<cv::DMatch>> found;
   cv::BFMatcher(norm).knnMatch(from.descriptors, to.descriptors, found, 2);
+  float largest = 1e-6f;  // Neighbours holds distances of descriptors of unit length
+  for (const auto& nearest : found) largest = std::max(largest, nearest.back().distance);
   for (const auto& nearest : found) {
     for (const cv::DMatch& match : nearest) {
-      all[match.queryIdx].Add(match.trainIdx, match.distance * match.distance);
+      const float distance = match.distance / largest;
+      all[match.queryIdx].Add(match.trainIdx, distance * distance);
     }
   }
   return all;
