@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "arfm_vo/base/check.h"
 
@@ -17,6 +18,14 @@ void StereoCamera::Check() const {
           "stereo camera: baseline must be in (0, 10) m, is " + std::to_string(baseline_m));
   Require(width > 0 && height > 0, "stereo camera: image size must be positive, is " +
                                        std::to_string(width) + "x" + std::to_string(height));
+}
+
+bool StereoCamera::operator==(const StereoCamera& other) const {
+  const auto values = [](const StereoCamera& camera) {
+    return std::tie(camera.fx, camera.fy, camera.cx, camera.cy, camera.baseline_m, camera.width,
+                    camera.height);
+  };
+  return values(*this) == values(other);
 }
 
 }  // namespace arfm_vo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/matching/exact_matcher.h"
@@ -166,19 +167,32 @@ TrackedFrame FrameTracker::Localise(const Correspondences& correspondences,
   return tracked;
 }
 
+std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
+    const StereoImages& images, const LocalMap& map, const std::vector<const Landmark*>& landmarks,
+    const Rigid3& camera_from_world) const {
+  std::vector<std::optional<LandmarkObservation>> observations(landmarks.size());
+  const cv::Range all(0, static_cast<int>(landmarks.size()));
+  cv::parallel_for_(all, [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const Keyframe* reference = map.FindKeyframe(landmarks[i]->reference);
+      if (reference == nullptr) continue;
+      observations[i] = aligner_.Align(*landmarks[i], *reference, images, camera_from_world);
+    }
+  });
+  return observations;
+}
+
 TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map,
                                  const PoseEstimate& coarse) const {
   TrackedFrame tracked;
   tracked.pose = coarse;
   const auto landmarks = map.LandmarksInView(coarse.camera_from_world, 8);
   tracked.expected = Ids(landmarks);
+  const std::vector<std::optional<LandmarkObservation>> observations =
+      Measure(images, map, landmarks, coarse.camera_from_world);
   Correspondences correspondences;
-  for (const Landmark* landmark : landmarks) {
-    const Keyframe* reference = map.FindKeyframe(landmark->reference);
-    if (reference == nullptr) continue;
-    const auto observation =
-        aligner_.Align(*landmark, *reference, images, coarse.camera_from_world);
-    if (observation) correspondences.Add(*landmark, *observation);
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    if (observations[i]) correspondences.Add(*landmarks[i], *observations[i]);
   }
   const PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse.camera_from_world, options_.refinement);

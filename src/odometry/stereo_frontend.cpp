@@ -31,7 +31,7 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   const Features right_features = right.get();
   frame.num_right_keypoints = right_features.size();
   const double features_ms = stopwatch.LapMs();
-  frame.ratio_threshold = options_.stereo.ratio_threshold;
+  frame.ratio_threshold = reconstructor_.RatioThreshold(frame.grey);
   frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
   if (stage_ms != nullptr) {
     stage_ms->emplace_back("features", features_ms);

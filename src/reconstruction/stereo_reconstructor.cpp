@@ -1,6 +1,7 @@
 #include "arfm_vo/reconstruction/stereo_reconstructor.h"
 
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
 
@@ -20,7 +21,13 @@ void StereoReconstructionOptions::Check() const {
   selection.Check();
   alignment.Check();
   row_search.Check();
-  Require(ratio_threshold > 0 && ratio_threshold <= 1, "ratio_threshold must be in (0, 1]");
+  matcher.Check();
+  threshold.Check();
+  slant.Check();
+  Require(
+      threshold.rule != ThresholdRule::kFalseMatches,
+      "threshold.rule false_matches learns from searches over the whole image and is not offered "
+      "here: fixed or variance");
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
   Require(min_disparity_px > 0, "min_disparity_px must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
@@ -32,6 +39,8 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
                                          const StereoReconstructionOptions& options)
     : camera_(camera),
       options_(options),
+      matcher_(options.matcher),
+      threshold_(options.threshold),
       aligner_(options.alignment, options.slant),
       row_model_(camera.width, camera.height),
       row_search_(options.row_search) {
@@ -39,14 +48,16 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
   options.Check();
 }
 
-Matches StereoReconstructor::MatchKeypoints(const Features& left, const Features& right) const {
+Matches StereoReconstructor::MatchKeypoints(const Features& left, const Features& right,
+                                            double max_ratio) const {
+  if (!options_.guided) return matcher_.MatchFeatures(left, right, max_ratio);
   Features expected = left;  // where the rows are off, left keypoints look on the right's rows
   for (Keypoint& keypoint : expected.keypoints) {
     keypoint.y += static_cast<float>(row_model_.Predict(keypoint.x, keypoint.y));
   }
   StereoSearchOptions search = options_.search;
   if (!row_model_.IsLearnt()) search.max_row_difference_px += kUnknownRowsPx;
-  return SelectMatches(FindStereoNeighbours(expected, right, search), options_.ratio_threshold,
+  return SelectMatches(FindStereoNeighbours(expected, right, search), max_ratio,
                        options_.selection);
 }
 
@@ -80,11 +91,17 @@ StereoReconstructor::Sightings StereoReconstructor::Refine(
     const StereoImages& images) const {
   const auto inflation = static_cast<float>(options_.sigma_inflation * options_.sigma_inflation);
   const auto floor = static_cast<float>(options_.sigma_floor_px * options_.sigma_floor_px);
+  std::vector<SlantAlignment> alignments(left.size());
+  cv::parallel_for_(cv::Range(0, left.size()), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      if (!guesses[i]) continue;
+      alignments[i] =
+          aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+    }
+  });
   Sightings sightings;
   for (int i = 0; i < left.size(); ++i) {
-    if (!guesses[i]) continue;
-    const SlantAlignment slanted =
-        aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+    const SlantAlignment& slanted = alignments[i];
     const PatchAlignment& alignment = slanted.alignment;
     if (!alignment.IsAligned()) continue;
     cv::Vec3f covariance = inflation * alignment.covariance;
@@ -134,7 +151,8 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   images.Check();
   Require(images.left.cols == camera_.width && images.left.rows == camera_.height,
           "stereo reconstruction: the images' size is not the camera's");
-  const Matches matches = MatchKeypoints(left, right);
+  const Matches matches =
+      MatchKeypoints(left, right, RatioThreshold(ComputeGreyStatistics(images.left)));
   Sightings sightings;
   if (options_.refine_subpixel) {
     std::vector<std::optional<cv::Point2f>> guesses(left.size());

@@ -65,6 +65,8 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
   RequireSize(message.point_row_residual, size, name + "point_row_residual");
   RequireSize(message.point_sigma, size, name + "point_sigma");
   RequireSize(message.point_position, 3 * size, name + "point_position");
+  RequireSize(message.point_disparity_gradient, 2 * size, name + "point_disparity_gradient");
+  RequireFinite(message.point_disparity_gradient, name + "point_disparity_gradient");
   RequireFinite(message.point_observation, name + "point_observation");
   RequireFinite(message.point_row_residual, name + "point_row_residual");
   RequireFinite(message.point_sigma, name + "point_sigma");
@@ -80,6 +82,8 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
     points[i].row_residual_px = message.point_row_residual[i];
     points[i].sigma_px = message.point_sigma[i];
     points[i].x_in_camera = Eigen::Map<const Eigen::Vector3d>(&message.point_position[3 * i]);
+    points[i].disparity_gradient =
+        Eigen::Map<const Eigen::Vector2d>(&message.point_disparity_gradient[2 * i]);
   }
   return points;
 }
@@ -157,6 +161,9 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
     for (int axis = 0; axis < 3; ++axis) {
       message.point_observation.push_back(point.observation[axis]);
       message.point_position.push_back(point.x_in_camera[axis]);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      message.point_disparity_gradient.push_back(point.disparity_gradient[axis]);
     }
   }
   message.num_right_keypoints = frame.num_right_keypoints;

@@ -42,14 +42,13 @@ std::optional<Rigid3> CameraMount::LookUp(const std::string& camera_frame,
 }
 
 std::optional<Rigid3> CameraMount::BaseFromCamera(const std::string& image_frame,
-                                                  const ros::Time& stamp,
-                                                  const std::function<bool()>& give_up) const {
+                                                  const ros::Time& stamp) const {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(options_.tf_timeout_s);
   while (true) {
     if (const auto base_from_camera = LookUp(CameraFrame(image_frame), stamp))
       return base_from_camera;
-    if (Clock::now() >= deadline || (give_up && give_up())) return std::nullopt;
+    if (Clock::now() >= deadline) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

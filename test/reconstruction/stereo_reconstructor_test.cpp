@@ -139,7 +139,7 @@ TEST(StereoReconstructor, ImagesOfAnotherSizeThrow) {
 
 TEST(StereoReconstructionOptions, CheckNamesTheBadKey) {
   StereoReconstructionOptions options;
-  options.ratio_threshold = 0;
+  options.threshold.fixed_ratio = 0;
   EXPECT_THROW(options.Check(), std::invalid_argument);
 }
 

@@ -24,8 +24,8 @@ StereoFrame MakeFrame() {
         {10.5f + i, 20.25f + i, 2.5f, 0.125f * i, 99.5f, int8_t(i == 1 ? -1 : 1)});
     for (int j = 0; j < 64; ++j) frame.features.descriptors.at<float>(i, j) = 100.f * i + j;
   }
-  frame.points.push_back({0, {10.5, 20.25, 3.0}, 0.25, 0.5, {1, 2, 30}});
-  frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}});
+  frame.points.push_back({0, {10.5, 20.25, 3.0}, 0.25, 0.5, {1, 2, 30}, {0.125, 0.25}});
+  frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}, {0, 0.5}});
   frame.num_right_keypoints = 7;
   frame.grey = {101.5, 2500.25};
   frame.ratio_threshold = 0.8125;
@@ -84,6 +84,7 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
     EXPECT_EQ(back.points[i].row_residual_px, frame.points[i].row_residual_px);
     EXPECT_EQ(back.points[i].sigma_px, frame.points[i].sigma_px);
     EXPECT_EQ(back.points[i].x_in_camera, frame.points[i].x_in_camera);
+    EXPECT_EQ(back.points[i].disparity_gradient, frame.points[i].disparity_gradient);
   }
   EXPECT_EQ(back.num_right_keypoints, 7);
   EXPECT_EQ(back.grey.mean, 101.5);

@@ -44,8 +44,8 @@ TEST(LandmarkCloud, MayBeEmpty) { EXPECT_EQ(MakeLandmarkCloud({}).width, 0u); }
 TEST(MatchPicture, ShowsNearBlueFarRedMatchedGreen) {
   const cv::Mat left(100, 300, CV_8UC1, cv::Scalar(90));
   StereoFrame frame;
-  frame.points.push_back({0, {50, 40, 20}, 0, 1, {0, 0, 2}});
-  frame.points.push_back({1, {100, 40, 99}, 0, 1, {0, 0, 60}});
+  frame.points.push_back({0, {50, 40, 20}, 0, 1, {0, 0, 2}, {0, 0}});
+  frame.points.push_back({1, {100, 40, 99}, 0, 1, {0, 0, 60}, {0, 0}});
   OdometryUpdate update;
   update.pose.status = PoseStatus::kTracked;
   update.observations.push_back({1, {150, 40, 120, 40}});

@@ -15,6 +15,7 @@ struct StereoCamera {
   /// Throws std::invalid_argument naming the value unless focal lengths and size are positive, all
   /// values are finite and 0 < baseline_m < 10.
   void Check() const;
+  bool operator==(const StereoCamera& other) const;
 
   /// The left pixel (u, v) of a point in the left camera frame; z must be positive.
   Eigen::Vector2d Project(const Eigen::Vector3d& x_in_camera) const {

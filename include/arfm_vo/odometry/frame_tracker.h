@@ -68,6 +68,10 @@ class FrameTracker {
                              const Matches& matches) const;
   TrackedFrame Localise(const Correspondences& correspondences,
                         const std::optional<Rigid3>& predicted) const;
+  /// [landmarks] where each is seen, by its patch; in parallel.
+  std::vector<std::optional<LandmarkObservation>> Measure(
+      const StereoImages& images, const LocalMap& map,
+      const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world) const;
   TrackedFrame Align(const StereoImages& images, const LocalMap& map,
                      const PoseEstimate& coarse) const;
 

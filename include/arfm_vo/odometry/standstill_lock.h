@@ -11,7 +11,7 @@ struct StandstillOptions {
   bool enabled = true;
   double max_point_shift_px = 0.6;    ///< a point moved less than this may be at rest
   double min_resting_fraction = 0.6;  ///< of the shared points; the rest may be a moving shadow
-  double max_significance = 5;        ///< of the motion, in its standard deviations
+  double max_significance = 6;        ///< of the motion, in its standard deviations
   double max_translation_m = 0.02;    ///< more is a motion, however uncertain
   double max_rotation_rad = 0.002;
 

@@ -11,9 +11,9 @@ struct StereoPoint {
   Eigen::Vector3d observation;  ///< (u_left, v, u_right), px; v is measured in the left image
   double row_residual_px = 0;   ///< v_right - v_left
   double sigma_px = 1;          ///< standard deviation of each coordinate of `observation`
+  Eigen::Vector3d x_in_camera;  ///< m, left camera frame
   /// d disparity / d(u_left, v): how the surface slants; zero where it faces the camera.
   Eigen::Vector2d disparity_gradient = Eigen::Vector2d::Zero();
-  Eigen::Vector3d x_in_camera;  ///< m, left camera frame
 };
 using StereoPoints = std::vector<StereoPoint>;
 

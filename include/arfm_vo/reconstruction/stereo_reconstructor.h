@@ -7,6 +7,8 @@
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/slant_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/matching/adaptive_threshold.h"
+#include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/guided_matcher.h"
 #include "arfm_vo/reconstruction/row_model.h"
 #include "arfm_vo/reconstruction/row_search.h"
@@ -14,11 +16,19 @@
 
 namespace arfm_vo {
 
+inline AdaptiveThresholdOptions FixedThreshold(double ratio) {
+  AdaptiveThresholdOptions options;
+  options.fixed_ratio = ratio;
+  return options;
+}
+
 struct StereoReconstructionOptions {
+  bool guided = true;  ///< search near rows and possible disparities; false: by `matcher`
   StereoSearchOptions search;
   MatchSelectionOptions selection;
-  double ratio_threshold = 0.9;  ///< nearest / second-nearest distance
-  bool refine_subpixel = true;   ///< align patches, rather than trust the detector's positions
+  FeatureMatcherOptions matcher;  ///< the paper's four strategies, over the whole image
+  AdaptiveThresholdOptions threshold = FixedThreshold(0.9);
+  bool refine_subpixel = true;  ///< align patches, rather than trust the detector's positions
   PatchAlignmentOptions alignment;
   SlantAlignmentOptions slant;
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
@@ -32,9 +42,11 @@ struct StereoReconstructionOptions {
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
+    visit("guided", guided);
     visit("search", search);
     visit("selection", selection);
-    visit("ratio_threshold", ratio_threshold);
+    visit("matcher", matcher);
+    visit("threshold", threshold);
     visit("refine_subpixel", refine_subpixel);
     visit("alignment", alignment);
     visit("slant", slant);
@@ -60,6 +72,9 @@ class StereoReconstructor {
   /// std::invalid_argument where the images do not fit the camera.
   StereoPoints Reconstruct(const Features& left, const Features& right, const StereoImages& images);
 
+  /// The ratio (nearest / second-nearest distance) that matches of an image may have.
+  double RatioThreshold(const GreyStatistics& grey) const { return threshold_.Ratio(grey); }
+
   const RowModel& row_model() const { return row_model_; }
 
  private:
@@ -72,7 +87,7 @@ class StereoReconstructor {
   };
   using Sightings = std::vector<Sighting>;
 
-  Matches MatchKeypoints(const Features& left, const Features& right) const;
+  Matches MatchKeypoints(const Features& left, const Features& right, double max_ratio) const;
   Sightings Refine(const Features& left, const std::vector<std::optional<cv::Point2f>>& guesses,
                    const StereoImages& images) const;
   Sightings TakeKeypoints(const Features& left, const Features& right,
@@ -84,6 +99,8 @@ class StereoReconstructor {
 
   StereoCamera camera_;
   StereoReconstructionOptions options_;
+  FeatureMatcher matcher_;
+  AdaptiveThreshold threshold_;
   SlantAligner aligner_;
   RowModel row_model_;
   RowSearch row_search_;

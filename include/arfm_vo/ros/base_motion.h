@@ -15,6 +15,7 @@ class BaseMotion {
 
   /// The next frame starts a new world; the base stays where it is.
   void StartWorld() { has_world_ = false; }
+  bool has_world() const { return has_world_; }
 
   const Rigid3& odom_from_world() const { return odom_from_world_; }  ///< set by Move
   const Rigid3& odom_from_base() const { return odom_from_base_; }    ///< newest

@@ -3,7 +3,6 @@
 #include <ros/time.h>
 #include <tf2/buffer_core.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -36,10 +35,10 @@ class CameraMount {
   /// `buffer` must outlive the mount.
   CameraMount(const tf2::BufferCore& buffer, const CameraMountOptions& options);
 
-  /// base_from_camera at `stamp`; nothing where tf cannot tell within the timeout, or once
-  /// `give_up` says so. Never the newest one instead, never identity.
-  std::optional<Rigid3> BaseFromCamera(const std::string& image_frame, const ros::Time& stamp,
-                                       const std::function<bool()>& give_up = {}) const;
+  /// base_from_camera at `stamp`; nothing where tf cannot tell within the timeout. Never the newest
+  /// one instead, never identity.
+  std::optional<Rigid3> BaseFromCamera(const std::string& image_frame,
+                                       const ros::Time& stamp) const;
 
   /// Whether the head turned faster than the limit in the window before `stamp`. Where tf does not
   /// reach back so far, it did not.

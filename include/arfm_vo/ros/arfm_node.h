@@ -1,0 +1,71 @@
+#pragma once
+
+#include <arfm_vo/StereoFrameStamped.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/wall_rate.h"
+#include "arfm_vo/ros/worker.h"
+
+namespace arfm_vo {
+
+struct ArfmNodeOptions {
+  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
+  int max_waiting_pairs = 2;  ///< older ones are dropped
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    algorithm.VisitFields(visit);
+    visit("max_waiting_pairs", max_waiting_pairs);
+  }
+};
+
+/// Rectified stereo pairs in, `features` out: floors image to reconstruction. Subscribes to the
+/// pairs only while somebody subscribes to `features`, so that a player which waits for subscribers
+/// waits for the whole chain.
+class ArfmNode {
+ public:
+  /// Throws std::invalid_argument naming a wrong parameter.
+  ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node);
+
+ private:
+  /// How the pairs since the start fared.
+  struct Figures {
+    uint32_t num_published = 0, num_refused = 0;
+    std::string refusal;  ///< why the newest pair was refused; empty where it was not
+    int num_left = 0, num_right = 0, num_points = 0;
+    double ms = 0;
+    WallRate rate;
+    bool is_idle = true;  ///< nobody subscribes to features
+    StereoInputCounts input, input_before;
+  };
+
+  void Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  void Disconnect();
+  void ReportFigures();
+  // On the worker's thread:
+  void Process(const StereoMessagePair& pair);
+  void PrepareFrontend(const StereoMessagePair& pair);
+  void Publish(const StereoMessagePair& pair, const StereoFrame& frame, const StageTimes& stages);
+  void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  const ArfmNodeOptions options_;
+  // Of the worker's thread:
+  StereoCamera camera_;
+  std::unique_ptr<StereoFrontend> frontend_;
+  ros::Time last_stamp_;
+  Figures figures_;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  std::unique_ptr<StereoInput> input_;
+  ros::Publisher features_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <arfm_vo/KeyframeStamped.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <string>
+
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/placed_map.h"
+#include "arfm_vo/ros/trajectory_output.h"
+#include "arfm_vo/ros/worker.h"
+
+namespace arfm_vo {
+
+struct BaNodeOptions {
+  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `global` is used
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  bool publish_tf = true;  ///< map_frame -> odom_frame
+  double tf_rate_hz = 20;
+  double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
+  double max_time_share = 0.25;  ///< of the wall time that adjusting may take
+  int niceness = 10;             ///< of the adjusting thread, so that no pose waits for it
+  int max_path_poses = 1000;
+  std::string trajectory_dir;  ///< the keyframes are saved here at the end; empty: nowhere
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    algorithm.VisitFields(visit);
+    visit("map_frame", map_frame);
+    visit("odom_frame", odom_frame);
+    visit("publish_tf", publish_tf);
+    visit("tf_rate_hz", tf_rate_hz);
+    visit("tf_tolerance_s", tf_tolerance_s);
+    visit("max_time_share", max_time_share);
+    visit("niceness", niceness);
+    visit("max_path_poses", max_path_poses);
+    visit("trajectory_dir", trajectory_dir);
+  }
+};
+
+/// Keyframes in, the globally adjusted map out (Fig. 4).
+class BaNode {
+ public:
+  /// Throws std::invalid_argument naming a wrong parameter.
+  BaNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  /// Saves the keyframes where a directory is set.
+  ~BaNode();
+
+ private:
+  /// How adjusting fares; told to the diagnostics while the worker may be busy.
+  struct Figures {
+    int num_keyframes = 0, num_landmarks = 0, num_adjustments = 0, num_failed = 0;
+    uint32_t num_refused = 0;
+    std::string refusal;  ///< why the newest keyframe was refused; empty where it was not
+    bool is_adjusting = false;
+    int iteration = 0;
+    double cost = 0;
+    double last_ms = 0, longest_ms = 0;
+    Rigid3 map_from_odom;
+  };
+
+  // On the worker's thread:
+  void Add(const KeyframeStamped& message);
+  void AdjustIfDue();
+  void PublishMap();
+  void Tell();
+
+  void Report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void SendTransform();
+
+  const BaNodeOptions options_;
+  ros::Publisher updates_, path_, landmarks_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  TrajectoryOutput trajectory_output_;
+  // Of the worker's thread:
+  PlacedMap map_;
+  std_msgs::Header newest_;
+  bool is_dirty_ = false;  // a keyframe came since the last adjustment
+  ros::WallTime next_adjustment_;
+  Figures figures_;
+  Shared<Figures> told_;
+  Shared<Trajectory> trajectory_;  // of the keyframes
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  ros::Subscriber keyframes_;
+  ros::ServiceServer save_;
+  ros::WallTimer timer_;
+  ros::Timer tf_timer_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "arfm_vo/geometry/rigid3.h"
+
+namespace arfm_vo {
+
+/// Where the odometry's worlds and its odom frame lie in the map. At first map and odom are one; a
+/// global adjustment moves odom in the map, and the next world continues from there.
+class MapFrame {
+ public:
+  void StartWorld(const Rigid3& odom_from_world) {
+    odom_from_world_ = odom_from_world;
+    map_from_world_ = map_from_odom_ * odom_from_world;
+  }
+  /// `adjusted_from_world` takes the newest adjusted pose in this world to what it should have
+  /// been.
+  void Adjust(const Rigid3& adjusted_from_world) {
+    map_from_odom_ = map_from_world_ * adjusted_from_world * odom_from_world_.Inverse();
+  }
+
+  const Rigid3& map_from_odom() const { return map_from_odom_; }
+  /// Takes adjusted poses and points of this world to the map.
+  const Rigid3& map_from_world() const { return map_from_world_; }
+
+ private:
+  Rigid3 map_from_odom_, map_from_world_, odom_from_world_;
+};
+
+}  // namespace arfm_vo

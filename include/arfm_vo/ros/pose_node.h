@@ -1,0 +1,93 @@
+#pragma once
+
+#include <arfm_vo/MapUpdateStamped.h>
+#include <arfm_vo/StereoFrameStamped.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <image_transport/subscriber_filter.h>
+#include <message_filters/subscriber.h>
+#include <message_filters/sync_policies/exact_time.h>
+#include <message_filters/synchronizer.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+#include <string>
+
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/odometry_health.h"
+#include "arfm_vo/ros/pose_outputs.h"
+#include "arfm_vo/ros/rover_odometry.h"
+#include "arfm_vo/ros/trajectory_output.h"
+#include "arfm_vo/ros/worker.h"
+
+namespace arfm_vo {
+
+struct PoseNodeOptions {
+  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `odometry` is used
+  CameraMountOptions mount;   ///< its keys stand beside those of the node
+  PoseOutputOptions output;   ///< its keys stand beside those of the node
+  OdometryHealthOptions health;
+  int max_waiting_pairs = 2;        ///< older ones are dropped
+  double restart_after_lost_s = 3;  ///< without a pose: then the map is given up; 0: never
+  std::string trajectory_dir;       ///< the trajectory is saved here at the end; empty: nowhere
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    algorithm.VisitFields(visit);
+    mount.VisitFields(visit);
+    output.VisitFields(visit);
+    visit("health", health);
+    visit("max_waiting_pairs", max_waiting_pairs);
+    visit("restart_after_lost_s", restart_after_lost_s);
+    visit("trajectory_dir", trajectory_dir);
+  }
+};
+
+/// `features` and the images they are from in, the rover's pose out: floors pose to odometry.
+class PoseNode {
+ public:
+  /// Throws std::invalid_argument naming a wrong parameter.
+  PoseNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  /// Saves the trajectory where a directory is set.
+  ~PoseNode();
+
+ private:
+  using Frame = StereoFrameStamped;
+  using Image = sensor_msgs::Image;
+  using Policy = message_filters::sync_policies::ExactTime<Frame, Image, Image>;
+
+  void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node);
+  void Offer(ros::NodeHandle node, ros::NodeHandle private_node);
+  std::string Save();
+  // On the worker's thread:
+  void Process(const Frame& frame, const sensor_msgs::ImageConstPtr& left,
+               const sensor_msgs::ImageConstPtr& right);
+  bool AcceptStamp(const ros::Time& stamp);
+  uint32_t CountDropped(uint32_t pair_number);
+  void ApplyUpdate(const MapUpdateStamped& message);
+
+  const PoseNodeOptions options_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  const CameraMount mount_;
+  TrajectoryOutput trajectory_output_;
+  PoseOutputs outputs_;
+  // Of the worker's thread:
+  std::unique_ptr<RoverOdometry> rover_;
+  OdometryHealth health_;
+  ros::Time last_stamp_;
+  uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  message_filters::Synchronizer<Policy> synchronizer_;
+  image_transport::ImageTransport transport_;
+  message_filters::Subscriber<Frame> frames_;
+  image_transport::SubscriberFilter left_, right_;
+  ros::Subscriber updates_, tracks_;
+  ros::ServiceServer reset_, save_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,102 @@
+// Shows the recorded truth, stereo/ground_truth, as a path beside the odometry's: path_truth.
+#include <geometry_msgs/PoseStamped.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <deque>
+
+#include "arfm_vo/ros/bounded_path.h"
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/truth_path.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Truth waits this long for the odometry of its stamp.
+constexpr size_t kMaxWaiting = 100;
+
+struct TruthPathOptions {
+  std::string reference_frame = "odom";
+  std::string base_frame = "base_link";
+  std::string camera_frame = "left_camera_optical";
+  BoundedPathOptions path;
+
+  void Check() const { path.Check(); }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("reference_frame", reference_frame);
+    visit("base_frame", base_frame);
+    visit("camera_frame", camera_frame);
+    visit("path", path);
+  }
+};
+
+class TruthPathNode {
+ public:
+  TruthPathNode(ros::NodeHandle node, ros::NodeHandle private_node)
+      : options_(ReadParameters<TruthPathOptions>(private_node)),
+        listener_(buffer_, node),
+        alignment_(buffer_, options_.reference_frame, options_.base_frame, options_.camera_frame),
+        path_(options_.path),
+        publisher_(node.advertise<nav_msgs::Path>("path_truth", 1, true)),
+        truth_(node.subscribe(StereoTopic(node, "ground_truth"), 100, &TruthPathNode::Take, this)),
+        timer_(node.createWallTimer(ros::WallDuration(0.1),
+                                    [this](const ros::WallTimerEvent&) { AddWaiting(); })) {}
+
+ private:
+  void Take(const geometry_msgs::PoseStamped& truth) {
+    if (truth.header.stamp < newest_) {  // time jumped back
+      waiting_.clear();
+      path_.Clear();
+      alignment_.Reset();
+    }
+    newest_ = truth.header.stamp;
+    waiting_.push_back(truth);
+    if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+  }
+
+  /// Adds what tf reaches by now; what lies before that was before the odometry's start.
+  void AddWaiting() {
+    bool is_longer = false;
+    size_t num_done = 0;
+    for (size_t i = 0; i < waiting_.size(); ++i) {
+      const auto base = Align(waiting_[i]);
+      if (!base) continue;
+      std_msgs::Header header = waiting_[i].header;
+      header.frame_id = options_.reference_frame;
+      is_longer |= path_.Add(header, ToPoseMessage(*base));
+      num_done = i + 1;
+    }
+    waiting_.erase(waiting_.begin(), waiting_.begin() + num_done);
+    if (is_longer) publisher_.publish(path_.path());
+  }
+
+  std::optional<Rigid3> Align(const geometry_msgs::PoseStamped& truth) {
+    const auto& position = truth.pose.position;
+    const auto& orientation = truth.pose.orientation;
+    const Rigid3 truth_from_camera(
+        Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z).normalized(),
+        Eigen::Vector3d(position.x, position.y, position.z));
+    return alignment_.Align(truth.header.stamp, truth_from_camera);
+  }
+
+  const TruthPathOptions options_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  TruthAlignment alignment_;
+  BoundedPath path_;
+  std::deque<geometry_msgs::PoseStamped> waiting_;
+  ros::Time newest_;
+  ros::Publisher publisher_;
+  ros::Subscriber truth_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  return arfm_vo::RunNode<arfm_vo::TruthPathNode>(argc, argv, "truth_path_node");
+}

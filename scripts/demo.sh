@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Shows the odometry at work: installs and builds what is missing, replays a recording through the
+# nodes by roslaunch, and prints the error against the ground truth.
+# Usage: scripts/demo.sh [BAG | KITTI_FOLDER] [OUTPUT_DIR]     default: the fixture, _demo
+set -euo pipefail
+cd "$(dirname "$0")/.."
+input=${1:-rosbag_fixtures/terrain.bag}
+output=${2:-_demo}
+[ -e "$input" ] || { echo "demo: $input: no such bag or KITTI folder" >&2; exit 1; }
+scripts/install_dependencies.sh
+scripts/build.sh all
+export PATH=/usr/bin:$PATH
+set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
+export ROS_MASTER_URI=http://localhost:${ROS_MASTER_PORT:-11911}
+mkdir -p "$output"
+output=$(realpath "$output")
+if [ -d "$input" ]; then
+  rosrun arfm_vo kitti_to_bag "$input" "$output/input.bag"
+  input=$output/input.bag
+fi
+input=$(realpath "$input")
+rm -f "$output"/poses*.txt "$output"/trajectory*.tum
+roslaunch arfm_vo replay.launch bag:="$input" rviz:=false trajectory_dir:="$output"
+[ -s "$output/trajectory.tum" ] || { echo "demo: the nodes saved no trajectory" >&2; exit 1; }
+if scripts/pair_with_truth.py "$output/trajectory.tum" "$input" "$output"; then
+  rosrun arfm_vo evaluate_trajectory "$output/estimate.txt" "$output/truth.txt" \
+    --plot "$output/trajectory.png"
+  echo "picture: $output/trajectory.png"
+fi
+echo "trajectory: $output/trajectory.tum (TUM), $output/poses.txt (KITTI)"

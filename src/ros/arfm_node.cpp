@@ -1,0 +1,126 @@
+#include "arfm_vo/ros/arfm_node.h"
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+
+#include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/image_conversion.h"
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/stereo_camera_model.h"
+
+namespace arfm_vo {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+void ArfmNodeOptions::Check() const {
+  algorithm.Check();
+  Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
+}
+
+ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<ArfmNodeOptions>(private_node)),
+      diagnostics_(node, private_node, private_node.getNamespace()),
+      worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
+        ++figures_.num_refused;
+        figures_.refusal = error.what();
+        ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
+      }) {
+  diagnostics_.setHardwareID("arfm_vo");
+  diagnostics_.add("stereo pairs", this, &ArfmNode::Report);
+  features_ = node.advertise<StereoFrameStamped>(
+      "features", 2,
+      [this, node, private_node](const ros::SingleSubscriberPublisher&) {
+        Connect(node, private_node);
+      },
+      [this](const ros::SingleSubscriberPublisher&) { Disconnect(); });
+  timer_ = node.createWallTimer(ros::WallDuration(1),
+                                [this](const ros::WallTimerEvent&) { ReportFigures(); });
+}
+
+void ArfmNode::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+  if (input_) return;
+  input_ = std::make_unique<StereoInput>(node, private_node, [this](const StereoMessagePair& pair) {
+    worker_.PostLossy([this, pair] { Process(pair); });
+  });
+}
+
+void ArfmNode::Disconnect() {
+  if (features_.getNumSubscribers() == 0) input_.reset();
+}
+
+void ArfmNode::ReportFigures() {
+  const bool is_idle = !input_;
+  worker_.Post([this, is_idle, counts = is_idle ? StereoInputCounts() : input_->counts()] {
+    figures_.is_idle = is_idle;
+    figures_.input = counts;
+    diagnostics_.force_update();
+    figures_.input_before = counts;
+  });
+}
+
+void ArfmNode::Process(const StereoMessagePair& pair) {
+  Stopwatch stopwatch;
+  PrepareFrontend(pair);
+  const std::string left_topic = "left/image_rect", right_topic = "right/image_rect";
+  const StereoImages images{pair.left->header.stamp.toSec(), ToGrey(pair.left, left_topic),
+                            ToGrey(pair.right, right_topic)};
+  StageTimes stages;
+  const StereoFrame frame = frontend_->Process(images, &stages);
+  Publish(pair, frame, stages);
+  figures_.num_left = frame.features.size();
+  figures_.num_right = frame.num_right_keypoints;
+  figures_.num_points = static_cast<int>(frame.points.size());
+  figures_.refusal.clear();
+  figures_.ms = stopwatch.LapMs();
+  figures_.rate.Tick();
+}
+
+void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
+  const StereoCamera camera = MakeStereoCamera(*pair.left_info, *pair.right_info);
+  const bool is_jump = pair.left->header.stamp < last_stamp_;
+  if (is_jump) ROS_WARN("time jumped back: starting anew");
+  last_stamp_ = pair.left->header.stamp;
+  if (frontend_ && camera == camera_ && !is_jump) return;
+  frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
+  camera_ = camera;
+  ROS_INFO("stereo camera %dx%d, focal length %.1f px, baseline %.4f m", camera.width,
+           camera.height, camera.fx, camera.baseline_m);
+}
+
+void ArfmNode::Publish(const StereoMessagePair& pair, const StereoFrame& frame,
+                       const StageTimes& stages) {
+  const auto message = boost::make_shared<StereoFrameStamped>(ToMessage(frame, camera_));
+  message->header = pair.left->header;
+  message->pair_number = ++figures_.num_published;
+  message->num_dropped_pairs = worker_.num_dropped();
+  for (const auto& [name, ms] : stages) {
+    message->stage_names.push_back(name);
+    message->stage_ms.push_back(ms);
+  }
+  features_.publish(message);
+}
+
+void ArfmNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string obstacle = figures_.input.Explain(figures_.input_before);
+  if (figures_.is_idle)
+    status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");
+  else if (!figures_.refusal.empty())
+    status.summary(DiagnosticStatus::ERROR, "pair refused: " + figures_.refusal);
+  else if (!obstacle.empty())
+    status.summary(DiagnosticStatus::WARN, "no pairs: " + obstacle);
+  else
+    status.summary(DiagnosticStatus::OK, "pairs come");
+  status.addf("pairs a second", "%.1f", figures_.rate.Get());
+  status.add("pairs published", figures_.num_published);
+  status.add("pairs dropped", worker_.num_dropped());
+  status.add("pairs refused", figures_.num_refused);
+  status.add("left images", figures_.input.left);
+  status.add("right images", figures_.input.right);
+  status.add("left features", figures_.num_left);
+  status.add("right features", figures_.num_right);
+  status.add("stereo points", figures_.num_points);
+  status.addf("time of the last pair (ms)", "%.1f", figures_.ms);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,166 @@
+#include "arfm_vo/ros/ba_node.h"
+
+#include <arfm_vo/MapUpdateStamped.h>
+#include <nav_msgs/Path.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/trigger_service.h"
+
+namespace arfm_vo {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+void BaNodeOptions::Check() const {
+  algorithm.Check();
+  Require(!map_frame.empty(), "map_frame must not be empty");
+  Require(!odom_frame.empty(), "odom_frame must not be empty");
+  Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
+  Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
+  Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
+  Require(niceness >= 0 && niceness <= 19, "niceness must be in 0..19");
+  Require(max_path_poses >= 2, "max_path_poses must be at least 2");
+}
+
+BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<BaNodeOptions>(private_node)),
+      updates_(node.advertise<MapUpdateStamped>("map_update", 2)),
+      path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
+      landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
+      trajectory_output_(options_.trajectory_dir),
+      map_(options_.algorithm.global),
+      diagnostics_(node, private_node, private_node.getNamespace()),
+      worker_(1, [this](const std::exception& error) {
+        ++figures_.num_refused;
+        figures_.refusal = error.what();
+        told_.Set(figures_);
+        ROS_ERROR_THROTTLE(5, "keyframe refused: %s", error.what());
+      }) {
+  // Linux gives each thread its own niceness, and a new thread that of its maker.
+  worker_.Post([niceness = options_.niceness] {
+    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), niceness);
+  });
+  diagnostics_.setHardwareID("arfm_vo");
+  diagnostics_.add("global adjustment", [this](auto& status) { Report(status); });
+  keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,
+                                               [this](const KeyframeStampedConstPtr& keyframe) {
+                                                 worker_.Post([this, keyframe] { Add(*keyframe); });
+                                                 worker_.PostLossy([this] { AdjustIfDue(); });
+                                               });
+  save_ = OfferTrigger(private_node, "save_trajectory",
+                       [this] { return trajectory_output_.Save(trajectory_.Get()); });
+  timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
+    diagnostics_.force_update();
+    worker_.PostLossy([this] { AdjustIfDue(); });
+  });
+  if (options_.publish_tf)
+    tf_timer_ = node.createTimer(ros::Duration(1 / options_.tf_rate_hz),
+                                 [this](const ros::TimerEvent&) { SendTransform(); });
+}
+
+BaNode::~BaNode() {
+  if (!trajectory_output_.is_enabled()) return;
+  try {
+    ROS_INFO("%s", trajectory_output_.Save(trajectory_.Get()).c_str());
+  } catch (const std::exception& error) {
+    ROS_ERROR("the keyframes are not saved: %s", error.what());
+  }
+}
+
+void BaNode::Add(const KeyframeStamped& message) {
+  if (!map_.Add(FromMessage(message))) ROS_WARN("the odometry started anew: the map is forgotten");
+  newest_ = message.header;
+  is_dirty_ = true;
+  figures_.num_keyframes = map_.num_keyframes();
+  figures_.num_landmarks = map_.num_landmarks();
+  figures_.refusal.clear();
+  Tell();
+}
+
+void BaNode::Tell() {
+  figures_.map_from_odom = map_.map_from_odom();
+  told_.Set(figures_);
+  trajectory_.Set(map_.MakeTrajectory());
+}
+
+void BaNode::AdjustIfDue() {
+  const ros::WallTime start = ros::WallTime::now();
+  if (!options_.algorithm.adjust_globally || !is_dirty_ || start < next_adjustment_) return;
+  is_dirty_ = false;
+  figures_.is_adjusting = true;
+  const std::optional<MapUpdate> update = map_.Adjust([this](const BundleProgress& progress) {
+    figures_.iteration = progress.iteration;
+    figures_.cost = progress.cost;
+    told_.Set(figures_);
+    return !worker_.is_stopping();
+  });
+  const double seconds = (ros::WallTime::now() - start).toSec();
+  next_adjustment_ = start + ros::WallDuration(seconds / options_.max_time_share);
+  figures_.is_adjusting = false;
+  figures_.last_ms = 1e3 * seconds;
+  figures_.longest_ms = std::max(figures_.longest_ms, figures_.last_ms);
+  ++figures_.num_adjustments;
+  if (!update && map_.num_keyframes() > 1) ++figures_.num_failed;
+  Tell();
+  if (!update) return;
+  const auto message = boost::make_shared<MapUpdateStamped>(ToMessage(*update));
+  message->header.stamp = newest_.stamp;
+  message->header.frame_id = options_.map_frame;
+  message->world = map_.world();
+  updates_.publish(message);
+  PublishMap();
+}
+
+void BaNode::PublishMap() {
+  std_msgs::Header header;
+  header.stamp = newest_.stamp;
+  header.frame_id = options_.map_frame;
+  const std::vector<MapPose> poses = map_.BasePoses();
+  const size_t stride = 1 + poses.size() / options_.max_path_poses;
+  nav_msgs::Path path;
+  path.header = header;
+  for (size_t i = (poses.size() - 1) % stride; i < poses.size(); i += stride) {
+    path.poses.emplace_back();
+    path.poses.back().header.frame_id = options_.map_frame;
+    path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
+    path.poses.back().pose = ToPoseMessage(poses[i].map_from_base);
+  }
+  path_.publish(path);
+  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
+  cloud.header = header;
+  landmarks_.publish(cloud);
+}
+
+void BaNode::SendTransform() {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time::now() + ros::Duration(options_.tf_tolerance_s);
+  transform.header.frame_id = options_.map_frame;
+  transform.child_frame_id = options_.odom_frame;
+  transform.transform = ToTransformMessage(told_.Get().map_from_odom);
+  broadcaster_.sendTransform(transform);
+}
+
+void BaNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const Figures figures = told_.Get();
+  if (!figures.refusal.empty())
+    status.summary(DiagnosticStatus::ERROR, "keyframe refused: " + figures.refusal);
+  else if (figures.num_failed > 0)
+    status.summaryf(DiagnosticStatus::WARN, "%d adjustments found no solution", figures.num_failed);
+  else
+    status.summary(DiagnosticStatus::OK, figures.is_adjusting ? "adjusting" : "waiting");
+  status.add("keyframes", figures.num_keyframes);
+  status.add("landmarks", figures.num_landmarks);
+  status.add("adjustments", figures.num_adjustments);
+  status.add("keyframes refused", figures.num_refused);
+  status.add("iteration", figures.iteration);
+  status.addf("cost", "%.1f", figures.cost);
+  status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
+  status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
+}
+
+}  // namespace arfm_vo

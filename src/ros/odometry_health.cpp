@@ -1,0 +1,103 @@
+#include "arfm_vo/ros/odometry_health.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+void OdometryHealthOptions::Check() const {
+  Require(row_residual_warn_px > 0 && row_residual_error_px >= row_residual_warn_px,
+          "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
+  Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
+  Require(scale_warn > 0 && scale_error >= scale_warn,
+          "health.scale_error must be at least scale_warn, both positive");
+}
+
+OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
+    : options_(options), row_residual_px_(options.row_residual_pairs) {
+  options.Check();
+}
+
+void OdometryHealth::Count(const StereoFrame& frame, const RoverPose& pose, double ms) {
+  RunningMedian row_residual_px(frame.points.size());
+  for (const StereoPoint& point : frame.points)
+    row_residual_px.Add(std::abs(point.row_residual_px));
+  if (row_residual_px.size() > 0) row_residual_px_.Add(row_residual_px.Median());
+  if (pose.IsTracked()) scale_.AddVisual(pose.update.stamp_s, pose.odom_from_base.translation);
+  last_ = pose;
+  is_new_ = true;
+  refusal_.clear();
+  ms_ = ms;
+  ++num_pairs_;
+  if (!pose.IsTracked()) ++num_lost_;
+  rate_.Tick();
+}
+
+void OdometryHealth::CountRefused(const std::string& why) {
+  ++num_refused_;
+  refusal_ = why;
+}
+
+void OdometryHealth::Clear() {
+  row_residual_px_.Clear();
+  scale_.Clear();
+}
+
+void OdometryHealth::ReportOdometry(Status& status) {
+  if (!refusal_.empty())
+    status.summary(DiagnosticStatus::ERROR, "pair refused: " + refusal_);
+  else if (!is_new_)
+    status.summary(DiagnosticStatus::WARN, "no pairs come");
+  else if (last_.IsTracked())
+    status.summary(DiagnosticStatus::OK, "tracked");
+  else if (last_.IsTried())
+    status.summary(DiagnosticStatus::ERROR, "lost: " + last_.text);
+  else
+    status.summary(DiagnosticStatus::WARN, last_.text);
+  is_new_ = false;
+  status.addf("pairs a second", "%.1f", rate_.Get());
+  status.add("pairs", num_pairs_);
+  status.add("pairs without a pose", num_lost_);
+  status.add("pairs dropped", num_dropped_);
+  status.add("pairs refused", num_refused_);
+  status.add("world", last_.world);
+  status.add("matches", last_.update.pose.num_matches);
+  status.add("inliers", last_.update.pose.num_inliers);
+  status.addf("reprojection error rms (px)", "%.2f", last_.update.pose.rms_px);
+  status.addf("time of the last pair (ms)", "%.1f", ms_);
+}
+
+void OdometryHealth::ReportCalibration(Status& status) const {
+  const double residual_px = row_residual_px_.Median();
+  if (residual_px >= options_.row_residual_error_px)
+    status.summaryf(DiagnosticStatus::ERROR, "rows differ by %.2f px: calibrate the cameras",
+                    residual_px);
+  else if (residual_px >= options_.row_residual_warn_px)
+    status.summaryf(DiagnosticStatus::WARN, "rows differ by %.2f px", residual_px);
+  else if (row_residual_px_.size() == 0)
+    status.summary(DiagnosticStatus::OK, "nothing measured yet");
+  else
+    status.summary(DiagnosticStatus::OK, "rows agree");
+  status.addf("row residual, running median (px)", "%.3f", residual_px);
+  status.addf("row residual of the last pair, signed (px)", "%.3f",
+              last_.update.median_row_residual_px);
+}
+
+void OdometryHealth::ReportScale(Status& status) const {
+  const std::optional<double> ratio = scale_.Ratio();
+  if (!ratio) return status.summary(DiagnosticStatus::OK, "not measured: no track odometry yet");
+  const double deviation = std::abs(*ratio - 1);
+  if (deviation >= options_.scale_error)
+    status.summaryf(DiagnosticStatus::ERROR, "visual way is %.2f of the tracks' way", *ratio);
+  else if (deviation >= options_.scale_warn)
+    status.summaryf(DiagnosticStatus::WARN, "visual way is %.2f of the tracks' way", *ratio);
+  else
+    status.summary(DiagnosticStatus::OK, "scale agrees with the tracks");
+  status.addf("visual to track way, running median", "%.3f", *ratio);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,87 @@
+#include "arfm_vo/ros/placed_map.h"
+
+namespace arfm_vo {
+
+bool PlacedMap::IsRestarted(const PlacedKeyframe& keyframe) const {
+  if (places_.empty()) return false;
+  const auto& [newest_id, newest] = *places_.rbegin();
+  return keyframe.world < world_ || keyframe.record.stamp_s < newest.stamp_s ||
+         (keyframe.world == world_ && keyframe.record.id <= newest_id);
+}
+
+bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
+  const bool is_restarted = IsRestarted(keyframe);
+  if (is_restarted) *this = PlacedMap(options_);
+  if (!global_ || keyframe.world != world_) StartWorld(keyframe);
+  const KeyframeRecord& record = keyframe.record;
+  global_->Add(record);
+  places_[record.id] = {record.stamp_s, record.camera_from_world, keyframe.base_from_camera};
+  for (const LandmarkRecord& landmark : record.landmarks)
+    first_depths_m_[landmark.id] =
+        static_cast<float>((record.camera_from_world * landmark.x_in_world).z());
+  return !is_restarted;
+}
+
+void PlacedMap::StartWorld(const PlacedKeyframe& keyframe) {
+  closed_landmarks_ = Landmarks();
+  closed_places_ = Places();
+  places_.clear();
+  first_depths_m_.clear();
+  adjusted_.clear();
+  world_ = keyframe.world;
+  global_.emplace(keyframe.camera, options_);
+  frame_.StartWorld(keyframe.odom_from_world);
+}
+
+std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
+  if (!global_) return std::nullopt;
+  std::optional<MapUpdate> update = global_->Adjust(progress);
+  if (!update) return std::nullopt;
+  frame_.Adjust(global_->MapFromOdom());
+  for (const MapUpdate::KeyframePose& keyframe : update->keyframes) {
+    Place& place = places_.at(keyframe.id);
+    place.camera_from_world = keyframe.camera_from_world;
+    place.is_adjusted = true;
+  }
+  adjusted_.clear();
+  for (const MapUpdate::LandmarkPosition& landmark : update->landmarks)
+    adjusted_[landmark.id] = landmark.x_in_world;
+  return update;
+}
+
+std::vector<PlacedMap::ClosedPlace> PlacedMap::Places() const {
+  const Rigid3 world_from_adjusted = AdjustedFromWorld().Inverse();
+  std::vector<ClosedPlace> places = closed_places_;
+  for (const auto& [id, place] : places_) {
+    const Rigid3 camera_from_adjusted =
+        place.is_adjusted ? place.camera_from_world : place.camera_from_world * world_from_adjusted;
+    places.push_back({place.stamp_s, frame_.map_from_world() * camera_from_adjusted.Inverse(),
+                      place.base_from_camera});
+  }
+  return places;
+}
+
+std::vector<MapPose> PlacedMap::BasePoses() const {
+  std::vector<MapPose> poses;
+  for (const ClosedPlace& place : Places())
+    poses.push_back({place.stamp_s, place.map_from_camera * place.base_from_camera.Inverse()});
+  return poses;
+}
+
+std::vector<LandmarkPoint> PlacedMap::Landmarks() const {
+  std::vector<LandmarkPoint> points = closed_landmarks_;
+  for (const auto& [id, x_in_world] : adjusted_)
+    points.push_back({frame_.map_from_world() * x_in_world, first_depths_m_.at(id)});
+  return points;
+}
+
+Trajectory PlacedMap::MakeTrajectory() const {
+  Trajectory trajectory;
+  const std::vector<ClosedPlace> places = Places();
+  for (const ClosedPlace& place : places)
+    trajectory.push_back(
+        {place.stamp_s, places.front().map_from_camera.Inverse() * place.map_from_camera, true});
+  return trajectory;
+}
+
+}  // namespace arfm_vo

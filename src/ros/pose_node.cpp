@@ -1,0 +1,160 @@
+#include "arfm_vo/ros/pose_node.h"
+
+#include <boost/bind/bind.hpp>
+
+#include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/image_conversion.h"
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/trigger_service.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Images wait here for their features: more pairs than arfm_node works on and lets wait.
+constexpr int kQueueSize = 10;
+
+}  // namespace
+
+void PoseNodeOptions::Check() const {
+  algorithm.Check();
+  mount.Check();
+  output.Check();
+  health.Check();
+  Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
+  Require(restart_after_lost_s >= 0, "restart_after_lost_s must not be negative");
+}
+
+PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<PoseNodeOptions>(private_node)),
+      listener_(buffer_, node),
+      mount_(buffer_, options_.mount),
+      trajectory_output_(options_.trajectory_dir),
+      outputs_(node, options_.output, options_.mount.base_frame),
+      rover_(std::make_unique<RoverOdometry>(options_.algorithm.odometry, mount_,
+                                             options_.restart_after_lost_s, 1)),
+      health_(options_.health),
+      diagnostics_(node, private_node, private_node.getNamespace()),
+      worker_(options_.max_waiting_pairs,
+              [this](const std::exception& error) {
+                health_.CountRefused(error.what());
+                ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
+              }),
+      synchronizer_(Policy(kQueueSize)),
+      transport_(node) {
+  Offer(node, private_node);
+  Subscribe(node, private_node);
+}
+
+PoseNode::~PoseNode() {
+  if (!trajectory_output_.is_enabled()) return;
+  try {
+    ROS_INFO("%s", Save().c_str());
+  } catch (const std::exception& error) {
+    ROS_ERROR("the trajectory is not saved: %s", error.what());
+  }
+}
+
+void PoseNode::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
+  diagnostics_.setHardwareID("arfm_vo");
+  diagnostics_.add("odometry", &health_, &OdometryHealth::ReportOdometry);
+  diagnostics_.add("calibration", [this](auto& status) { health_.ReportCalibration(status); });
+  diagnostics_.add("scale", [this](auto& status) { health_.ReportScale(status); });
+  timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
+    worker_.Post([this] { diagnostics_.force_update(); });
+  });
+  reset_ = OfferTrigger(private_node, "reset", [this] {
+    worker_.RunAndWait([this] { rover_->StartWorld(); });
+    ROS_WARN("reset: the next pair starts a new world where the base stands");
+    return std::string("the next pair starts a new world where the base stands");
+  });
+  save_ = OfferTrigger(private_node, "save_trajectory", [this] { return Save(); });
+}
+
+void PoseNode::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node) {
+  synchronizer_.connectInput(frames_, left_, right_);
+  using namespace boost::placeholders;
+  synchronizer_.registerCallback(boost::bind<void>(
+      [this](const auto& frame, const auto& left, const auto& right) {
+        worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
+      },
+      _1, _2, _3));
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  const image_transport::TransportHints hints("raw", no_delay, private_node);
+  updates_ = node.subscribe<MapUpdateStamped>(
+      "map_update", 2,
+      [this](const MapUpdateStampedConstPtr& update) {
+        worker_.Post([this, update] { ApplyUpdate(*update); });
+      },
+      ros::VoidConstPtr(), no_delay);
+  tracks_ = node.subscribe<nav_msgs::Odometry>(
+      "track_odometry", 50, [this](const nav_msgs::OdometryConstPtr& odometry) {
+        const auto& place = odometry->pose.pose.position;
+        worker_.Post([this, stamp_s = odometry->header.stamp.toSec(),
+                      position = Eigen::Vector3d(place.x, place.y, place.z)] {
+          health_.scale().AddTrack(stamp_s, position);
+        });
+      });
+  left_.subscribe(transport_, StereoTopic(node, "left/image_rect"), kQueueSize, hints);
+  right_.subscribe(transport_, StereoTopic(node, "right/image_rect"), kQueueSize, hints);
+  frames_.subscribe(node, "features", kQueueSize, no_delay);
+}
+
+void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& left,
+                       const sensor_msgs::ImageConstPtr& right) {
+  Stopwatch stopwatch;
+  const uint32_t num_dropped = CountDropped(message.pair_number);
+  health_.CountDropped(num_dropped);
+  if (!AcceptStamp(message.header.stamp)) return;
+  const StereoCamera camera = FromMessage(message.camera);
+  const StereoFrame frame = FromMessage(message);
+  const StereoImages images{frame.stamp_s, ToGrey(left, "left/image_rect"),
+                            ToGrey(right, "right/image_rect")};
+  images.Check();
+  Require(images.left.cols == camera.width && images.left.rows == camera.height,
+          "left/image_rect does not have the size that features tells of the camera");
+  const RoverPose pose = rover_->Process(frame, camera, images, message.header);
+  outputs_.Publish(pose, message, num_dropped);
+  outputs_.PublishPicture(images.left, frame, pose, message.header);
+  health_.Count(frame, pose, stopwatch.LapMs());
+}
+
+bool PoseNode::AcceptStamp(const ros::Time& stamp) {
+  if (stamp == last_stamp_) return false;  // the same pair again
+  if (stamp < last_stamp_) {
+    ROS_WARN("time jumped back by %.3f s: starting anew", (last_stamp_ - stamp).toSec());
+    if (trajectory_output_.is_enabled())
+      ROS_INFO("%s", trajectory_output_.Save(rover_->MakeTrajectory()).c_str());
+    trajectory_output_.StartRun();
+    rover_ = std::make_unique<RoverOdometry>(options_.algorithm.odometry, mount_,
+                                             options_.restart_after_lost_s, rover_->world() + 1);
+    outputs_.ClearPath();
+    health_.Clear();
+  }
+  last_stamp_ = stamp;
+  return true;
+}
+
+uint32_t PoseNode::CountDropped(uint32_t pair_number) {
+  const bool is_other_arfm_node = pair_number <= last_pair_;
+  if (num_taken_ == 0 || is_other_arfm_node) {
+    first_pair_ = pair_number;
+    num_taken_ = 0;
+  }
+  last_pair_ = pair_number;
+  ++num_taken_;
+  return pair_number - first_pair_ + 1 - num_taken_;
+}
+
+void PoseNode::ApplyUpdate(const MapUpdateStamped& message) {
+  rover_->Apply(FromMessage(message), message.world);
+}
+
+std::string PoseNode::Save() {
+  Trajectory trajectory;
+  worker_.RunAndWait([&] { trajectory = rover_->MakeTrajectory(); });
+  return trajectory_output_.Save(trajectory);
+}
+
+}  // namespace arfm_vo

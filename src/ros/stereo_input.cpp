@@ -1,0 +1,70 @@
+#include "arfm_vo/ros/stereo_input.h"
+
+#include <ros/names.h>
+
+#include <boost/bind/bind.hpp>
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kQueueSize = 8;
+
+}  // namespace
+
+std::string StereoTopic(const ros::NodeHandle& node, const std::string& name) {
+  return ros::names::clean(node.resolveName("stereo") + "/" + name);
+}
+
+std::string StereoInputCounts::Explain(const StereoInputCounts& before) const {
+  if (pairs > before.pairs) return "";
+  std::string missing;
+  const auto note = [&](uint32_t count, uint32_t count_before, const char* name) {
+    if (count == count_before) missing += (missing.empty() ? "" : ", ") + std::string(name);
+  };
+  note(left, before.left, "left/image_rect");
+  note(right, before.right, "right/image_rect");
+  note(left_info, before.left_info, "left/camera_info");
+  note(right_info, before.right_info, "right/camera_info");
+  if (!missing.empty()) return "no messages on " + missing;
+  if (stamp_difference_s != 0)
+    return "left and right have different stamps (" +
+           std::to_string(std::lround(std::abs(stamp_difference_s) * 1e6)) +
+           " us apart): synchronise the cameras";
+  return "images and camera_info have different stamps";
+}
+
+StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
+                         Callback callback)
+    : callback_(std::move(callback)), transport_(node), synchronizer_(Policy(kQueueSize)) {
+  synchronizer_.connectInput(left_, right_, left_info_, right_info_);
+  using namespace boost::placeholders;
+  synchronizer_.registerCallback(boost::bind<void>(
+      [this](const auto& left, const auto& right, const auto& left_info, const auto& right_info) {
+        ++counts_.pairs;
+        callback_({left, right, left_info, right_info});
+      },
+      _1, _2, _3, _4));
+  const auto count_image = [this](uint32_t& count, ros::Time& stamp) {
+    return [this, &count, &stamp](const sensor_msgs::ImageConstPtr& image) {
+      ++count;
+      stamp = image->header.stamp;
+      counts_.stamp_difference_s = (left_stamp_ - right_stamp_).toSec();
+    };
+  };
+  using ImageCallback = boost::function<void(const sensor_msgs::ImageConstPtr&)>;
+  using InfoCallback = boost::function<void(const sensor_msgs::CameraInfoConstPtr&)>;
+  left_.registerCallback(ImageCallback(count_image(counts_.left, left_stamp_)));
+  right_.registerCallback(ImageCallback(count_image(counts_.right, right_stamp_)));
+  left_info_.registerCallback(InfoCallback([this](const auto&) { ++counts_.left_info; }));
+  right_info_.registerCallback(InfoCallback([this](const auto&) { ++counts_.right_info; }));
+
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  const image_transport::TransportHints hints("raw", no_delay, private_node);
+  left_.subscribe(transport_, StereoTopic(node, "left/image_rect"), kQueueSize, hints);
+  right_.subscribe(transport_, StereoTopic(node, "right/image_rect"), kQueueSize, hints);
+  left_info_.subscribe(node, StereoTopic(node, "left/camera_info"), kQueueSize, no_delay);
+  right_info_.subscribe(node, StereoTopic(node, "right/camera_info"), kQueueSize, no_delay);
+}
+
+}  // namespace arfm_vo

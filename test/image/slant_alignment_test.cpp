@@ -1,0 +1,81 @@
+#include "arfm_vo/image/slant_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace arfm_vo {
+namespace {
+
+const cv::Point2f kCentre(60.3f, 40.7f);
+constexpr float kDisparity = 12.4f;
+
+cv::Mat MakeTexture() {
+  cv::Mat noise(80, 120, CV_8U);
+  cv::RNG random(3);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+  cv::Mat smooth;
+  cv::GaussianBlur(noise, smooth, cv::Size(), 1.5);
+  cv::normalize(smooth, smooth, 20, 235, cv::NORM_MINMAX);
+  return smooth;
+}
+
+/// What the right eye sees where disparity = kDisparity + gradient . (pixel - kCentre).
+cv::Mat MakeRight(const cv::Mat& left, const cv::Vec2f& gradient) {
+  cv::Mat map_x(left.size(), CV_32F), map_y(left.size(), CV_32F);
+  for (int y = 0; y < left.rows; ++y) {
+    for (int x = 0; x < left.cols; ++x) {
+      // x = u - d(u, y) solved for u.
+      const float constant =
+          kDisparity + gradient[1] * (static_cast<float>(y) - kCentre.y) - gradient[0] * kCentre.x;
+      map_x.at<float>(y, x) = (static_cast<float>(x) + constant) / (1 - gradient[0]);
+      map_y.at<float>(y, x) = static_cast<float>(y);
+    }
+  }
+  cv::Mat right;
+  cv::remap(left, right, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REFLECT);
+  return right;
+}
+
+SlantAlignment AlignWith(const cv::Vec2f& gradient, const cv::Point2f& guess_error) {
+  const cv::Mat left = MakeTexture();
+  const cv::Point2f truth(kCentre.x - kDisparity, kCentre.y);
+  return SlantAligner({}, {}).Align(left, kCentre, MakeRight(left, gradient), truth + guess_error);
+}
+
+void ExpectFound(const cv::Vec2f& gradient) {
+  const SlantAlignment found = AlignWith(gradient, {0.7f, -0.4f});
+  ASSERT_TRUE(found.alignment.IsAligned());
+  EXPECT_NEAR(found.alignment.position.x, kCentre.x - kDisparity, 0.05);
+  EXPECT_NEAR(found.alignment.position.y, kCentre.y, 0.05);
+  EXPECT_NEAR(found.disparity_gradient[0], gradient[0], 0.05);
+  EXPECT_NEAR(found.disparity_gradient[1], gradient[1], 0.05);
+}
+
+TEST(SlantAligner, FindsASurfaceThatFacesTheCamera) { ExpectFound({0, 0}); }
+
+TEST(SlantAligner, FindsTheGround) { ExpectFound({0, 0.3f}); }
+
+TEST(SlantAligner, FindsAWallAlongTheWay) { ExpectFound({0.15f, 0}); }
+
+TEST(SlantAligner, SaysThatItIsOutOfTheImage) {
+  const cv::Mat left = MakeTexture();
+  const SlantAlignment found = SlantAligner({}, {}).Align(left, {2, 2}, left, {2, 2});
+  EXPECT_EQ(found.alignment.status, AlignmentStatus::kOutOfImage);
+}
+
+TEST(SlantAligner, FindsNothingWithoutTexture) {
+  const cv::Mat flat(80, 120, CV_8U, cv::Scalar(90));
+  EXPECT_FALSE(SlantAligner({}, {}).Align(flat, kCentre, flat, kCentre).alignment.IsAligned());
+}
+
+TEST(SlantAlignmentOptions, CheckNamesTheKey) {
+  SlantAlignmentOptions options;
+  options.max_gradient = 1;
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

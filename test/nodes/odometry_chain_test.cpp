@@ -1,0 +1,246 @@
+// The three nodes as a user runs them, fed with pairs of a wall that the camera drives towards.
+#include <arfm_vo/KeyframeStamped.h>
+#include <arfm_vo/MapUpdateStamped.h>
+#include <arfm_vo/OdometryStatus.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "arfm_vo/ros/stereo_publisher.h"
+#include "nodes/inbox.h"
+#include "ros/textured_wall.h"
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+constexpr double kInterval_s = 0.1;
+
+/// The camera of the wall as its driver would publish it, and what the nodes answer.
+class OdometryChain : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { stamp_s_ = 2000; }
+
+  void SetUp() override {
+    WaitUntil([&] { return publisher_.HasSubscribers() && status_.has_publisher(); },
+              "the chain to subscribe");
+    Call("/pose_node/reset");
+    Step(0);
+    start_m_ = odom_.last().pose.pose.position.x;
+  }
+
+  StereoMessages MakePair(double way_m) {
+    stamp_s_ += kInterval_s;
+    const Rigid3 camera_from_wall(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -way_m));
+    return ToMessages({wall_.Render(stamp_s_, camera_from_wall), std::nullopt}, wall_.camera(),
+                      "left_camera_optical");
+  }
+
+  /// Publishes a pair and waits until the chain is through with it.
+  OdometryStatus Send(const StereoMessages& pair) {
+    const int before = status_.size();
+    publisher_.Publish(pair);
+    WaitUntil([&] { return status_.size() > before; }, "a status");
+    const ros::Time stamp = pair.left.header.stamp;
+    EXPECT_EQ(status_.last().header.stamp, stamp);
+    WaitUntil([&] { return odom_.size() > 0 && odom_.last().header.stamp == stamp; }, "odom");
+    return status_.last();
+  }
+  OdometryStatus Step(double way_m) { return Send(MakePair(way_m)); }
+  OdometryStatus StepInTheDark() {
+    StereoMessages pair = MakePair(0);
+    std::fill(pair.left.data.begin(), pair.left.data.end(), 0);
+    pair.right.data = pair.left.data;
+    return Send(pair);
+  }
+
+  std_srvs::Trigger::Response Call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(ros::service::waitForService(service, 10000)) << service;
+    EXPECT_TRUE(ros::service::call(service, trigger)) << service;
+    return trigger.response;
+  }
+
+  /// Waits for a diagnostic of the node with this text.
+  void ExpectDiagnostic(const std::string& node, int level, const std::string& text) {
+    const auto matches = [&](const DiagnosticStatus& status) {
+      return status.name.find(node) != std::string::npos && status.level == level &&
+             status.message.find(text) != std::string::npos;
+    };
+    WaitUntil(
+        [&] {
+          for (const auto& array : diagnostics_.all())
+            for (const DiagnosticStatus& status : array.status)
+              if (matches(status)) return true;
+          return false;
+        },
+        "a diagnostic of " + node + ": " + text);
+  }
+
+  double WayX() { return odom_.last().pose.pose.position.x - start_m_; }
+
+  static double stamp_s_;
+  double start_m_ = 0;
+  TexturedWall wall_;
+  ros::NodeHandle node_;
+  StereoPublisher publisher_{ros::NodeHandle("stereo")};
+  Inbox<OdometryStatus> status_{"status"};
+  Inbox<nav_msgs::Odometry> odom_{"odom"};
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+};
+double OdometryChain::stamp_s_ = 0;
+
+TEST_F(OdometryChain, FollowsTheCameraAndTellsItInAllWays) {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  Inbox<nav_msgs::Path> path("path"), optimized("path_optimized");
+  Inbox<KeyframeStamped> keyframes("keyframe");
+  Inbox<sensor_msgs::PointCloud2> landmarks("landmarks");
+  Inbox<sensor_msgs::Image> picture("matches_image");
+  WaitUntil([&] { return picture.has_publisher() && keyframes.has_publisher(); }, "publishers");
+  for (int i = 1; i <= 20; ++i) ASSERT_EQ(Step(0.1 * i).state, OdometryStatus::TRACKED) << i;
+  EXPECT_NEAR(WayX(), 2, 0.02);
+
+  const nav_msgs::Odometry odometry = odom_.last();
+  EXPECT_EQ(odometry.header.frame_id, "odom");
+  EXPECT_EQ(odometry.child_frame_id, "base_link");
+  EXPECT_NEAR(odometry.pose.pose.position.y, 0, 0.02);
+  EXPECT_NEAR(odometry.twist.twist.linear.x, 1, 0.1);
+  EXPECT_GT(odometry.pose.covariance[0], 0);
+  EXPECT_LT(odometry.pose.covariance[0], 1);
+  ASSERT_TRUE(buffer.canTransform("odom", "base_link", odometry.header.stamp, ros::Duration(5)));
+  EXPECT_EQ(
+      buffer.lookupTransform("odom", "base_link", odometry.header.stamp).transform.translation.x,
+      odometry.pose.pose.position.x);
+
+  const OdometryStatus status = status_.last();
+  EXPECT_GT(status.num_features, 100u);
+  EXPECT_GT(status.num_inliers, 30u);
+  EXPECT_GE(status.stage_names.size(), 3u);
+  EXPECT_EQ(status.stage_names.size(), status.stage_ms.size());
+  EXPECT_NEAR(path.last().poses.back().pose.position.x - start_m_, 2, 0.1);
+  WaitUntil([&] { return keyframes.size() > 0 && picture.size() > 0; }, "keyframe and picture");
+  EXPECT_EQ(picture.last().encoding, "bgr8");
+  WaitUntil([&] { return optimized.size() > 0 && landmarks.size() > 0; }, "an adjusted map");
+  EXPECT_GT(landmarks.last().width, 30u);
+  EXPECT_TRUE(buffer.canTransform("map", "odom", ros::Time(0), ros::Duration(5)));
+}
+
+TEST_F(OdometryChain, SaysThatItIsLostAndRecovers) {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  ASSERT_EQ(Step(0.05).state, OdometryStatus::TRACKED);
+  const uint32_t world = status_.last().world;
+  for (int i = 0; i < 5; ++i) EXPECT_NE(StepInTheDark().state, OdometryStatus::TRACKED);
+  EXPECT_FALSE(status_.last().text.empty());
+  EXPECT_EQ(odom_.last().pose.covariance[0], 9999);
+  EXPECT_EQ(odom_.last().pose.covariance[35], 9999);
+  EXPECT_FALSE(buffer.canTransform("odom", "base_link", odom_.last().header.stamp));
+  ExpectDiagnostic("pose_node", DiagnosticStatus::ERROR, "lost");
+  ASSERT_EQ(Step(0.15).state, OdometryStatus::TRACKED);
+  EXPECT_EQ(status_.last().world, world);
+  EXPECT_NEAR(WayX(), 0.15, 0.02);
+  EXPECT_LT(odom_.last().pose.covariance[0], 1);
+}
+
+TEST_F(OdometryChain, AResetStartsANewWorldWithoutAJump) {
+  for (int i = 1; i <= 3; ++i) Step(0.05 * i);
+  const uint32_t world = status_.last().world;
+  EXPECT_TRUE(Call("/pose_node/reset").success);
+  ASSERT_EQ(Step(0.15).state, OdometryStatus::TRACKED);
+  EXPECT_EQ(status_.last().world, world + 1);
+  EXPECT_NEAR(WayX(), 0.15, 0.02);
+  Step(0.25);
+  EXPECT_NEAR(WayX(), 0.25, 0.02);
+}
+
+TEST_F(OdometryChain, StartsAnewWhenTimeJumpsBack) {
+  for (int i = 1; i <= 3; ++i) Step(0.1 * i);
+  const uint32_t world = status_.last().world;
+  stamp_s_ -= 100;
+  ASSERT_EQ(Step(0.3).state, OdometryStatus::TRACKED);
+  EXPECT_EQ(status_.last().world, world + 1);
+  EXPECT_NEAR(odom_.last().pose.pose.position.x, 0, 1e-9);
+  Step(0.4);
+  EXPECT_NEAR(odom_.last().pose.pose.position.x, 0.1, 0.02);
+}
+
+TEST_F(OdometryChain, TheSamePairAgainIsPassedOver) {
+  const StereoMessages pair = MakePair(0.05);
+  Send(pair);
+  const int before = status_.size();
+  publisher_.Publish(pair);
+  Step(0.1);
+  EXPECT_EQ(status_.size(), before + 1);
+}
+
+TEST_F(OdometryChain, SaysThatCameraInfoIsMissing) {
+  const ros::Publisher left = node_.advertise<sensor_msgs::Image>("stereo/left/image_rect", 1);
+  WaitUntil([&] { return left.getNumSubscribers() > 0; }, "a subscriber of left/image_rect");
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(10);
+  const auto is_told = [&] {
+    for (const auto& array : diagnostics_.all())
+      for (const auto& status : array.status)
+        if (status.message.find("left/camera_info") != std::string::npos) return true;
+    return false;
+  };
+  while (!is_told() && ros::WallTime::now() < end) {
+    left.publish(MakePair(0).left);
+    ros::WallDuration(0.05).sleep();
+    ros::spinOnce();
+  }
+  EXPECT_TRUE(is_told());
+}
+
+TEST_F(OdometryChain, RefusesWrongImagesAndGoesOn) {
+  StereoMessages depth = MakePair(0);
+  depth.left.encoding = "32FC1";
+  publisher_.Publish(depth);
+  ExpectDiagnostic("arfm_node", DiagnosticStatus::ERROR, "32FC1");
+  StereoMessages narrow = MakePair(0);
+  narrow.right.width -= 8;
+  publisher_.Publish(narrow);
+  ExpectDiagnostic("arfm_node", DiagnosticStatus::ERROR, "differ in size");
+  StereoMessages without_baseline = MakePair(0);
+  without_baseline.right_info.P[3] = 0;
+  publisher_.Publish(without_baseline);
+  ExpectDiagnostic("arfm_node", DiagnosticStatus::ERROR, "P[3]");
+  EXPECT_EQ(Step(0.05).state, OdometryStatus::TRACKED);
+}
+
+TEST_F(OdometryChain, SavesTheTrajectoryByServiceAndAtTheEnd) {
+  namespace fs = std::filesystem;
+  const fs::path folder = ros::param::param<std::string>("/pose_node/trajectory_dir", "");
+  ASSERT_FALSE(folder.empty());
+  const auto saved = Call("/pose_node/save_trajectory");
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_THAT(saved.message, testing::HasSubstr(folder.string()));
+  EXPECT_TRUE(Call("/ba_node/save_trajectory").success);
+  EXPECT_TRUE(fs::exists(folder / "keyframes" / "poses.txt"));
+  // A run of its own after the jump of time: poses_2.txt.
+  ASSERT_TRUE(fs::exists(folder / "poses.txt"));
+  ASSERT_TRUE(fs::exists(folder / "poses_2.txt"));
+  fs::remove(folder / "poses_2.txt");
+  ASSERT_EQ(std::system("rosnode kill /pose_node > /dev/null"), 0);
+  WaitUntil([&] { return fs::exists(folder / "poses_2.txt"); }, "the trajectory at the end");
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "odometry_chain_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,99 @@
+#include "arfm_vo/ros/odometry_health.h"
+
+#include <arfm_vo/OdometryStatus.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "ros/expect_throw.h"
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
+
+StereoFrame FrameWithRows(double row_residual_px) {
+  StereoFrame frame;
+  for (const double part : {-1.0, 1.0, 1.0}) {
+    StereoPoint point;
+    point.row_residual_px = part * row_residual_px;
+    frame.points.push_back(point);
+  }
+  return frame;
+}
+
+RoverPose PoseWithState(uint8_t state, const std::string& text) {
+  RoverPose pose;
+  pose.state = state;
+  pose.text = text;
+  return pose;
+}
+
+const RoverPose kTracked = PoseWithState(OdometryStatus::TRACKED, "tracked");
+
+int LevelOfRows(double row_residual_px) {
+  OdometryHealth health{OdometryHealthOptions()};
+  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(row_residual_px), kTracked, 1);
+  Wrapper status;
+  health.ReportCalibration(status);
+  return status.level;
+}
+
+TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {
+  EXPECT_EQ(LevelOfRows(0.3), DiagnosticStatus::OK);
+  EXPECT_EQ(LevelOfRows(0.6), DiagnosticStatus::WARN);
+  EXPECT_EQ(LevelOfRows(1.1), DiagnosticStatus::ERROR);
+}
+
+TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
+  OdometryHealth health{OdometryHealthOptions()};
+  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1);
+  Wrapper status;
+  health.ReportCalibration(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+}
+
+TEST(OdometryHealth, LostIsAnError) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const auto report = [&] {
+    Wrapper status;
+    health.ReportOdometry(status);
+    return status;
+  };
+  EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // no pairs yet
+  health.Count({}, kTracked, 1);
+  EXPECT_EQ(report().level, DiagnosticStatus::OK);
+  EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // none since
+  health.Count({}, PoseWithState(OdometryStatus::TOO_FEW_MATCHES, "too few matches"), 1);
+  const Wrapper lost = report();
+  EXPECT_EQ(lost.level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(lost.message, testing::HasSubstr("too few matches"));
+  health.Count({}, PoseWithState(OdometryStatus::HEAD_SLEWING, "head slewing"), 1);
+  EXPECT_EQ(report().level, DiagnosticStatus::WARN);
+  health.CountRefused("left/image_rect: the image is empty");
+  EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
+}
+
+TEST(OdometryHealth, AScaleThatDisagreesWithTheTracksIsTold) {
+  OdometryHealth health{OdometryHealthOptions()};
+  for (int i = 0; i < 200; ++i) {
+    health.scale().AddTrack(0.1 * i, {0.1 * i, 0, 0});
+    RoverPose pose = kTracked;
+    pose.update.stamp_s = 0.1 * i - 0.05;
+    pose.odom_from_base.translation = {0.13 * i, 0, 0};
+    health.Count({}, pose, 1);
+  }
+  Wrapper status;
+  health.ReportScale(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_THAT(status.message, testing::HasSubstr("1.30"));
+}
+
+TEST(OdometryHealth, OptionsAreChecked) {
+  OdometryHealthOptions options;
+  options.row_residual_error_px = 0.1;
+  EXPECT_INVALID(OdometryHealth{options}, "row_residual_error_px");
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,103 @@
+#include "arfm_vo/ros/placed_map.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{400, 400, 320, 240, 0.3, 640, 480};
+/// Optical axes seen from the base's, 1 m up.
+const Rigid3 kBaseFromCamera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0, 0, 1));
+
+/// Keyframes of a camera that goes forward `step_m` a keyframe, and says that it went `scale` times
+/// as far; all see the same exact points.
+PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t world, double z, double said_z) {
+  PlacedKeyframe keyframe;
+  keyframe.world = world;
+  keyframe.camera = kCamera;
+  keyframe.odom_from_world = kBaseFromCamera;
+  keyframe.base_from_camera = kBaseFromCamera;
+  keyframe.record.id = id;
+  keyframe.record.stamp_s = stamp_s;
+  keyframe.record.camera_from_world.translation = Eigen::Vector3d(0, 0, -said_z);
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d x((i % 10) - 4.5, (i / 10) - 2.5, 10 + (i % 7));
+    const Eigen::Vector3d seen = kCamera.ProjectStereo(x - Eigen::Vector3d(0, 0, z));
+    keyframe.record.observations.push_back({i, {seen.x(), seen.y(), seen.z(), seen.y()}, true, 1});
+    if (id == 0) keyframe.record.landmarks.push_back({i, x, 1, {}});
+  }
+  return keyframe;
+}
+
+void AddWorld(PlacedMap& map, uint32_t world, double start_s, double step_m, double said_step_m) {
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(map.Add(MakeKeyframe(i, start_s + i, world, step_m * i, said_step_m * i)));
+}
+
+TEST(PlacedMap, AdjustsThePathAndMovesOdomInTheMap) {
+  PlacedMap map{GlobalMapOptions()};
+  AddWorld(map, 1, 0, 0.5, 0.55);
+  EXPECT_NEAR(map.BasePoses().back().map_from_base.translation.x(), 1.65, 1e-9);
+  EXPECT_TRUE(map.Landmarks().empty());
+  const auto update = map.Adjust({});
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->keyframes.size(), 4u);
+  const std::vector<MapPose> poses = map.BasePoses();
+  ASSERT_EQ(poses.size(), 4u);
+  EXPECT_NEAR(poses.back().map_from_base.translation.x(), 1.5, 1e-3);
+  EXPECT_NEAR(poses.back().map_from_base.translation.z(), 0, 1e-3);
+  // odom said 1.65, the map says 1.5: odom's origin lies 0.15 behind the map's.
+  EXPECT_NEAR(map.map_from_odom().translation.x(), -0.15, 1e-3);
+  EXPECT_NEAR(map.MakeTrajectory().back().world_from_camera.translation.z(), 1.5, 1e-3);
+}
+
+TEST(PlacedMap, ShowsLandmarksInTheMapWithTheDepthOfTheFirstSight) {
+  PlacedMap map{GlobalMapOptions()};
+  AddWorld(map, 1, 0, 0.5, 0.5);
+  map.Adjust({});
+  const std::vector<LandmarkPoint> points = map.Landmarks();
+  ASSERT_EQ(points.size(), 60u);
+  EXPECT_NEAR(points[0].x_in_map.x(), 10, 1e-2);       // ahead
+  EXPECT_NEAR(points[0].x_in_map.y(), 4.5, 1e-2);      // to the left
+  EXPECT_NEAR(points[0].x_in_map.z(), 1 + 2.5, 1e-2);  // up
+  EXPECT_NEAR(points[0].depth_m, 10, 1e-6);
+}
+
+TEST(PlacedMap, ANewWorldContinuesFromWhereOdomLiesInTheMap) {
+  PlacedMap map{GlobalMapOptions()};
+  AddWorld(map, 1, 0, 0.5, 0.55);
+  map.Adjust({});
+  PlacedKeyframe next = MakeKeyframe(0, 10, 2, 0, 0);
+  next.odom_from_world.translation.x() += 1.65;  // the base stands where it stood
+  EXPECT_TRUE(map.Add(next));
+  EXPECT_EQ(map.world(), 2u);
+  EXPECT_EQ(map.num_keyframes(), 1);
+  ASSERT_EQ(map.BasePoses().size(), 5u);
+  EXPECT_NEAR(map.BasePoses().back().map_from_base.translation.x(), 1.5, 1e-3);
+  EXPECT_NEAR(map.map_from_odom().translation.x(), -0.15, 1e-3);
+  EXPECT_EQ(map.Landmarks().size(), 60u);  // of the world before
+}
+
+TEST(PlacedMap, ARestartedOdometryIsAMapOfItsOwn) {
+  for (const auto& [id, stamp_s, world] : {std::tuple(0, 20., 2u), {0, 1., 9u}, {0, 20., 1u}}) {
+    PlacedMap map{GlobalMapOptions()};
+    AddWorld(map, 2, 10, 0.5, 0.55);
+    map.Adjust({});
+    EXPECT_FALSE(map.Add(MakeKeyframe(id, stamp_s, world, 0, 0)));
+    EXPECT_EQ(map.BasePoses().size(), 1u);
+    EXPECT_TRUE(map.Landmarks().empty());
+    EXPECT_LT(map.map_from_odom().translation.norm(), 1e-12);
+  }
+}
+
+TEST(PlacedMap, CanBeCancelled) {
+  PlacedMap map{GlobalMapOptions()};
+  EXPECT_FALSE(map.Adjust({}));
+  AddWorld(map, 1, 0, 0.5, 0.55);
+  int calls = 0;
+  map.Adjust([&](const BundleProgress&) { return ++calls < 1; });
+  EXPECT_EQ(calls, 1);
+}
+
+}  // namespace
+}  // namespace arfm_vo
