@@ -61,7 +61,7 @@ void SavePicture(const Request& request, const GoalScene& scene, const Drive& dr
   std::snprintf(name, sizeof(name), "drive_%02d.png", seed);
   const auto path = std::filesystem::path(request.output) / name;
   const std::string temporary = path.string() + ".new.png";
-  Require(cv::imwrite(temporary, DrawDrive(scene, drive)), temporary + ": cannot be written");
+  Require(cv::imwrite(temporary, DrawDrive(scene.terrain(), scene.start(), drive)), temporary + ": cannot be written");
   std::filesystem::rename(temporary, path);
 }
 

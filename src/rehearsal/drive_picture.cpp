@@ -26,10 +26,12 @@ RoverPose ToWorld(const RoverPose& start, const RoverPose& in_map) {
 
 class Canvas {
  public:
-  Canvas(const GoalScene& scene, const Drive& drive) : scene_(scene) {
-    double low_x = scene.goal().x_m, high_x = low_x, low_y = scene.goal().y_m, high_y = low_y;
+  Canvas(const Terrain& terrain, const RoverPose& start, const Drive& drive)
+      : terrain_(terrain), start_(start) {
+    const RoverPose goal = Goal(drive);
+    double low_x = goal.x_m, high_x = low_x, low_y = goal.y_m, high_y = low_y;
     for (const TrackPoint& point : drive.track) {
-      const RoverPose place = ToWorld(scene.start(), point.truth);
+      const RoverPose place = ToWorld(start_, point.truth);
       low_x = std::min(low_x, place.x_m), high_x = std::max(high_x, place.x_m);
       low_y = std::min(low_y, place.y_m), high_y = std::max(high_y, place.y_m);
     }
@@ -40,14 +42,17 @@ class Canvas {
     picture_ = cv::Mat(kSide_px + kCaption_px, kSide_px, CV_8UC3, kPaper);
   }
 
+  RoverPose Goal(const Drive& drive) const {
+    return ToWorld(start_, {drive.goal.x_m, drive.goal.y_m, drive.goal.heading_rad.value_or(0)});
+  }
+
   void ShadeGround() {
-    const Terrain& terrain = scene_.terrain();
     for (int v = 0; v < kSide_px; ++v) {
       for (int u = 0; u < kSide_px; ++u) {
         const double x = left_m_ + u / px_per_m_, y = top_m_ - v / px_per_m_;
-        const double light = terrain.Normal(x, y).dot(terrain.to_sun()) / terrain.to_sun().z();
-        const double height = terrain.Height(x, y) / kContour_m;
-        const double next = terrain.Height(x + 1 / px_per_m_, y - 1 / px_per_m_) / kContour_m;
+        const double light = terrain_.Normal(x, y).dot(terrain_.to_sun()) / terrain_.to_sun().z();
+        const double height = terrain_.Height(x, y) / kContour_m;
+        const double next = terrain_.Height(x + 1 / px_per_m_, y - 1 / px_per_m_) / kContour_m;
         const double shade = std::clamp(60 + 95 * light, 0.0, 235.0) *
                              (std::floor(height) == std::floor(next) ? 1 : 0.8);
         picture_.at<cv::Vec3b>(v, u) = {cv::saturate_cast<uchar>(0.72 * shade),
@@ -61,7 +66,7 @@ class Canvas {
                int width) {
     std::vector<cv::Point> points;
     for (const TrackPoint& point : drive.track)
-      if (point.is_tracked) points.push_back(Pixel(ToWorld(scene_.start(), point.*pose)));
+      if (point.is_tracked) points.push_back(Pixel(ToWorld(start_, point.*pose)));
     cv::polylines(picture_, points, false, color, width, cv::LINE_AA);
   }
 
@@ -92,7 +97,8 @@ class Canvas {
             static_cast<int>(std::lround((top_m_ - place.y_m) * px_per_m_))};
   }
 
-  const GoalScene& scene_;
+  const Terrain& terrain_;
+  RoverPose start_;
   double px_per_m_ = 1, left_m_ = 0, top_m_ = 0;
   cv::Mat picture_;
 };
@@ -105,13 +111,13 @@ std::string Format(const char* format, double a, double b, double c) {
 
 }  // namespace
 
-cv::Mat DrawDrive(const GoalScene& scene, const Drive& drive) {
-  Canvas canvas(scene, drive);
+cv::Mat DrawDrive(const Terrain& terrain, const RoverPose& start, const Drive& drive) {
+  Canvas canvas(terrain, start, drive);
   canvas.ShadeGround();
   canvas.DrawWay(drive, &TrackPoint::truth, kTruthColor, 4);
   canvas.DrawWay(drive, &TrackPoint::sight, kSightColor, 2);
-  canvas.DrawPose(scene.start(), kInk);
-  canvas.DrawPose(scene.goal(), kGoalColor);
+  canvas.DrawPose(start, kInk);
+  canvas.DrawPose(canvas.Goal(drive), kGoalColor);
   canvas.DrawScale();
   canvas.Write(Format("driven %.2f m in %.0f s, %.1f deg at the steepest", drive.driven_m,
                       drive.duration_s, drive.steepest_deg),

@@ -6,24 +6,17 @@
 namespace arfm_vo {
 
 void SimulatedSightOptions::Check() const {
-  Require(field_of_view_deg > 5 && field_of_view_deg < 170,
-          "sight.field_of_view_deg must be in (5, 170)");
+  rig.Check();
   Require(pair_period_s > 0.01 && pair_period_s <= 60, "sight.pair_period_s must be in (0.01, 60]");
   Require(latency_s >= 0 && latency_s <= 60, "sight.latency_s must be in 0..60");
-  Camera().Check();
   render.Check();
-}
-
-StereoCamera SimulatedSightOptions::Camera() const {
-  const double focal_px = width / 2.0 / std::tan(field_of_view_deg * M_PI / 360);
-  return {focal_px, focal_px, (width - 1) / 2.0, (height - 1) / 2.0, baseline_m, width, height};
 }
 
 SimulatedSight::SimulatedSight(const SimulatedSightOptions& options,
                                const OdometryOptions& odometry, const RoverShape& shape,
                                const Terrain& terrain)
     : options_(options),
-      camera_(options.Camera()),
+      camera_(options.rig.Camera()),
       base_from_camera_(BaseFromLeftEye(shape)),
       renderer_(terrain, options.render),
       odometry_(camera_, odometry) {

@@ -5,27 +5,22 @@
 
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/rehearsal/stereo_rig.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
 
 namespace arfm_vo {
 
 struct SimulatedSightOptions {
-  int width = 512, height = 384;  ///< px
-  double field_of_view_deg = 63;  ///< horizontal
-  double baseline_m = 0.2;
+  StereoRigOptions rig;
   double pair_period_s = 0.5;
   double latency_s = 0.2;  ///< from the exposure to the pose
   RenderOptions render;
 
   void Check() const;
-  StereoCamera Camera() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
-    visit("width", width);
-    visit("height", height);
-    visit("field_of_view_deg", field_of_view_deg);
-    visit("baseline_m", baseline_m);
+    visit("rig", rig);
     visit("pair_period_s", pair_period_s);
     visit("latency_s", latency_s);
     visit("render", render);
