@@ -41,8 +41,8 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
                 health_.CountRefused(error.what());
                 ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
               }),
-      synchronizer_(Policy(kQueueSize)),
-      transport_(node) {
+      transport_(node),
+      synchronizer_(Policy(kQueueSize)) {
   Offer(node, private_node);
   Subscribe(node, private_node);
 }

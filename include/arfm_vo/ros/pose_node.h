@@ -81,10 +81,10 @@ class PoseNode {
   uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;
-  message_filters::Synchronizer<Policy> synchronizer_;
   image_transport::ImageTransport transport_;
   message_filters::Subscriber<Frame> frames_;
   image_transport::SubscriberFilter left_, right_;
+  message_filters::Synchronizer<Policy> synchronizer_;  ///< goes before what it listens to
   ros::Subscriber updates_, tracks_;
   ros::ServiceServer reset_, save_;
   ros::WallTimer timer_;

@@ -52,9 +52,9 @@ class StereoInput {
   StereoInputCounts counts_;
   ros::Time left_stamp_, right_stamp_;
   image_transport::ImageTransport transport_;
-  message_filters::Synchronizer<Policy> synchronizer_;
   image_transport::SubscriberFilter left_, right_;
   message_filters::Subscriber<Info> left_info_, right_info_;
+  message_filters::Synchronizer<Policy> synchronizer_;  ///< goes before what it listens to
 };
 
 }  // namespace arfm_vo
