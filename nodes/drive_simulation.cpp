@@ -15,7 +15,7 @@ using namespace arfm_vo;
 
 struct Request {
   std::string output, config;
-  int num_goals = 20, first_seed = 1;
+  int num_goals = 20, first_seed = 1, width = 0, num_threads = 1;
   GoalSceneOptions scene;
 };
 
@@ -61,7 +61,8 @@ void SavePicture(const Request& request, const GoalScene& scene, const Drive& dr
   std::snprintf(name, sizeof(name), "drive_%02d.png", seed);
   const auto path = std::filesystem::path(request.output) / name;
   const std::string temporary = path.string() + ".new.png";
-  Require(cv::imwrite(temporary, DrawDrive(scene.terrain(), scene.start(), drive)), temporary + ": cannot be written");
+  Require(cv::imwrite(temporary, DrawDrive(scene.terrain(), scene.start(), drive)),
+          temporary + ": cannot be written");
   std::filesystem::rename(temporary, path);
 }
 
@@ -81,6 +82,11 @@ void PrintSummary(const Summary& summary, int num_goals, double wall_s) {
 void DriveGoals(Request request) {
   RehearsalOptions options;
   if (!request.config.empty()) options = ReadYamlFile<RehearsalOptions>(request.config);
+  if (request.width > 0) {
+    options.sight.rig.height = options.sight.rig.height * request.width / options.sight.rig.width;
+    options.sight.rig.width = request.width;
+  }
+  options.sight.render.num_threads = request.scene.num_threads = request.num_threads;
   if (!request.output.empty()) std::filesystem::create_directories(request.output);
   Stopwatch stopwatch;
   Summary summary;
@@ -117,8 +123,12 @@ int main(int argc, char** argv) {
       "min-distance", po::value(&request.scene.min_distance_m)->value_name("M"), "of the goals")(
       "max-distance", po::value(&request.scene.max_distance_m)->value_name("M"), "of the goals")(
       "max-slope", po::value(&request.scene.max_slope_deg)->value_name("DEG"),
-      "of the straight way to a goal")("config", po::value(&request.config)->value_name("FILE"),
-                                       "YAML: pilot, plant, sight, odometry, shape")(
+      "of the straight way to a goal")("width", po::value(&request.width)->value_name("PX"),
+                                       "of the pictures, with the same view")(
+      "threads", po::value(&request.num_threads)->value_name("N"),
+      "of the renderer; do not change the result")("config",
+                                                   po::value(&request.config)->value_name("FILE"),
+                                                   "YAML: pilot, plant, sight, odometry, shape")(
       "output", po::value(&request.output)->value_name("DIR"), "a picture of each drive goes here");
   program.run = [&] { DriveGoals(request); };
   return RunProgram(argc, argv, program);

@@ -13,7 +13,7 @@ namespace arfm_vo {
 
 struct SimulatedSightOptions {
   StereoRigOptions rig;
-  double pair_period_s = 0.5;
+  double pair_period_s = 0.6;
   double latency_s = 0.2;  ///< from the exposure to the pose
   RenderOptions render;
 

@@ -9,7 +9,7 @@ namespace arfm_vo {
 
 /// An ideal stereo camera, by what one would ask of it.
 struct StereoRigOptions {
-  int width = 512, height = 384;  ///< px
+  int width = 320, height = 240;  ///< px
   double field_of_view_deg = 63;  ///< horizontal
   double baseline_m = 0.2;
 
