@@ -42,17 +42,17 @@ struct Summary {
 };
 
 void PrintHeader() {
-  std::printf("%4s %9s %8s %8s %8s %8s %9s %7s %6s %5s %7s  %s\n", "seed", "goal_m", "driven_m",
-              "error_m", "allowed", "head_deg", "slope_deg", "slip_%", "pairs", "lost", "drive_s",
-              "outcome");
+  std::printf("%4s %7s %8s %7s %7s %8s %9s %6s %8s %6s %5s %5s %7s  %s\n", "seed", "goal_m",
+              "driven_m", "error_m", "allowed", "head_deg", "slope_deg", "slip_%", "max_mps",
+              "before", "pairs", "lost", "drive_s", "outcome");
 }
 
 void PrintRow(int seed, const Drive& drive) {
-  std::printf("%4d %9.2f %8.2f %8.3f %8.3f %8.2f %9.1f %7.1f %6d %5d %7.0f  %s\n", seed,
+  std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f  %s\n", seed,
               std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
               drive.AllowedError(), drive.final_heading_error_deg, drive.steepest_deg,
-              100 * drive.slip_ratio, drive.num_pairs, drive.num_lost, drive.duration_s,
-              drive.outcome.c_str());
+              100 * drive.slip_ratio, drive.fastest_command_mps, drive.num_frames_before_start,
+              drive.num_pairs, drive.num_lost, drive.duration_s, drive.outcome.c_str());
   std::fflush(stdout);
 }
 
@@ -103,6 +103,8 @@ void DriveGoals(Request request) {
   PrintSummary(summary, request.num_goals, stopwatch.LapMs() / 1000);
   Require(summary.num_good == request.num_goals,
           std::to_string(request.num_goals - summary.num_good) + " goals were not reached well");
+  Require(summary.fastest_mps <= kMaxSpeed_mps, "a frame exceeded the speed limit");
+  Require(summary.frames_before_start == 0, "frames were sent before start");
 }
 
 }  // namespace

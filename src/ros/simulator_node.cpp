@@ -43,8 +43,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       camera_(options_.rig.Camera()),
       base_from_camera_(BaseFromLeftEye(options_.shape)),
       map_from_world_(GroundOf(terrain_, options_.shape)(RoverPose{}).Inverse()),
-      chassis_(OpenCanBus(options_.can), TrackedPlant(options_.plant, RoverPose{},
-                                                      GroundOf(terrain_, options_.shape))),
+      chassis_(OpenCanBus(options_.can),
+               TrackedPlant(options_.plant, RoverPose{}, GroundOf(terrain_, options_.shape))),
       now_ns_(static_cast<uint64_t>(kStampOffset_s * 1e9)),
       pair_due_ns_(now_ns_),
       stereo_(ros::NodeHandle(node, "stereo")),
@@ -139,10 +139,10 @@ void SimulatorNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
   for (auto point = drive_.track.rbegin(); point != drive_.track.rend(); ++point) {
     if (std::abs(point->time_s - odometry.header.stamp.toSec()) > 1e-3) continue;
     const auto& pose = odometry.pose.pose;
-    point->sight = ProjectToPlane(
-        Rigid3(Eigen::Quaterniond(pose.orientation.w, pose.orientation.x, pose.orientation.y,
-                                  pose.orientation.z),
-               Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z)));
+    point->sight =
+        ProjectToPlane(Rigid3(Eigen::Quaterniond(pose.orientation.w, pose.orientation.x,
+                                                 pose.orientation.y, pose.orientation.z),
+                              Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z)));
     point->is_tracked = true;
     return;
   }
@@ -162,9 +162,11 @@ void SimulatorNode::TakeReport(const GoalReport& report) {
   for (const TrackPoint& point : drive_.track)
     drive_.steepest_deg = std::max(drive_.steepest_deg, point.slope_deg);
   const std::string temporary = options_.picture + ".new.png";
-  if (!cv::imwrite(temporary, DrawDrive(terrain_, RoverPose{}, drive_)))
-    return ROS_ERROR("%s cannot be written", temporary.c_str());
-  std::filesystem::rename(temporary, options_.picture);
+  if (cv::imwrite(temporary, DrawDrive(terrain_, RoverPose{}, drive_))) {
+    std::filesystem::rename(temporary, options_.picture);
+  } else {
+    ROS_ERROR("%s cannot be written", temporary.c_str());
+  }
 }
 
 }  // namespace arfm_vo

@@ -11,6 +11,8 @@
 namespace arfm_vo {
 
 struct GoalSceneOptions {
+  GoalSceneOptions() { terrain.side_m = 102.4; }  // goals are near, and rendering starts sooner
+
   int seed = 1;
   double min_distance_m = 5, max_distance_m = 20;
   /// The steepest place on the straight way to the goal lies between these.

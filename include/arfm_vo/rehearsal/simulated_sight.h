@@ -12,8 +12,11 @@
 namespace arfm_vo {
 
 struct SimulatedSightOptions {
+  /// Jagged edges: rendered in half the time, and not easier for the odometry.
+  SimulatedSightOptions() { render.edge_samples = 1; }
+
   StereoRigOptions rig;
-  double pair_period_s = 0.6;
+  double pair_period_s = 0.75;
   double latency_s = 0.2;  ///< from the exposure to the pose
   RenderOptions render;
 

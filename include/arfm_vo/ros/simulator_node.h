@@ -19,10 +19,10 @@ struct SimulatorNodeOptions {
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   std::string camera_frame = "left_camera_optical";
-  double max_speed_up = 1;     ///< simulated time over wall time, at most
-  double max_wait_s = 0.8;     ///< wall time that a pair waits for the odometry to have done the last
+  double max_speed_up = 1;  ///< simulated time over wall time, at most
+  double max_wait_s = 0.8;  ///< wall time that a pair waits for the odometry to have done the last
   double pair_period_s = 0.5;
-  std::string picture;         ///< PNG of the drive, written when a goal has ended; empty: none
+  std::string picture;  ///< PNG of the drive, written when a goal has ended; empty: none
   TerrainOptions terrain;
   TrackedPlantOptions plant;
   StereoRigOptions rig;
