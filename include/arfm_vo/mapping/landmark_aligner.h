@@ -39,6 +39,10 @@ class LandmarkAligner {
                                            const Rigid3& camera_from_world) const;
 
  private:
+  /// SourceFromTarget for an eye at `eye_from_world`, where it does not change the size too much.
+  std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
+                                      const Rigid3& eye_from_world) const;
+
   StereoCamera camera_;
   LandmarkAlignerOptions options_;
   PatchAligner aligner_;

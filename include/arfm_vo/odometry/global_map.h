@@ -12,9 +12,11 @@ namespace arfm_vo {
 
 struct GlobalMapOptions {
   BundleOptions solver;
-  int min_observations = 2;      ///< keyframes that must see a landmark for it to take part
-  int max_keyframes = 2000;      ///< the newest so many move; older ones are held where they are
-  double stereo_rotation_sigma_rad = 1e-3;  ///< prior of the right camera's error; 0: frozen
+  int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
+  int max_keyframes = 2000;  ///< the newest so many move; older ones are held where they are
+  /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
+  double stereo_correction_sigma_px = 1;
+  double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
 
   void Check() const;
   template <class Visitor>
@@ -22,7 +24,8 @@ struct GlobalMapOptions {
     visit("solver", solver);
     visit("min_observations", min_observations);
     visit("max_keyframes", max_keyframes);
-    visit("stereo_rotation_sigma_rad", stereo_rotation_sigma_rad);
+    visit("stereo_correction_sigma_px", stereo_correction_sigma_px);
+    visit("stereo_correction_confidence", stereo_correction_confidence);
   }
 };
 
@@ -58,6 +61,7 @@ class GlobalMap {
   };
 
   BundleProblem MakeProblem();
+  BundleResult Solve(BundleProblem problem, const BundleCallback& progress) const;
 
   StereoCamera camera_;
   GlobalMapOptions options_;
