@@ -25,14 +25,18 @@ def make_goal(x_m, y_m, heading_deg):
 
 
 class Errand:
+    """One drive to a goal. Timeouts are wall time: simulated time may stand still."""
+
     def __init__(self):
         self.done = threading.Event()
-        self.report = None
-        self.truth = None
+        self.has_status, self.has_pose = threading.Event(), threading.Event()
         self.is_sent = False
+        self.goal = self.report = self.truth = None
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1, latch=True)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
         rospy.Subscriber("base_truth", Odometry, self.take_truth)
+        rospy.Subscriber("drive_status", DriveStatus, lambda _: self.has_status.set())
+        rospy.Subscriber("odom", Odometry, lambda _: self.has_pose.set())
 
     def take_report(self, report):
         if self.is_sent and report.result != GoalReport.REPLACED:
@@ -42,25 +46,34 @@ class Errand:
     def take_truth(self, truth):
         self.truth = truth.pose.pose.position
 
-    def run(self, x_m, y_m, heading_deg, timeout_s):
-        start = rospy.ServiceProxy("chassis_node/start", Trigger)
-        start.wait_for_service(timeout_s)
-        rospy.wait_for_message("drive_status", DriveStatus, timeout_s)
+    def start(self, timeout_s):
         # Not before there is a pose: a drive that is started without one waits for it.
-        rospy.wait_for_message("odom", Odometry, timeout_s)
-        answer = start()
+        for event, what in (self.has_status, "drive_status"), (self.has_pose, "odom"):
+            if not event.wait(timeout_s):
+                print("start: nothing on %s within %g s" % (what, timeout_s))
+                return False
+        answer = rospy.ServiceProxy("chassis_node/start", Trigger)()
         print("start:", answer.message)
-        if not answer.success:
+        return answer.success
+
+    def error_m(self):
+        """By the truth, where a simulation tells it."""
+        position = self.goal.pose.position
+        return math.hypot(position.x - self.truth.x, position.y - self.truth.y)
+
+    def run(self, x_m, y_m, heading_deg, timeout_s):
+        if not self.start(timeout_s):
             return False
+        self.goal = make_goal(x_m, y_m, heading_deg)
         self.is_sent = True
-        self.goals.publish(make_goal(x_m, y_m, heading_deg))
+        self.goals.publish(self.goal)
         if not self.done.wait(timeout_s):
             print("outcome: no answer within %g s" % timeout_s)
             return False
         print("outcome:", self.report.text)
         print("error_by_sight_m: %.3f" % self.report.position_error_m)
         if self.truth is not None:
-            print("error_m: %.3f" % math.hypot(x_m - self.truth.x, y_m - self.truth.y))
+            print("error_m: %.3f" % self.error_m())
         return self.report.result == GoalReport.ARRIVED
 
 

@@ -27,7 +27,8 @@ PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
 void SimulatorNodeOptions::Check() const {
   Require(!can.empty(), "can must name a bus");
   Require(max_speed_up > 0, "max_speed_up must be positive");
-  Require(max_wait_s >= 0 && max_wait_s < 1, "max_wait_s must be in [0, 1)");
+  Require(max_latency_s >= 0, "max_latency_s must not be negative");
+  Require(max_wait_s >= 0 && max_wait_s <= 600, "max_wait_s must be in 0..600");
   Require(pair_period_s >= 0.02 && pair_period_s <= 60, "pair_period_s must be in 0.02..60");
   terrain.Check();
   plant.Check();
@@ -77,16 +78,20 @@ void SimulatorNode::WaitForSubscribers() {
 
 void SimulatorNode::WaitForOdometry() {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(options_.max_wait_s);
-  while (ros::ok() && odometry_done_ < pair_stamp_ && ros::WallTime::now() < end) {
+  while (ros::ok() && !HasOdometry() && ros::WallTime::now() < end) {
     ros::spinOnce();
     kPoll.sleep();
   }
+  if (HasOdometry()) return;
+  ROS_WARN("no odometry of a pair within %g s", options_.max_wait_s);
+  odometry_done_ = pair_stamp_;
 }
 
 void SimulatorNode::Step() {
   now_ns_ += kStep_ns;
   chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
-  if (now_ns_ >= pair_due_ns_) WaitForOdometry();
+  const bool is_late = (Stamp() - pair_stamp_).toSec() >= options_.max_latency_s;
+  if (is_late && !HasOdometry()) WaitForOdometry();
   PublishClock();
   if (now_ns_ < pair_due_ns_) return;
   pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));
@@ -157,10 +162,17 @@ void SimulatorNode::TakeReport(const GoalReport& report) {
   drive_.final_error_m = std::hypot(report.x_m - end.truth.x_m, report.y_m - end.truth.y_m);
   drive_.final_heading_error_deg =
       std::abs(WrapAngle(report.heading_rad - end.truth.heading_rad)) * 180 / M_PI;
-  drive_.driven_m = chassis_.plant().DrivenDistance();
+  drive_.driven_m = chassis_.plant().DrivenDistance() - driven_before_m_;
   drive_.duration_s = end.time_s - drive_.track.front().time_s;
   for (const TrackPoint& point : drive_.track)
     drive_.steepest_deg = std::max(drive_.steepest_deg, point.slope_deg);
+  SavePicture();
+  drive_.track.assign(1, TrackPoint(end));
+  drive_.steepest_deg = 0;
+  driven_before_m_ = chassis_.plant().DrivenDistance();
+}
+
+void SimulatorNode::SavePicture() const {
   const std::string temporary = options_.picture + ".new.png";
   if (cv::imwrite(temporary, DrawDrive(terrain_, RoverPose{}, drive_))) {
     std::filesystem::rename(temporary, options_.picture);

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <algorithm>
 #include <string>
 
 #include "arfm_vo/rehearsal/rehearsal.h"
@@ -19,8 +20,9 @@ struct SimulatorNodeOptions {
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   std::string camera_frame = "left_camera_optical";
-  double max_speed_up = 1;  ///< simulated time over wall time, at most
-  double max_wait_s = 0.8;  ///< wall time that a pair waits for the odometry to have done the last
+  double max_speed_up = 1;     ///< simulated time over wall time, at most
+  double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
+  double max_wait_s = 10;      ///< ..for so much wall time at most
   double pair_period_s = 0.5;
   std::string picture;  ///< PNG of the drive, written when a goal has ended; empty: none
   TerrainOptions terrain;
@@ -37,6 +39,7 @@ struct SimulatorNodeOptions {
     visit("base_frame", base_frame);
     visit("camera_frame", camera_frame);
     visit("max_speed_up", max_speed_up);
+    visit("max_latency_s", max_latency_s);
     visit("max_wait_s", max_wait_s);
     visit("pair_period_s", pair_period_s);
     visit("picture", picture);
@@ -61,15 +64,19 @@ class SimulatorNode {
 
  private:
   void WaitForSubscribers();
+  bool HasOdometry() const { return odometry_done_ >= pair_stamp_; }
   void WaitForOdometry();
   void Step();
   void TakePair();
   void PublishClock() const;
   void PublishTruth(const Rigid3& map_from_base) const;
   void PublishMount();
-  void TakeStatus(const OdometryStatus& status) { odometry_done_ = status.header.stamp; }
+  void TakeStatus(const OdometryStatus& status) {
+    odometry_done_ = std::max(odometry_done_, status.header.stamp);
+  }
   void TakeOdometry(const nav_msgs::Odometry& odometry);
   void TakeReport(const GoalReport& report);
+  void SavePicture() const;
   ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_); }
 
   const SimulatorNodeOptions options_;
@@ -78,7 +85,8 @@ class SimulatorNode {
   StereoCamera camera_;
   Rigid3 base_from_camera_, map_from_world_;
   SimulatedChassis chassis_;
-  Drive drive_;  ///< for the picture
+  Drive drive_;  ///< since the last goal ended, for the picture
+  double driven_before_m_ = 0;
   uint64_t now_ns_, pair_due_ns_;
   uint32_t num_pairs_ = 0;
   ros::Time odometry_done_, pair_stamp_;
