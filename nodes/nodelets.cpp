@@ -2,6 +2,7 @@
 
 #include "arfm_vo/ros/arfm_node.h"
 #include "arfm_vo/ros/ba_node.h"
+#include "arfm_vo/ros/chassis_node.h"
 #include "arfm_vo/ros/node_main.h"
 #include "arfm_vo/ros/pose_node.h"
 
@@ -10,9 +11,11 @@ namespace arfm_vo {
 class ArfmNodelet : public NodeletOf<ArfmNode> {};
 class PoseNodelet : public NodeletOf<PoseNode> {};
 class BaNodelet : public NodeletOf<BaNode> {};
+class ChassisNodelet : public NodeletOf<ChassisNode> {};
 
 }  // namespace arfm_vo
 
 PLUGINLIB_EXPORT_CLASS(arfm_vo::ArfmNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(arfm_vo::PoseNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(arfm_vo::BaNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(arfm_vo::ChassisNodelet, nodelet::Nodelet)
