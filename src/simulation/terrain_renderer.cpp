@@ -155,22 +155,23 @@ bool IsEdge(const cv::Mat& surface, const cv::Mat& depth, int u, int v) {
          (v > 0 && v + 1 < depth.rows && bends(inverse(u, v - 1), inverse(u, v + 1)));
 }
 
-/// The mean radiance of some rays through a pixel, no two in a row or column.
-double Supersample(const Tracer& tracer, int u, int v) {
-  constexpr int kNumRays = 5;
+/// The mean radiance of samples x samples rays through a pixel.
+double Supersample(const Tracer& tracer, int u, int v, int samples) {
   double sum = 0;
-  for (int i = 0; i < kNumRays; ++i) {
-    const double du = (i + 0.5) / kNumRays - 0.5;
-    const double dv = (2 * i % kNumRays + 0.5) / kNumRays - 0.5;
-    sum += tracer.Look(u + du, v + dv, 1 / std::sqrt(kNumRays)).radiance;
+  for (int i = 0; i < samples; ++i) {
+    for (int j = 0; j < samples; ++j) {
+      const double du = (i + 0.5) / samples - 0.5, dv = (j + 0.5) / samples - 0.5;
+      sum += tracer.Look(u + du, v + dv, 1.0 / samples).radiance;
+    }
   }
-  return sum / kNumRays;
+  return sum / (samples * samples);
 }
 
 }  // namespace
 
 void RenderOptions::Check() const {
   Require(num_threads >= 1, "render.num_threads must be at least 1");
+  Require(edge_samples >= 1 && edge_samples <= 8, "render.edge_samples must be in 1..8");
   Require(skylight >= 0 && skylight <= 1, "render.skylight must be in [0, 1]");
   Require(haze_distance_m > 0, "render.haze_distance_m must be positive");
   sensor.Check();
@@ -202,11 +203,11 @@ RenderedView TerrainRenderer::Trace(const StereoCamera& camera, const Rigid3& wo
       surface.at<int>(v, u) = sight.surface;
     }
   });
-  if (!options_.smooth_edges) return view;
+  if (options_.edge_samples == 1) return view;
   ForEachRow(camera.height, options_.num_threads, [&](int v) {
     for (int u = 0; u < camera.width; ++u) {
       if (!IsEdge(surface, view.depth, u, v)) continue;
-      view.radiance.at<float>(v, u) = Supersample(tracer, u, v);
+      view.radiance.at<float>(v, u) = Supersample(tracer, u, v, options_.edge_samples);
     }
   });
   return view;

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 [[ -e /dev/video10 && -e /dev/video11 ]] || { echo "no test cameras here" >&2; exit 1; }
-export PATH=/usr/bin:$PATH ROS_MASTER_URI=http://localhost:11311 ROS_HOME=/tmp/ros HOME=/tmp
+export PATH=/usr/bin:$PATH ROS_MASTER_URI=http://localhost:11311 ROS_HOSTNAME=localhost ROS_HOME=/tmp/ros HOME=/tmp
 build=${BUILD_DIR:-_b}
 set +u; . "$build/devel/setup.sh"; set -u
 work=$(mktemp -d)
@@ -13,31 +13,24 @@ work=$(mktemp -d)
 "$build/devel/lib/arfm_vo/loopback_player" rosbag_fixtures/terrain.bag "$work" --pairs 12 --rate 0.4 --wait 120 &
 player=$!
 until [[ -s $work/right.yaml ]]; do sleep 0.5; kill -0 $player; done
-cat > "$work/camera.yaml" <<YAML
-left_device: /dev/video10
-right_device: /dev/video11
-video: {pixel_format: GREY, width: 480, height: 360, rate_hz: 0.4}
-max_skew_s: 0.2
-frame_timeout_s: 30
-left_camera_info_url: file://$work/left.yaml
-right_camera_info_url: file://$work/right.yaml
-YAML
-cat > "$work/chain.launch" <<LAUNCH
-<launch>
-  <include file="\$(find arfm_vo)/launch/camera.launch"><arg name="config" value="$work/camera.yaml"/></include>
-  <include file="\$(find arfm_vo)/launch/odometry.launch">
-    <arg name="global_adjustment" value="false"/>
-    <arg name="base_from_camera" value="0 0 0 0 0 0"/>
-    <arg name="camera_frame" value="left_camera_optical"/>
-    <arg name="trajectory_dir" value="$work/trajectory"/>
-  </include>
-</launch>
-LAUNCH
-roslaunch "$work/chain.launch" > "$work/log" 2>&1 &
-launch=$!
-trap 'kill $launch $player 2>/dev/null || true' EXIT
+# One after the other, without roslaunch: Python takes a minute to start here.
+rosmaster --core > "$work/master.log" 2>&1 &
+master=$!
+nodes=()
+trap 'kill "${nodes[@]}" $master $player 2> /dev/null || true' EXIT
+until (echo > /dev/tcp/localhost/11311) 2> /dev/null; do sleep 0.5; kill -0 $master; done
+start() { "$@" >> "$work/log" 2>&1 & nodes+=($!); }
+programs=$build/devel/lib/arfm_vo
+start /usr/lib/tf2_ros/static_transform_publisher 0 0 0 0 0 0 base_link left_camera_optical
+start "$programs/pose_node" _camera_frame:=left_camera_optical _trajectory_dir:="$work/trajectory"
+pose_node=${nodes[-1]}
+start "$programs/arfm_node"
+start env ROS_NAMESPACE=/stereo /usr/lib/stereo_image_proc/stereo_image_proc
+start env ROS_NAMESPACE=/stereo "$programs/stereo_camera_node" _left_device:=/dev/video10 _right_device:=/dev/video11 \
+  _video/pixel_format:=GREY _video/width:=480 _video/height:=360 _video/rate_hz:=0.4 _max_skew_s:=0.2 \
+  _frame_timeout_s:=30 _left_camera_info_url:="file://$work/left.yaml" _right_camera_info_url:="file://$work/right.yaml"
 wait $player
-kill -INT $launch; wait $launch || true
+kill -INT $pose_node; wait $pose_node || true
 # KITTI poses: the last column of each row of three is the position.
 if ! [[ -s $work/trajectory/poses.txt ]]; then tail -40 "$work/log"; exit 1; fi
 awk 'FNR == NR {x = $2; y = $3; z = $4; next}

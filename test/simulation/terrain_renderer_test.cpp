@@ -64,7 +64,7 @@ TEST(TerrainRenderer, HorizonIsAtTheRowOfTheTilt) {
 TEST(TerrainRenderer, BoxCoversThePixelsOfItsProjection) {
   const Terrain terrain(LevelOptions());
   RenderOptions options;
-  options.smooth_edges = false;
+  options.edge_samples = 1;
   const TerrainRenderer renderer(terrain, options);
   const Rigid3 pose = LookAhead(terrain, 0, 0, 0);
   // Front face at z = 4 m, 1 m wide, from 0.5 m to the right of the axis.

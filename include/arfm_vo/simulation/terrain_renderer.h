@@ -15,7 +15,7 @@ namespace arfm_vo {
 
 struct RenderOptions {
   int num_threads = 1;
-  bool smooth_edges = true;       ///< by five rays through each pixel on an edge
+  int edge_samples = 3;           ///< along each side of a pixel on an edge; 1: no smooth edges
   double skylight = 0.22;         ///< share of the light that comes from the whole sky
   double haze_distance_m = 4000;  ///< over which the air takes 63 % of the contrast
   SensorOptions sensor;
@@ -24,7 +24,7 @@ struct RenderOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("num_threads", num_threads);
-    visit("smooth_edges", smooth_edges);
+    visit("edge_samples", edge_samples);
     visit("skylight", skylight);
     visit("haze_distance_m", haze_distance_m);
     sensor.VisitFields(visit);
