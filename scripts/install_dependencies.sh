@@ -4,6 +4,7 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build make git ca-certificates catkin ccache)
+# (libstereo-image-proc-dev and libimage-proc-dev hold the package.xml and nodelet lists that roslaunch needs.)
 # libX-msgs-dev holds the headers, ros-X-msgs the .msg files; both are needed.
 ros=(libroscpp-dev ros-message-generation ros-message-runtime
      libstd-msgs-dev ros-std-msgs libstd-srvs-dev ros-std-srvs libsensor-msgs-dev ros-sensor-msgs
@@ -18,7 +19,7 @@ libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev zlib1g-dev l
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode rosbash libnodeletlib-tools tf2-tools
          python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs topic-tools python3-cv-bridge rviz ros-image-view
-         ros-stereo-image-proc ros-robot-state-publisher ros-camera-calibration
+         ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher ros-camera-calibration
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2)
