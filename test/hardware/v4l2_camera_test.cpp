@@ -201,6 +201,7 @@ void ShowRecovery(const StereoCameraOptions& options, const Fault& fault) {
   EXPECT_TRUE(has_recovered) << fault.name << ": " << after.problem;
   EXPECT_LT(recovery_s, 5) << fault.name;
   EXPECT_EQ(capture.num_back, 0) << fault.name;
+  if (!options.IsSideBySide()) EXPECT_EQ(capture.num_wrong, 0) << fault.name;
 }
 
 constexpr char kFaultTable[] =
