@@ -83,8 +83,9 @@ double CovarianceFactor(const BundleProblem& problem, const BundleSelection& sel
 }
 
 void FindCovariances(const BundleProblem& problem, const BundleSelection& selection,
-                     const BundleStructure& structure, const BundleOptions& options, double factor,
+                     const BundleStructure& structure, const BundleOptions& options,
                      BundleResult& result) {
+  const double factor = result.covariance_factor;
   NormalEquations equations(problem, selection, structure, options);
   equations.Linearize({result.camera_from_world, result.points, result.correction});
   if (options.with_point_covariance) {
@@ -131,8 +132,9 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
   }
   if (options.with_point_covariance || options.with_newest_pose_covariance ||
       selection.correction_is_free) {
-    FindCovariances(problem, selection, structure, options,
-                    CovarianceFactor(problem, selection, options, freedom, squared), result);
+    result.covariance_factor =
+        CovarianceFactor(problem, selection, options, freedom, squared);
+    FindCovariances(problem, selection, structure, options, result);
   }
 }
 

@@ -89,8 +89,9 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   float variance = left.covariance[0] + left.covariance[2];
-  const float disparity = static_cast<float>(predicted.x() - predicted.z());
-  const cv::Point2f guess(left.position.x - disparity, left.position.y);
+  Eigen::Vector2d in_right(left.position.x - predicted.x() + predicted.z(), left.position.y);
+  if (!correction_.IsZero()) in_right += correction_.At(camera_, in_right);
+  const cv::Point2f guess(static_cast<float>(in_right.x()), static_cast<float>(in_right.y()));
   PatchAlignment right;
   const Rigid3 right_from_world(
       camera_from_world.rotation,
@@ -103,7 +104,7 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
     }
   }
   observation.has_right =
-      right.IsAligned() && std::abs(right.position.y - left.position.y) < options_.max_right_row_px;
+      right.IsAligned() && std::abs(right.position.y - guess.y) < options_.max_right_row_px;
   if (observation.has_right) {
     variance = 0.5f * (variance + right.covariance[0] + right.covariance[2]);
   }

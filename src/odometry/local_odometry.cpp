@@ -5,6 +5,8 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/odometry/drift_estimator.h"
 
 namespace arfm_vo {
 
@@ -30,8 +32,9 @@ class LocalOdometry::Implementation {
     options.Check();
   }
 
-  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images) {
+  OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images) {
     Stopwatch stopwatch;
+    const StereoFrame frame = Corrected(measured);
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.median_row_residual_px = MedianRowResidual(frame.points);
@@ -43,6 +46,7 @@ class LocalOdometry::Implementation {
       Continue(frame, images, update);
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
+    if (update.pose.IsTracked()) AddDrift(update);
     if (update.is_keyframe) AddKeyframe(frame, images, update);
     update.stage_ms.emplace_back("map", stopwatch.LapMs());
     return update;
@@ -52,6 +56,8 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     FinishBundle();
+    correction_ = update.stereo_correction;
+    tracker_.SetCorrection(correction_);
     // The newest keyframe that both know stays: odom_from_map there undoes the correction.
     const Keyframe* anchor = nullptr;
     Rigid3 anchor_in_map;
@@ -70,8 +76,7 @@ class LocalOdometry::Implementation {
     for (const auto& landmark : update.landmarks) {
       const auto known = map_.landmarks().find(landmark.id);
       if (known == map_.landmarks().end()) continue;
-      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world,
-                        known->second.covariance);
+      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world, known->second.covariance);
     }
   }
 
@@ -79,6 +84,7 @@ class LocalOdometry::Implementation {
     FinishBundle();
     map_.Clear();
     standstill_.Reset();
+    drift_.Clear();
     last_.reset();
     record_.reset();
   }
@@ -86,12 +92,35 @@ class LocalOdometry::Implementation {
   const LocalMap& map() const { return map_; }
 
  private:
+  struct AdjustedWindow {
+    LocalBundle bundle;
+    BundleResult result;
+    Eigen::MatrixXd information;  ///< FindPoseInformation
+  };
   struct Motion {
     double stamp_s;
     Rigid3 camera_from_world;
     std::optional<Rigid3> velocity;  ///< camera_from_camera a second ago: (rotation, translation)
     double interval_s;
   };
+
+  /// The frame with its points where they are when the right image is displaced as we know.
+  StereoFrame Corrected(StereoFrame frame) const {
+    if (correction_.IsZero()) return frame;
+    const auto is_too_far = [&](StereoPoint& point) {
+      const Eigen::Vector2d right(point.observation.z(),
+                                  point.observation.y() + point.row_residual_px);
+      const double disparity =
+          point.observation.x() - NominalRightPixel(camera_, correction_, right).x();
+      if (!(disparity > point.sigma_px)) return true;
+      point.x_in_camera =
+          camera_.Triangulate(point.observation.x(), point.observation.y(), disparity);
+      return false;
+    };
+    StereoPoints& points = frame.points;
+    points.erase(std::remove_if(points.begin(), points.end(), is_too_far), points.end());
+    return frame;
+  }
 
   static double MedianRowResidual(const StereoPoints& points) {
     if (points.empty()) return 0;
@@ -124,9 +153,12 @@ class LocalOdometry::Implementation {
       standstill_.Reset();
       return;
     }
-    map_.CountSightings(tracked.expected, tracked.observations);
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
-    if (resting) update.pose.camera_from_world = *resting;
+    if (resting) {
+      update.pose.camera_from_world = *resting;
+    } else {  // at rest something may stand before a good point for long
+      map_.CountSightings(tracked.expected, tracked.observations);
+    }
     update.is_keyframe =
         !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
                                   tracked.observations, options_.keyframes);
@@ -155,41 +187,60 @@ class LocalOdometry::Implementation {
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update) {
     const LandmarkId first_new = map_.next_landmark();
-    const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
-                                                update.observations);
-    record_ = KeyframeRecord{keyframe.id, keyframe.stamp_s, keyframe.camera_from_world,
-                             keyframe.observations, {}};
+    const Keyframe& keyframe =
+        map_.AddKeyframe(frame, images.left, update.pose.camera_from_world, update.observations);
+    record_ = KeyframeRecord{
+        keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
     for (auto landmark = map_.landmarks().lower_bound(first_new);
          landmark != map_.landmarks().end(); ++landmark) {
       record_->landmarks.push_back({landmark->second.id, landmark->second.x_in_world,
                                     landmark->second.keypoint.laplacian_sign,
                                     landmark->second.descriptor});
     }
+    drift_.Add(keyframe.id, update.covariance_from_start);
+    drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
-    LocalBundle bundle = MakeLocalBundle(camera_, map_, options_.bundle.num_keyframes);
-    pending_ = std::async(std::launch::async,
-                          [bundle = std::move(bundle), solver = options_.bundle.solver]() mutable {
-                            BundleResult result = AdjustBundle(bundle.problem, solver);
-                            return std::make_pair(std::move(bundle), std::move(result));
-                          });
+    pending_ =
+        std::async(std::launch::async, Adjust,
+                   MakeLocalBundle(camera_, correction_, map_, options_.bundle.num_keyframes),
+                   options_.bundle.solver);
+  }
+
+  static AdjustedWindow Adjust(LocalBundle bundle, const BundleOptions& solver) {
+    AdjustedWindow window{std::move(bundle), {}, {}};
+    window.result = AdjustBundle(window.bundle.problem, solver);
+    window.information = FindPoseInformation(window.bundle.problem, window.result, solver);
+    return window;
+  }
+
+  void AddDrift(OdometryUpdate& update) const {
+    update.covariance_from_start = update.pose.covariance;
+    if (map_.keyframes().empty()) return;
+    const Keyframe& newest = map_.keyframes().back();
+    update.covariance_from_start +=
+        CarryCovariance(update.pose.camera_from_world * newest.camera_from_world.Inverse(),
+                        drift_.Covariance(newest.id));
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
   /// that the result does not depend on how fast threads run.
   void FinishBundle() {
     if (!pending_.valid()) return;
-    const auto [bundle, result] = pending_.get();
-    ApplyLocalBundle(bundle, result, map_);
+    const AdjustedWindow window = pending_.get();
+    ApplyLocalBundle(window.bundle, window.result, map_);
+    drift_.Update(window.bundle.keyframes, window.bundle.problem.pose_is_fixed, window.information);
   }
 
   StereoCamera camera_;
+  StereoCorrection correction_;
   LocalOdometryOptions options_;
   FrameTracker tracker_;
   LocalMap map_;
   StandstillLock standstill_;
   std::optional<Motion> last_;
   std::optional<KeyframeRecord> record_;
-  std::future<std::pair<LocalBundle, BundleResult>> pending_;
+  DriftEstimator drift_;
+  std::future<AdjustedWindow> pending_;
 };
 
 LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options)

@@ -15,8 +15,7 @@ Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from
 
 Matrix6 DriftCovariance::At(const Rigid3& odom_from_base, const Matrix6& base_covariance) const {
   Matrix6 carried = Matrix6::Identity();
-  carried.topRightCorner<3, 3>() =
-      -Skew(odom_from_base.translation - odom_from_keyframe_.translation);
+  carried.topRightCorner<3, 3>() = -Skew(odom_from_base.translation - odom_from_start_.translation);
   Matrix6 turned = Matrix6::Zero();
   turned.topLeftCorner<3, 3>() = odom_from_base.RotationMatrix();
   turned.bottomRightCorner<3, 3>() = odom_from_base.RotationMatrix();
@@ -24,9 +23,10 @@ Matrix6 DriftCovariance::At(const Rigid3& odom_from_base, const Matrix6& base_co
          turned * base_covariance * turned.transpose();
 }
 
-void DriftCovariance::AddKeyframe(const Rigid3& odom_from_base, const Matrix6& base_covariance) {
-  covariance_ = At(odom_from_base, base_covariance);
-  odom_from_keyframe_ = odom_from_base;
+void DriftCovariance::StartWorld(const Rigid3& odom_from_base, const Matrix6& covariance,
+                                 const Matrix6& gap_covariance) {
+  covariance_ = covariance + gap_covariance;
+  odom_from_start_ = odom_from_base;
 }
 
 boost::array<double, 36> ToCovarianceMessage(const Matrix6& covariance) {

@@ -98,16 +98,14 @@ void RoverOdometry::FollowBase(const Rigid3& base_from_camera, RoverEstimate& po
     map_.StartWorld(base_.odom_from_world());
     if (!map_from_first_) map_from_first_ = map_.map_from_world();
     if (last_)
-      drift_.AddKeyframe(last_->odom_from_base,
-                         GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
+      drift_.StartWorld(last_->odom_from_base, last_->covariance,
+                        GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
   }
-  pose.covariance = drift_.At(pose.odom_from_base, base_covariance);
+  pose.covariance = drift_.At(pose.odom_from_base,
+                              BaseCovariance(pose.update.covariance_from_start, base_from_camera));
   if (!is_new_world) SetTwist(base_covariance, pose);
-  if (pose.update.is_keyframe) {
-    drift_.AddKeyframe(pose.odom_from_base, base_covariance);
-    PlaceKeyframe(base_from_camera, pose);
-  }
-  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.twist};
+  if (pose.update.is_keyframe) PlaceKeyframe(base_from_camera, pose);
+  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
 }
 
 void RoverOdometry::SetTwist(const Matrix6& base_covariance, RoverEstimate& pose) const {

@@ -152,7 +152,7 @@ std::optional<SimulatedObservation> ObservationSimulator::Observe(int id) {
     return std::nullopt;
   }
   place.last_seen = frame_;
-  return SimulatedObservation{id, place.track_id, *pixels, false};
+  return SimulatedObservation{id, place.track_id, *pixels, pixels->y(), false};
 }
 
 /// Adds noise, or makes an outlier of it: half of them a wrong partner in the right image only,
@@ -162,6 +162,7 @@ void ObservationSimulator::Disturb(SimulatedObservation& observation) {
   observation.is_outlier = RandomUnit(engine_) < options_.outlier_fraction;
   if (!observation.is_outlier) {
     for (int i = 0; i < 3; ++i) pixels[i] += options_.noise_px * DrawNormal(engine_);
+    observation.v_right += options_.noise_px * DrawNormal(engine_);
     return;
   }
   if (RandomUnit(engine_) < 0.5) {
@@ -169,6 +170,7 @@ void ObservationSimulator::Disturb(SimulatedObservation& observation) {
     pixels.y() = Draw(0, camera_.height - 1);
   }
   pixels.z() = pixels.x() - Draw(0.5, camera_.Disparity(options_.min_depth_m));
+  observation.v_right = pixels.y() + options_.noise_px * DrawNormal(engine_);
 }
 
 }  // namespace arfm_vo

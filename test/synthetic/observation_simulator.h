@@ -18,7 +18,7 @@ struct ObservationSimulatorOptions {
   int landmarks_in_view = 300;  ///< observed in each frame, outliers among them
   double min_depth_m = 4, max_depth_m = 100;
   double camera_height_m = 1.65;  ///< nothing is seen below a plane so far under the camera
-  double noise_px = 0.5;          ///< standard deviation of u_left, v, u_right
+  double noise_px = 0.5;          ///< standard deviation of each coordinate
   double outlier_fraction = 0.2;
   double mean_track_frames = 12;  ///< a track ends by chance, with equal probability in each frame
   int rest_frames = 50;           ///< after its track a landmark is not seen for so long
@@ -32,6 +32,7 @@ struct SimulatedObservation {
   int landmark_id = 0;     ///< index of ObservationSimulator::Landmark
   int track_id = 0;        ///< new each time the landmark comes back
   Eigen::Vector3d pixels;  ///< (u_left, v, u_right), noisy; of something else where an outlier
+  double v_right = 0;      ///< with noise of its own
   bool is_outlier = false;
 };
 

@@ -93,6 +93,9 @@ struct BundleResult {
   std::vector<char> point_is_used;  ///< [points]; 0: seen too little to be placed, left as it was
   double scale = 1;                 ///< measured size of the residuals in stated sigmas
 
+  /// What the inverse of a weighted normal matrix has to be multiplied with to be a covariance; 1
+  /// unless a covariance is asked for.
+  double covariance_factor = 1;
   /// Marginal covariance of the correction's coefficients, px^2; zero where they are not free.
   Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize> correction_covariance =
       Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>::Zero();

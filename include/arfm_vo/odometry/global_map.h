@@ -11,13 +11,18 @@
 namespace arfm_vo {
 
 struct GlobalMapOptions {
-  BundleOptions solver;
+  BundleOptions solver = DefaultSolver();
   int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
   int max_keyframes = 2000;  ///< the newest so many move; older ones are held where they are
   /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
   double stereo_correction_sigma_px = 1;
   double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
 
+  static BundleOptions DefaultSolver() {
+    BundleOptions options;
+    options.loss = LossKind::kCauchy;
+    return options;
+  }
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {

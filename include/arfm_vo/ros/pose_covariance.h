@@ -16,20 +16,23 @@ constexpr double kUnknownVariance = 9999;
 /// pose with the covariance that PoseEstimate has: (rotation rad, translation m), camera frame.
 Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from_camera);
 
-/// How sure the odometry is of where the base stands in odom: the uncertainty of the keyframes
-/// passed adds up, and an unsure heading makes the place unsure with the way.
+/// How sure the odometry is of where the base stands in odom, over worlds that follow one another:
+/// what was unsure when a world began stays, and an unsure heading makes the place unsure with the
+/// way.
 class DriftCovariance {
  public:
   /// Covariance (x, y, z, rotations about the axes of odom) of a pose that has `base_covariance`
-  /// against the map.
+  /// (BaseCovariance) in its world.
   Matrix6 At(const Rigid3& odom_from_base, const Matrix6& base_covariance) const;
 
-  /// The base passes a keyframe: from here on its uncertainty stays.
-  void AddKeyframe(const Rigid3& odom_from_base, const Matrix6& base_covariance);
+  /// A world begins at a pose that had `covariance` in odom, after a gap of `gap_covariance` (both
+  /// as of At).
+  void StartWorld(const Rigid3& odom_from_base, const Matrix6& covariance,
+                  const Matrix6& gap_covariance);
 
  private:
-  Rigid3 odom_from_keyframe_;
-  Matrix6 covariance_ = Matrix6::Zero();  // at the last keyframe, axes of odom
+  Rigid3 odom_from_start_;
+  Matrix6 covariance_ = Matrix6::Zero();  // where this world began, axes of odom
 };
 
 /// Row by row, as nav_msgs/Odometry holds it.

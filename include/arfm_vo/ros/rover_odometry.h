@@ -63,6 +63,7 @@ class RoverOdometry {
   struct Tracked {
     double stamp_s;
     Rigid3 odom_from_base;
+    Matrix6 covariance;
     Eigen::Matrix<double, 6, 1> twist;
   };
 

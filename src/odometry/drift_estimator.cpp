@@ -1,0 +1,112 @@
+#include "arfm_vo/odometry/drift_estimator.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// The 6 x 6 blocks of `matrix` whose rows and columns are named.
+MatrixXd TakeBlocks(const MatrixXd& matrix, const std::vector<int>& rows,
+                    const std::vector<int>& columns) {
+  MatrixXd taken(6 * rows.size(), 6 * columns.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t j = 0; j < columns.size(); ++j) {
+      taken.block<6, 6>(6 * i, 6 * j) = matrix.block<6, 6>(6 * rows[i], 6 * columns[j]);
+    }
+  }
+  return taken;
+}
+
+void PutBlocks(const MatrixXd& blocks, const std::vector<int>& rows,
+               const std::vector<int>& columns, MatrixXd& matrix) {
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t j = 0; j < columns.size(); ++j) {
+      matrix.block<6, 6>(6 * rows[i], 6 * columns[j]) = blocks.block<6, 6>(6 * i, 6 * j);
+    }
+  }
+}
+
+}  // namespace
+
+void DriftEstimator::Add(KeyframeId keyframe, const Matrix6& covariance) {
+  Require(keyframes_.empty() || keyframe > keyframes_.back(),
+          "drift: keyframe " + std::to_string(keyframe) + " is not newer than the last");
+  keyframes_.push_back(keyframe);
+  const Eigen::Index size = covariance_.rows();
+  MatrixXd larger = MatrixXd::Zero(size + 6, size + 6);
+  larger.topLeftCorner(size, size) = covariance_;
+  larger.bottomRightCorner<6, 6>() = covariance;
+  covariance_ = std::move(larger);
+}
+
+void DriftEstimator::Forget(KeyframeId oldest) {
+  const auto first = std::lower_bound(keyframes_.begin(), keyframes_.end(), oldest);
+  const Eigen::Index gone = 6 * (first - keyframes_.begin());
+  if (gone == 0) return;
+  keyframes_.erase(keyframes_.begin(), first);
+  const Eigen::Index size = covariance_.rows() - gone;
+  covariance_ = covariance_.bottomRightCorner(size, size).eval();
+}
+
+void DriftEstimator::Clear() {
+  keyframes_.clear();
+  covariance_.resize(0, 0);
+}
+
+int DriftEstimator::Find(KeyframeId keyframe) const {
+  const auto found = std::lower_bound(keyframes_.begin(), keyframes_.end(), keyframe);
+  if (found == keyframes_.end() || *found != keyframe) return -1;
+  return static_cast<int>(found - keyframes_.begin());
+}
+
+void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
+                            const std::vector<char>& is_held, const MatrixXd& information) {
+  // Rows of the information, and the same keyframes as rows of the covariance.
+  std::vector<int> free, held, free_known, held_known;
+  for (size_t i = 0; i < keyframes.size(); ++i) {
+    const int known = Find(keyframes[i]);
+    Require(known >= 0, "drift: keyframe " + std::to_string(keyframes[i]) + " is not known");
+    (is_held[i] ? held : free).push_back(static_cast<int>(i));
+    (is_held[i] ? held_known : free_known).push_back(known);
+  }
+  const Eigen::LLT<MatrixXd> factor(TakeBlocks(information, free, free));
+  if (free.empty() || factor.info() != Eigen::Success) return;
+
+  // The errors e_free = step e_held + s, with s independent of e_held and of `own` covariance.
+  const MatrixXd step = -factor.solve(TakeBlocks(information, free, held));
+  const MatrixXd own = factor.solve(MatrixXd::Identity(6 * free.size(), 6 * free.size()));
+  std::vector<int> others;
+  for (int i = 0; i < static_cast<int>(keyframes_.size()); ++i) {
+    if (std::count(free_known.begin(), free_known.end(), i) == 0) others.push_back(i);
+  }
+  const MatrixXd free_by_others = step * TakeBlocks(covariance_, held_known, others);
+  const MatrixXd free_by_free =
+      own + step * TakeBlocks(covariance_, held_known, held_known) * step.transpose();
+  PutBlocks(free_by_others, free_known, others, covariance_);
+  PutBlocks(free_by_others.transpose(), others, free_known, covariance_);
+  PutBlocks((free_by_free + free_by_free.transpose()) / 2, free_known, free_known, covariance_);
+}
+
+DriftEstimator::Matrix6 DriftEstimator::Covariance(KeyframeId keyframe) const {
+  const int i = Find(keyframe);
+  return i < 0 ? Matrix6::Zero() : Matrix6(covariance_.block<6, 6>(6 * i, 6 * i));
+}
+
+Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
+                                            const Eigen::Matrix<double, 6, 6>& covariance) {
+  const Eigen::Matrix3d rotation = b_from_a.RotationMatrix();
+  Eigen::Matrix<double, 6, 6> carried = Eigen::Matrix<double, 6, 6>::Zero();
+  carried.topLeftCorner<3, 3>() = rotation;
+  carried.bottomRightCorner<3, 3>() = rotation;
+  carried.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation) * rotation;
+  return carried * covariance * carried.transpose();
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,47 @@
+#include "arfm_vo/bundle_adjustment/pose_information.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "bundle_adjustment/bundle_scene.h"
+
+namespace arfm_vo {
+namespace {
+
+CorridorScene MakeScene() {
+  CorridorOptions corridor;
+  corridor.num_poses = 6;
+  corridor.num_points = 100;
+  corridor.outlier_share = 0.05;
+  return MakeCorridor(corridor);
+}
+
+TEST(PoseInformation, ItsInverseIsTheCovarianceOfTheNewestPose) {
+  const CorridorScene scene = MakeScene();
+  BundleOptions options;
+  options.with_newest_pose_covariance = true;
+  const BundleResult result = AdjustBundle(scene.problem, options);
+  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options);
+  const Eigen::MatrixXd covariance = information.bottomRightCorner(24, 24).inverse();  // two held
+  const auto& expected = *result.newest_pose_covariance;
+  EXPECT_LT((covariance.bottomRightCorner<6, 6>() - expected).norm(), 1e-6 * expected.norm());
+}
+
+TEST(PoseInformation, SaysNothingOfAMotionOfTheWholeWorld) {
+  const CorridorScene scene = MakeScene();
+  const BundleOptions options;
+  const BundleResult result = AdjustBundle(scene.problem, options);
+  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options);
+  // A shift of the world by d moves each camera's origin by R d.
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(information.rows());
+  for (size_t i = 0; i < result.camera_from_world.size(); ++i) {
+    shift.segment<3>(6 * i + 3) =
+        result.camera_from_world[i].rotation * Eigen::Vector3d(0.3, -0.2, 0.5);
+  }
+  EXPECT_LT((information * shift).norm(), 1e-9 * information.norm());
+  EXPECT_LT((information - information.transpose()).norm(), 1e-9 * information.norm());
+}
+
+}  // namespace
+}  // namespace arfm_vo

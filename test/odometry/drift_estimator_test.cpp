@@ -1,0 +1,96 @@
+#include "arfm_vo/odometry/drift_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace arfm_vo {
+namespace {
+
+using Matrix6 = DriftEstimator::Matrix6;
+const Matrix6 kOne = Matrix6::Identity();
+
+/// The information of a chain of poses, `weight` on each step and no lever between them.
+Eigen::MatrixXd Chain(int num_poses, double weight) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6 * num_poses, 6 * num_poses);
+  for (int i = 0; i + 1 < num_poses; ++i) {
+    information.block<6, 6>(6 * i, 6 * i) += weight * kOne;
+    information.block<6, 6>(6 * i + 6, 6 * i + 6) += weight * kOne;
+    information.block<6, 6>(6 * i, 6 * i + 6) -= weight * kOne;
+    information.block<6, 6>(6 * i + 6, 6 * i) -= weight * kOne;
+  }
+  return information;
+}
+
+TEST(DriftEstimator, EachStepOfAChainAddsItsVariance) {
+  DriftEstimator drift;
+  drift.Add(0, Matrix6::Zero());
+  for (int k = 1; k <= 5; ++k) {
+    drift.Add(k, 99 * kOne);  // until the window is adjusted
+    drift.Update({k - 1, k}, {1, 0}, Chain(2, 4));
+  }
+  EXPECT_NEAR((drift.Covariance(5) - 5 * 0.25 * kOne).norm(), 0, 1e-12);
+}
+
+TEST(DriftEstimator, AWindowOfManyIsTheSameAsItsSteps) {
+  DriftEstimator drift;
+  for (int k = 0; k < 4; ++k) drift.Add(k, k * kOne);
+  drift.Update({0, 1, 2, 3}, {1, 0, 0, 0}, Chain(4, 2));
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR((drift.Covariance(k) - k * 0.5 * kOne).norm(), 0, 1e-12);
+  }
+}
+
+TEST(DriftEstimator, HeldKeyframesThatErrAlikeDoNotHelpEachOther) {
+  DriftEstimator drift;
+  drift.Add(0, Matrix6::Zero());
+  drift.Add(1, kOne);
+  drift.Add(2, kOne);
+  drift.Update({0, 1}, {1, 0}, Chain(2, 1));     // 1: variance 1
+  drift.Update({1, 2}, {1, 0}, Chain(2, 1e12));  // 2 errs just as 1 does
+  drift.Add(3, kOne);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(18, 18);  // 3 hangs from 1 and from 2
+  information.bottomRightCorner<6, 6>() = 2 * kOne;
+  information.block<6, 6>(12, 0) = information.block<6, 6>(12, 6) = -kOne;
+  information.block<6, 6>(0, 12) = information.block<6, 6>(6, 12) = -kOne;
+  drift.Update({1, 2, 3}, {1, 1, 0}, information);
+  EXPECT_NEAR((drift.Covariance(3) - 1.5 * kOne).norm(), 0, 1e-6);
+}
+
+TEST(DriftEstimator, WhatIsForgottenLeavesTheRestAsItWas) {
+  DriftEstimator drift;
+  for (int k = 0; k < 4; ++k) drift.Add(k, k * kOne);
+  drift.Forget(2);
+  EXPECT_EQ(drift.Covariance(1), Matrix6(Matrix6::Zero()));
+  EXPECT_EQ(drift.Covariance(3), Matrix6(3 * kOne));
+  drift.Add(4, kOne);
+  EXPECT_EQ(drift.Covariance(4), kOne);
+}
+
+TEST(DriftEstimator, ChangesNothingWhereTheInformationDoesNotFixThePoses) {
+  DriftEstimator drift;
+  drift.Add(0, Matrix6::Zero());
+  drift.Add(1, kOne);
+  drift.Update({0, 1}, {1, 0}, Eigen::MatrixXd::Zero(12, 12));
+  EXPECT_EQ(drift.Covariance(1), kOne);
+}
+
+TEST(DriftEstimator, RefusesKeyframesItDoesNotKnow) {
+  DriftEstimator drift;
+  drift.Add(3, kOne);
+  EXPECT_THROW(drift.Add(3, kOne), std::invalid_argument);
+  EXPECT_THROW(drift.Update({2, 3}, {1, 0}, Chain(2, 1)), std::invalid_argument);
+}
+
+TEST(CarryCovariance, AnUnsureDirectionMakesThePlaceUnsureAtTheEndOfTheWay) {
+  Matrix6 covariance = Matrix6::Zero();
+  covariance(1, 1) = 1e-4;  // about the vertical, 0.01 rad
+  const Rigid3 b_from_a(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -10));  // 10 m ahead
+  const Matrix6 carried = CarryCovariance(b_from_a, covariance);
+  EXPECT_NEAR(carried(3, 3), 1e-2, 1e-12);  // (10 m * 0.01 rad)^2 sideways
+  EXPECT_NEAR(carried(1, 1), 1e-4, 1e-12);
+  EXPECT_NEAR(carried(5, 5), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace arfm_vo

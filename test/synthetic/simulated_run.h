@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "arfm_vo/odometry/trajectory_error.h"
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "synthetic/observation_simulator.h"
+
+namespace arfm_vo {
+
+struct SimulatedRunOptions {
+  ObservationSimulatorOptions simulator;
+  double descriptor_noise = 0.3;  ///< ObservationSimulator::Describe
+  double rate_hz = 10;
+};
+
+/// An odometry without images along a path, and how it did.
+struct SimulatedRun {
+  std::vector<Rigid3> truth, online, final;  ///< world_from_camera, from the first camera
+  std::vector<Eigen::Matrix<double, 6, 6>> covariances;  ///< of `online`, as OdometryUpdate has it
+  int num_lost = 0, num_keyframes = 0;
+  double odometry_s = 0, finish_s = 0;  ///< wall time; without the simulation
+
+  TrajectoryError OnlineError() const { return ComputeTrajectoryError(truth, online); }
+  TrajectoryError FinalError() const { return ComputeTrajectoryError(truth, final); }
+};
+
+/// Sends what `simulator` sees along `path` (world_from_camera) through `odometry`, whose options
+/// are made to do without images.
+SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>& path,
+                          const SimulatedRunOptions& options, OdometryOptions odometry);
+
+/// Normalised estimation error squared of frame `i` of the run, chi-square of 6 degrees of freedom
+/// where the covariance is honest.
+double ComputeNees(const SimulatedRun& run, size_t i);
+
+}  // namespace arfm_vo

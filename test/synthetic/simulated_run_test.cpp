@@ -1,0 +1,64 @@
+#include "synthetic/simulated_run.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "arfm_vo/pose/chi_square.h"
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{707, 707, 601.9, 183.1, 0.5372, 1226, 370};
+
+/// 0.8 m a frame, with a bend to the right that begins after 20 frames, over a slight hill.
+std::vector<Rigid3> BentPath(int num_frames) {
+  std::vector<Rigid3> path(num_frames);
+  for (int i = 1; i < num_frames; ++i) {
+    const Rigid3 step(ExpSO3({0.002, i > 20 ? 0.02 : 0, 0}), Eigen::Vector3d(0, 0, 0.8));
+    path[i] = path[i - 1] * step;
+  }
+  return path;
+}
+
+OdometryOptions OnlineOnly() {
+  OdometryOptions options;
+  options.adjust_globally = false;
+  return options;
+}
+
+TEST(SimulatedRun, WithoutNoiseThePathIsTheTruth) {
+  SimulatedRunOptions options;
+  options.simulator.noise_px = 0;
+  options.simulator.outlier_fraction = 0;
+  const SimulatedRun run = RunSimulated(kCamera, BentPath(40), options, OnlineOnly());
+  EXPECT_EQ(run.num_lost, 0);
+  EXPECT_LT(run.OnlineError().ate_rmse_m, 1e-5);
+}
+
+TEST(SimulatedRun, NoFrameIsLostAndTheDriftIsSmallWithNoiseAndOutliers) {
+  const SimulatedRun run = RunSimulated(kCamera, BentPath(60), {}, OnlineOnly());
+  EXPECT_EQ(run.num_lost, 0);
+  EXPECT_LT(run.OnlineError().brief.translation_percent, 0.5);
+}
+
+/// The covariance that odom carries is honest: the errors of many drives, each counted in its own
+/// standard deviations, spread as they should.
+TEST(SimulatedRun, NeesOfThePoseInOdomIsWithinItsBounds) {
+  constexpr int kRuns = 12, kFrames = 60;
+  SimulatedRunOptions options;
+  double at_end = 0, at_all = 0;
+  for (int i = 0; i < kRuns; ++i) {
+    options.simulator.seed = 100 + i;
+    const SimulatedRun run = RunSimulated(kCamera, BentPath(kFrames), options, OnlineOnly());
+    at_end += ComputeNees(run, kFrames - 1);
+    for (int frame = 1; frame < kFrames; ++frame) at_all += ComputeNees(run, frame) / (kFrames - 1);
+  }
+  for (const double sum : {at_end, at_all}) {
+    EXPECT_GT(sum, ChiSquareQuantile(6 * kRuns, 0.025));
+    EXPECT_LT(sum, ChiSquareQuantile(6 * kRuns, 0.975));
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo
