@@ -17,7 +17,7 @@ namespace po = boost::program_options;
 
 struct Arguments {
   std::string input, config, output;
-  bool print_config = false;
+  bool print_config = false, close_loops = false;
   PairSelection selection;
 };
 
@@ -26,6 +26,8 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
                         "options of the odometry, YAML")(
       "print-config", po::bool_switch(&arguments.print_config),
       "print all options with their values and leave")(
+      "loop-closing", po::bool_switch(&arguments.close_loops),
+      "know places again in the global adjustment (global.loops.enabled)")(
       "pairs", po::value(&arguments.selection.max_pairs)->value_name("N"),
       "stop after N pairs (counted after --stride)")(
       "stride", po::value(&arguments.selection.stride)->value_name("K"), "take every K-th pair")(
@@ -35,8 +37,11 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
 }
 
 OdometryOptions ReadOptions(const Arguments& arguments) {
-  return arguments.config.empty() ? OdometryOptions()
-                                  : ReadYamlFile<OdometryOptions>(arguments.config);
+  OdometryOptions options = arguments.config.empty()
+                                ? OdometryOptions()
+                                : ReadYamlFile<OdometryOptions>(arguments.config);
+  if (arguments.close_loops) options.global.loops.enabled = true;
+  return options;
 }
 
 void Run(const OdometryProgram& program, const Arguments& arguments) {

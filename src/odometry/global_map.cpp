@@ -4,9 +4,16 @@
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/bundle_adjustment/pose_graph.h"
 #include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
+namespace {
+
+/// How sure the motion between two keyframes is when a loop is shared out among them.
+constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
+
+}  // namespace
 
 void GlobalMapOptions::Check() const {
   solver.Check();
@@ -16,33 +23,83 @@ void GlobalMapOptions::Check() const {
           "global.stereo_correction_sigma_px must not be negative");
   Require(stereo_correction_confidence > 0 && stereo_correction_confidence < 1,
           "global.stereo_correction_confidence must be in (0, 1)");
+  loops.Check();
 }
 
 GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options)
-    : camera_(camera), options_(options) {
+    : camera_(camera), options_(options), detector_(camera, options.loops) {
   camera.Check();
   options.Check();
 }
 
 void GlobalMap::Add(const KeyframeRecord& keyframe) {
-  Require(keyframes_.empty() || keyframe.id > keyframes_.back().id,
+  Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
-  keyframes_.push_back(
+  const int newest = num_keyframes();
+  store_.keyframes.push_back(
       {keyframe.id, keyframe.camera_from_world * map_from_odom_.Inverse(), keyframe.observations});
   for (const LandmarkRecord& landmark : keyframe.landmarks) {
-    landmarks_[landmark.id].x_in_map = map_from_odom_ * landmark.x_in_world;
+    MapStore::Point& point = store_.landmarks[landmark.id];
+    point.x_in_map = map_from_odom_ * landmark.x_in_world;
+    point.first_keyframe = newest;
+    if (!options_.loops.enabled) continue;
+    point.laplacian_sign = landmark.laplacian_sign;
+    point.descriptor.assign(landmark.descriptor.begin(), landmark.descriptor.end());
   }
   for (const LandmarkObservation& observation : keyframe.observations) {
-    const auto landmark = landmarks_.find(observation.landmark);
-    if (landmark != landmarks_.end()) ++landmark->second.num_observations;
+    const auto landmark = store_.Find(observation.landmark);
+    if (landmark == store_.landmarks.end()) continue;
+    ++landmark->second.num_observations;
+    landmark->second.last_keyframe = newest;
   }
+  if (!options_.loops.enabled) return;
+  if (const auto loop = detector_.Detect(store_)) Close(*loop);
+}
+
+/// What was seen before and again becomes one landmark, the older one.
+void GlobalMap::Close(const Loop& loop) {
+  loops_.push_back(loop.constraint);
+  has_new_loops_ = true;
+  for (const auto& [first, second] : loop.same) {
+    const auto old = store_.Find(first), seen = store_.Find(second);
+    if (old->first >= seen->first) continue;
+    seen->second.same_as = old->first;
+    old->second.num_observations += seen->second.num_observations;
+    old->second.last_keyframe = seen->second.last_keyframe;
+    seen->second.num_observations = 0;
+    seen->second.descriptor.clear();
+  }
+}
+
+void GlobalMap::BendOntoLoops() {
+  std::vector<Rigid3> poses;
+  for (const MapStore::Keyframe& keyframe : store_.keyframes) {
+    poses.push_back(keyframe.camera_from_map);
+  }
+  std::vector<PoseConstraint> constraints = loops_;
+  for (int k = 0; k + 1 < num_keyframes(); ++k) {
+    PoseConstraint step{k, k + 1, poses[k + 1] * poses[k].Inverse(), {}};
+    const double sigma_m =
+        kStepSigma_m + kStepSigmaShare * step.second_from_first.translation.norm();
+    step.information.setZero();
+    step.information.diagonal().head<3>().setConstant(1 / (kStepSigma_rad * kStepSigma_rad));
+    step.information.diagonal().tail<3>().setConstant(1 / (sigma_m * sigma_m));
+    constraints.push_back(step);
+  }
+  const std::vector<Rigid3> bent = SolvePoseGraph(poses, constraints);
+  for (auto& [id, point] : store_.landmarks) {
+    const int k = point.first_keyframe;
+    point.x_in_map = bent[k].Inverse() * (poses[k] * point.x_in_map);
+  }
+  for (int k = 0; k < num_keyframes(); ++k) store_.keyframes[k].camera_from_map = bent[k];
+  has_new_loops_ = false;
 }
 
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
   problem.correction_sigma_px = options_.stereo_correction_sigma_px;
-  for (auto& [id, point] : landmarks_) {
+  for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
     if (point.num_observations < options_.min_observations) continue;
     point.row = static_cast<int>(problem.points.size());
@@ -50,11 +107,11 @@ BundleProblem GlobalMap::MakeProblem() {
   }
   const int first_moving = std::max(1, num_keyframes() - options_.max_keyframes);
   for (int k = 0; k < num_keyframes(); ++k) {
-    problem.camera_from_world.push_back(keyframes_[k].camera_from_map);
+    problem.camera_from_world.push_back(store_.keyframes[k].camera_from_map);
     problem.pose_is_fixed.push_back(k < first_moving);
-    for (const LandmarkObservation& observation : keyframes_[k].observations) {
-      const auto landmark = landmarks_.find(observation.landmark);
-      if (landmark == landmarks_.end() || landmark->second.row < 0) continue;
+    for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
+      const auto landmark = store_.Find(observation.landmark);
+      if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       problem.observations.push_back({k, landmark->second.row, observation.pixels,
                                       observation.has_right, observation.sigma_px});
     }
@@ -78,19 +135,20 @@ BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progr
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
+  const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
+  if (has_new_loops_) BendOntoLoops();
   BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
   const BundleResult result = Solve(std::move(problem), progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
 
   MapUpdate update;
-  const Rigid3 newest_from_odom = keyframes_.back().camera_from_map * map_from_odom_;
   for (int k = 0; k < num_keyframes(); ++k) {
-    keyframes_[k].camera_from_map = result.camera_from_world[k];
-    update.keyframes.push_back({keyframes_[k].id, result.camera_from_world[k]});
+    store_.keyframes[k].camera_from_map = result.camera_from_world[k];
+    update.keyframes.push_back({store_.keyframes[k].id, result.camera_from_world[k]});
   }
-  map_from_odom_ = keyframes_.back().camera_from_map.Inverse() * newest_from_odom;
-  for (auto& [id, point] : landmarks_) {
+  map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
+  for (auto& [id, point] : store_.landmarks) {
     if (point.row < 0 || !result.point_is_used[point.row]) continue;
     point.x_in_map = result.points[point.row];
     update.landmarks.push_back({id, point.x_in_map});
@@ -101,9 +159,12 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
 }
 
 void GlobalMap::Clear() {
-  keyframes_.clear();
-  landmarks_.clear();
+  store_.keyframes.clear();
+  store_.landmarks.clear();
   map_from_odom_ = Rigid3();
+  detector_.Clear();
+  loops_.clear();
+  has_new_loops_ = false;
 }
 
 }  // namespace arfm_vo

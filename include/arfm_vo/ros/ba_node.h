@@ -53,7 +53,7 @@ class BaNode {
  private:
   /// How adjusting fares; told to the diagnostics while the worker may be busy.
   struct Figures {
-    int num_keyframes = 0, num_landmarks = 0, num_adjustments = 0, num_failed = 0;
+    int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_adjustments = 0, num_failed = 0;
     uint32_t num_refused = 0;
     std::string refusal;  ///< why the newest keyframe was refused; empty where it was not
     bool is_adjusting = false;

@@ -37,6 +37,8 @@ class PlacedMap {
   int num_keyframes() const { return global_ ? global_->num_keyframes() : 0; }  ///< of this world
   int num_landmarks() const { return global_ ? global_->num_landmarks() : 0; }  ///< of this world
 
+  int num_loops() const { return global_ ? global_->num_loops() : 0; }          ///< of this world
+
   /// All keyframes' bases, of all worlds.
   std::vector<MapPose> BasePoses() const;
   /// All adjusted landmarks, of all worlds.

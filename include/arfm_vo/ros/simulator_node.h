@@ -90,7 +90,6 @@ class SimulatorNode {
   uint64_t now_ns_, pair_due_ns_;
   uint32_t num_pairs_ = 0;
   ros::Time odometry_done_, pair_stamp_;
-  ros::WallTime wall_due_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   StereoPublisher stereo_;
   ros::Publisher clock_, truth_;

@@ -1,0 +1,68 @@
+#include "arfm_vo/bundle_adjustment/pose_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace arfm_vo {
+namespace {
+
+PoseConstraint Constrain(int first, int second, const Rigid3& second_from_first) {
+  return {first, second, second_from_first, Eigen::Matrix<double, 6, 6>::Identity()};
+}
+
+/// The step of a camera that goes `metres` ahead.
+Rigid3 Ahead(double metres) {
+  return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -metres)};
+}
+
+TEST(PoseGraph, SharesALoopOutEvenly) {
+  const std::vector<Rigid3> poses{Ahead(0), Ahead(1), Ahead(2)};
+  const auto solved = SolvePoseGraph(
+      poses, {Constrain(0, 1, Ahead(1)), Constrain(1, 2, Ahead(1)), Constrain(0, 2, Ahead(2.3))});
+  EXPECT_NEAR(solved[0].translation.z(), 0, 1e-12);
+  EXPECT_NEAR(solved[1].translation.z(), -1.1, 1e-9);  // each of the three gives 0.1
+  EXPECT_NEAR(solved[2].translation.z(), -2.2, 1e-9);
+}
+
+TEST(PoseGraph, BringsARoundDriveBackToItsStart) {
+  constexpr int kPoses = 40;
+  const Rigid3 true_step(ExpSO3({0, -2 * M_PI / kPoses, 0}), Eigen::Vector3d(0, 0, -1));
+  const Rigid3 biased_step(ExpSO3({0, -2 * M_PI / kPoses + 0.01, 0}), Eigen::Vector3d(0, 0, -1.02));
+  std::vector<Rigid3> truth(1), drifted(1);
+  std::vector<PoseConstraint> constraints;
+  for (int i = 0; i < kPoses; ++i) {
+    truth.push_back(true_step * truth.back());
+    drifted.push_back(biased_step * drifted.back());
+    constraints.push_back(Constrain(i, i + 1, biased_step));
+  }
+  PoseConstraint loop = Constrain(0, kPoses, Rigid3());
+  loop.information *= 1e6;
+  constraints.push_back(loop);
+  const auto solved = SolvePoseGraph(drifted, constraints);
+  EXPECT_GT((drifted.back().translation - truth.back().translation).norm(), 1);
+  EXPECT_LT((solved.back().translation - truth.back().translation).norm(), 1e-3);
+  const auto error = [&](const std::vector<Rigid3>& poses) {
+    double sum = 0;
+    for (int i = 0; i <= kPoses; ++i) {
+      sum += (poses[i].Inverse().translation - truth[i].Inverse().translation).norm();
+    }
+    return sum;
+  };
+  EXPECT_LT(error(solved), 0.3 * error(drifted));
+}
+
+TEST(PoseGraph, LeavesPosesThatNothingTies) {
+  const std::vector<Rigid3> poses{Ahead(0), Ahead(1), Ahead(2)};
+  const auto solved = SolvePoseGraph(poses, {Constrain(0, 1, Ahead(3))});
+  EXPECT_NEAR(solved[1].translation.z(), -1, 1e-12);
+  EXPECT_NEAR(solved[2].translation.z(), -2, 1e-12);
+}
+
+TEST(PoseGraph, RefusesAConstraintOfAPoseThatIsNotThere) {
+  EXPECT_THROW(SolvePoseGraph({Ahead(0), Ahead(1)}, {Constrain(0, 2, Ahead(1))}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo
