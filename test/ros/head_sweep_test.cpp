@@ -48,7 +48,8 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
     std_msgs::Header header;
     header.stamp.fromSec(images.stamp_s);
     header.frame_id = "left_camera_optical";
-    const RoverEstimate pose = rover.Process(frontend.Process(images), scene.camera(), images, header);
+    const RoverEstimate pose =
+        rover.Process(frontend.Process(images), scene.camera(), images, header);
     drift.num_slewing += !pose.IsTried();
     if (!pose.IsTracked()) continue;
     ++drift.num_tracked;

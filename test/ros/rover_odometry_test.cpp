@@ -28,7 +28,7 @@ class RoverOdometryTest : public testing::Test {
   }
 
   /// The next pair of a base at `x_m` on its way to the wall.
-  RoverPose Step(double x_m, double pan_rad = 0, bool is_dark = false, bool has_tf = true) {
+  RoverEstimate Step(double x_m, double pan_rad = 0, bool is_dark = false, bool has_tf = true) {
     stamp_s_ += kInterval_s;
     if (has_tf) SetTransform(BaseFromCamera(pan_rad));
     const Rigid3 start_from_base(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x_m, 0, 0));
@@ -60,12 +60,12 @@ class RoverOdometryTest : public testing::Test {
 };
 
 TEST_F(RoverOdometryTest, FollowsTheBaseForward) {
-  const RoverPose first = Step(0);
+  const RoverEstimate first = Step(0);
   ASSERT_TRUE(first.IsTracked()) << first.text;
   EXPECT_LT(first.odom_from_base.translation.norm(), 1e-9);
   ASSERT_TRUE(first.keyframe);
   EXPECT_EQ(first.keyframe->world, 1u);
-  RoverPose pose;
+  RoverEstimate pose;
   for (int i = 1; i <= 10; ++i) pose = Step(0.05 * i);
   ASSERT_TRUE(pose.IsTracked()) << pose.text;
   EXPECT_LT((pose.odom_from_base.translation - Eigen::Vector3d(0.5, 0, 0)).norm(), 0.01);
@@ -77,7 +77,7 @@ TEST_F(RoverOdometryTest, FollowsTheBaseForward) {
 
 TEST_F(RoverOdometryTest, APanningHeadDoesNotMoveAParkedBase) {
   for (int i = 0; i <= 15; ++i) {
-    const RoverPose pose = Step(0, 2 * i * kDegree);
+    const RoverEstimate pose = Step(0, 2 * i * kDegree);
     ASSERT_TRUE(pose.IsTracked()) << i << ": " << pose.text;
     EXPECT_LT(pose.odom_from_base.translation.norm(), 0.01) << i;
     EXPECT_LT(pose.odom_from_base.Angle(), 0.3 * kDegree) << i;
@@ -85,11 +85,11 @@ TEST_F(RoverOdometryTest, APanningHeadDoesNotMoveAParkedBase) {
 }
 
 TEST_F(RoverOdometryTest, WithoutTransformThereIsNoPose) {
-  const RoverPose before = Step(0, 0, false, false);
+  const RoverEstimate before = Step(0, 0, false, false);
   EXPECT_EQ(before.state, OdometryStatus::NO_TRANSFORM);
   EXPECT_THAT(before.text, testing::HasSubstr("base_link"));
   EXPECT_TRUE(Step(0).IsTracked());
-  const RoverPose stale = Step(0.05, 0, false, false);
+  const RoverEstimate stale = Step(0.05, 0, false, false);
   EXPECT_EQ(stale.state, OdometryStatus::NO_TRANSFORM);
   EXPECT_EQ(stale.covariance(0, 0), kUnknownVariance);
   EXPECT_TRUE(Step(0.1).IsTracked());
@@ -100,12 +100,12 @@ TEST_F(RoverOdometryTest, IsLostInTheDarkAndFindsItselfInTheSameWorld) {
   Step(0);
   Step(0.05);
   for (int i = 0; i < 3; ++i) {
-    const RoverPose lost = Step(0.05, 0, true);
+    const RoverEstimate lost = Step(0.05, 0, true);
     EXPECT_FALSE(lost.IsTracked());
     EXPECT_EQ(lost.covariance(3, 3), kUnknownVariance);
     EXPECT_NEAR(lost.odom_from_base.translation.x(), 0.05, 0.01);  // where it was
   }
-  const RoverPose found = Step(0.2);
+  const RoverEstimate found = Step(0.2);
   ASSERT_TRUE(found.IsTracked()) << found.text;
   EXPECT_EQ(found.world, 1u);
   EXPECT_NEAR(found.odom_from_base.translation.x(), 0.2, 0.01);
@@ -116,7 +116,7 @@ TEST_F(RoverOdometryTest, StartsANewWorldWhereItStandsWhenItWasLostTooLong) {
   Step(0.05);
   const double before = Step(0.1).covariance(0, 0);
   for (int i = 0; i < 7; ++i) Step(0.1, 0, true);  // 0.7 s
-  const RoverPose found = Step(0.2);
+  const RoverEstimate found = Step(0.2);
   ASSERT_TRUE(found.IsTracked()) << found.text;
   EXPECT_EQ(found.world, 2u);
   EXPECT_NEAR(found.odom_from_base.translation.x(), 0.1, 0.01);
@@ -125,7 +125,7 @@ TEST_F(RoverOdometryTest, StartsANewWorldWhereItStandsWhenItWasLostTooLong) {
 }
 
 TEST_F(RoverOdometryTest, AMapUpdateMovesTheTrajectoryAndNotThePose) {
-  const RoverPose first = Step(0);
+  const RoverEstimate first = Step(0);
   Step(0.1);
   MapUpdate update;
   const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));  // 1 m ahead
