@@ -177,7 +177,7 @@ TEST_F(VcanDriveTest, TheButtonIsObeyedWithin200MillisecondsUnderAFlood) {
   StartDriving();
   ASSERT_TRUE(RunsWell("cangen vcan0 -g 1 -n 3000 -I 3FF -L 8 > /dev/null &"));
   Run(0.5);
-  ASSERT_GT(driver_->pilot().Status().motion.forward_mps, 0.09);
+  ASSERT_GT(driver_->pilot().Status().motion.forward_mps, 0.09) << ToString(Reason());
   const double pressed_s = Now();
   chassis_->PressEmergencyStop(true);
   stopped_s_ = -1;
