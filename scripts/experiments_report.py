@@ -574,8 +574,8 @@ def write_methods(matching, docs, claims):
 Scale and rotation (boat), viewpoint (graf), light (leuven), blur (bikes), the road, and rendered
 terrain with little texture and a low sun. The same matcher for all (cv::BFMatcher both ways, each
 other's nearest, T {RATIO}), at most 1000 points an image; SURF, SIFT, ORB and AKAZE keep their strongest
-points, `SURF spread` (our default for odometry) spreads them over the image, `SURF as published` is
-without what we changed. Sums over the pairs of a set; ms: finding and describing, one image.
+points. `SURF` has two octaves; `SURF spread` is our default for odometry, three octaves with the points
+spread over the image; `SURF as published` is without what we changed. Sums over the pairs of a set; ms: finding and describing, one image.
 
 """ + table(["set", "method", "matches", "right", "share, %", "ms"], rows) + f"""
 

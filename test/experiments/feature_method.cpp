@@ -57,6 +57,7 @@ SurfOptions StrongestSurf(int num_points) {
   SurfOptions options;
   options.detector.target_keypoints = num_points;
   options.detector.bucket_px = 0;
+  options.detector.octaves = 2;
   return options;
 }
 

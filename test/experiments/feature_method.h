@@ -25,7 +25,8 @@ struct FeatureMethod {
 
 DescribedPoints Describe(const Features& features);
 
-/// SURF that keeps the strongest points wherever they are, as cv::SIFT and cv::ORB do.
+/// SURF that keeps the strongest points wherever they are, as cv::SIFT and cv::ORB do, and leaves
+/// out the largest blobs, whose places are the least certain.
 SurfOptions StrongestSurf(int num_points);
 /// As published (Bay 2008): not smoothed, octaves apart, regions side by side.
 SurfOptions PublishedSurf(int num_points);
