@@ -62,10 +62,9 @@ void BundleProblem::Check() const {
   Require(!observations.empty() || !constraints.empty(), "bundle: there is no observation");
   Require(std::any_of(pose_is_fixed.begin(), pose_is_fixed.end(), [](char flag) { return flag; }),
           "bundle: no pose is fixed, so the gauge is free");
-  Require(correction.rotation.allFinite() && correction_mean_rad.allFinite(),
-          "bundle: the stereo correction is not finite");
-  Require(correction_sigma_rad.allFinite() && correction_sigma_rad.minCoeff() >= 0,
-          "bundle: correction_sigma_rad must not be negative");
+  Require(correction.coefficients_px.allFinite(), "bundle: the stereo correction is not finite");
+  Require(std::isfinite(correction_sigma_px) && correction_sigma_px >= 0,
+          "bundle: correction_sigma_px must not be negative");
 }
 
 }  // namespace arfm_vo

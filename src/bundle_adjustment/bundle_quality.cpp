@@ -15,7 +15,7 @@ constexpr double kMinFreedom = 20;
 
 /// The squared norm of each residual at the result, in stated sigmas.
 std::vector<double> SquaredErrors(const BundleProblem& problem, const BundleResult& result) {
-  const ReprojectionModel model(problem.camera, result.correction);
+  const ReprojectionModel model(problem.camera, result.correction, false);
   std::vector<Eigen::Matrix3d> rotations;
   for (const Rigid3& pose : result.camera_from_world) rotations.push_back(pose.RotationMatrix());
   std::vector<double> squared;
@@ -96,21 +96,20 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
     }
   }
   const bool with_pose = options.with_newest_pose_covariance && structure.num_free_poses() > 0;
-  if (!selection.AnyCorrectionIsFree() && !with_pose) return;
+  const int num_coefficients = selection.num_free_coefficients();
+  if (num_coefficients == 0 && !with_pose) return;
   BundleStep step;
   if (!equations.Solve(0, step)) return;
   const int size = equations.reduced_size();
   if (with_pose) {
-    const Matrix6d block = equations.InverseColumns(size - 9, 6).middleRows<6>(size - 9);
+    const int first = size - num_coefficients - 6;
+    const Matrix6d block = equations.InverseColumns(first, 6).middleRows<6>(first);
     result.newest_pose_covariance = factor * (block + block.transpose()) / 2;
   }
-  const Eigen::Matrix3d corner = equations.InverseColumns(size - 3, 3).bottomRows<3>();
+  if (num_coefficients == 0) return;
+  const CornerMatrix corner = equations.InverseColumns(size - num_coefficients, num_coefficients)
+                                  .bottomRows(num_coefficients);
   result.correction_covariance = factor * (corner + corner.transpose()) / 2;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (selection.correction_is_free[axis]) continue;
-    result.correction_covariance.row(axis).setZero();
-    result.correction_covariance.col(axis).setZero();
-  }
 }
 
 }  // namespace
@@ -132,7 +131,7 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
         selection.point_is_used[observation.point] && squared[i] <= bounds[observation.has_right];
   }
   if (options.with_point_covariance || options.with_newest_pose_covariance ||
-      selection.AnyCorrectionIsFree()) {
+      selection.correction_is_free) {
     result.covariance_factor =
         CovarianceFactor(problem, selection, options, freedom, squared);
     FindCovariances(problem, selection, structure, options, result);

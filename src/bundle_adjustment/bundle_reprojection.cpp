@@ -31,16 +31,21 @@ Eigen::Matrix<double, 4, 3> ReprojectionTerm::ByPoint(const Eigen::Matrix3d& rot
   return by_x * rotation;
 }
 
-Eigen::Matrix<double, 4, 3> ReprojectionTerm::ByCorrection() const {
-  Eigen::Matrix<double, 4, 3> by_correction;
-  by_correction << Eigen::Matrix<double, 2, 3>::Zero(), right_by_correction;
+Eigen::Matrix<double, 4, StereoCorrection::kSize> ReprojectionTerm::ByCorrection() const {
+  constexpr int kNumTerms = ImageBasis::kNumTerms;
+  Eigen::Matrix<double, 4, StereoCorrection::kSize> by_correction;
+  by_correction.setZero();
+  by_correction.row(2).head<kNumTerms>() = right_by_coefficients;
+  by_correction.row(3).tail<kNumTerms>() = right_by_coefficients;
   return by_correction;
 }
 
-ReprojectionModel::ReprojectionModel(const StereoCamera& camera, const StereoCorrection& correction)
+ReprojectionModel::ReprojectionModel(const StereoCamera& camera, const StereoCorrection& correction,
+                                     bool with_correction)
     : camera_(camera),
-      right_from_left_(ExpSO3(correction.rotation).toRotationMatrix()),
-      left_jacobian_(LeftJacobianSO3(correction.rotation)) {}
+      correction_(correction),
+      is_rectified_(correction.IsZero()),
+      with_correction_(with_correction) {}
 
 bool ReprojectionModel::Evaluate(const BundleObservation& observation,
                                  const Eigen::Matrix3d& rotation,
@@ -50,13 +55,12 @@ bool ReprojectionModel::Evaluate(const BundleObservation& observation,
   residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(x.z() > kMinDepth)) return false;
   const double inverse_sigma = 1 / observation.sigma_px;
-  if (observation.has_right) {
-    const Eigen::Vector3d x_right =
-        right_from_left_ * (x - Eigen::Vector3d(camera_.baseline_m, 0, 0));
-    if (!(x_right.z() > kMinDepth)) return false;
-    residual.tail<2>() = inverse_sigma * (camera_.Project(x_right) - observation.pixels.tail<2>());
-  }
-  residual.head<2>() = inverse_sigma * (camera_.Project(x) - observation.pixels.head<2>());
+  const Eigen::Vector3d rectified = camera_.ProjectStereo(x);
+  residual.head<2>() = inverse_sigma * (rectified.head<2>() - observation.pixels.head<2>());
+  if (!observation.has_right) return true;
+  Eigen::Vector2d right(rectified.z(), rectified.y());
+  if (!is_rectified_) right += correction_.At(camera_, right);
+  residual.tail<2>() = inverse_sigma * (right - observation.pixels.tail<2>());
   return true;
 }
 
@@ -66,13 +70,9 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
                                   ReprojectionTerm& term) const {
   term.x = rotation * point + translation;
   term.by_x.setZero();
-  term.right_by_correction.setZero();
+  term.right_by_coefficients.setZero();
   term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(term.x.z() > kMinDepth)) return false;
-  const Eigen::Vector3d x_right =
-      right_from_left_ * (term.x - Eigen::Vector3d(camera_.baseline_m, 0, 0));
-  if (observation.has_right && !(x_right.z() > kMinDepth)) return false;
-
   const double fx = camera_.fx / observation.sigma_px, fy = camera_.fy / observation.sigma_px;
   const double inverse_z = 1 / term.x.z();
   const double x_z = term.x.x() * inverse_z, y_z = term.x.y() * inverse_z;
@@ -83,19 +83,21 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
       0, fy * inverse_z, -fy * inverse_z * y_z;
   if (!observation.has_right) return true;
 
-  const double inverse_zr = 1 / x_right.z();
-  const double xr_z = x_right.x() * inverse_zr, yr_z = x_right.y() * inverse_zr;
+  const double xr_z = x_z - camera_.baseline_m * inverse_z;
   term.residual[2] = fx * xr_z - (pixels[2] - camera_.cx) / observation.sigma_px;
-  term.residual[3] = fy * yr_z - (pixels[3] - camera_.cy) / observation.sigma_px;
-  Eigen::Matrix<double, 2, 3> by_x_right;
-  by_x_right << fx * inverse_zr, 0, -fx * inverse_zr * xr_z,  //
-      0, fy * inverse_zr, -fy * inverse_zr * yr_z;
-  term.by_x.bottomRows<2>().noalias() = by_x_right * right_from_left_;
-  // The derivative by a turn d of x_right is -by_x_right [x_right]x d.
-  Eigen::Matrix<double, 2, 3> by_turn;
-  by_turn << -fx * xr_z * yr_z, fx * (1 + xr_z * xr_z), -fx * yr_z,  //
-      -fy * (1 + yr_z * yr_z), fy * xr_z * yr_z, fy * xr_z;
-  term.right_by_correction.noalias() = by_turn * left_jacobian_;
+  term.residual[3] = fy * y_z - (pixels[3] - camera_.cy) / observation.sigma_px;
+  term.by_x.row(2) << fx * inverse_z, 0, -fx * inverse_z * xr_z;
+  term.by_x.row(3) = term.by_x.row(1);
+  if (is_rectified_ && !with_correction_) return true;
+
+  const ImageBasis basis(camera_, {camera_.fx * xr_z + camera_.cx, camera_.fy * y_z + camera_.cy});
+  const Eigen::Map<const Eigen::Matrix<double, ImageBasis::kNumTerms, 2>> coefficients(
+      correction_.coefficients_px.data());
+  const Eigen::Vector2d displacement = coefficients.transpose() * basis.values;
+  const Eigen::Matrix2d by_pixel = coefficients.transpose() * basis.by_pixel;
+  term.residual.tail<2>() += displacement / observation.sigma_px;
+  term.by_x.bottomRows<2>() += by_pixel * term.by_x.bottomRows<2>().eval();
+  term.right_by_coefficients = basis.values / observation.sigma_px;
   return true;
 }
 

@@ -24,7 +24,7 @@ class DisjointSets {
 };
 
 std::vector<char> FindVisible(const BundleProblem& problem) {
-  const ReprojectionModel model(problem.camera, problem.correction);
+  const ReprojectionModel model(problem.camera, problem.correction, false);
   std::vector<char> is_visible;
   is_visible.reserve(problem.observations.size());
   std::vector<Eigen::Matrix3d> rotations;
@@ -84,9 +84,7 @@ BundleSelection::BundleSelection(const BundleProblem& problem)
     observation_is_used[i] &= point_is_used[problem.observations[i].point];
   }
   pose_is_free = FindFreePoses(problem, *this);
-  for (int axis = 0; axis < 3; ++axis) {
-    correction_is_free[axis] = problem.correction_sigma_rad[axis] > 0;
-  }
+  correction_is_free = problem.correction_sigma_px > 0;
 }
 
 }  // namespace arfm_vo

@@ -11,12 +11,10 @@ struct BundleSelection {
   std::vector<char> observation_is_used;  ///< its point is used and in front of the camera
   std::vector<char> point_is_used;        ///< seen in stereo, or by two poses
   std::vector<char> pose_is_free;         ///< not fixed, and tied to a fixed pose
-  bool correction_is_free[3];             ///< the axes with a prior that leaves them free
+  bool correction_is_free;                ///< has a prior that leaves it so
 
   explicit BundleSelection(const BundleProblem& problem);
-  bool AnyCorrectionIsFree() const {
-    return correction_is_free[0] || correction_is_free[1] || correction_is_free[2];
-  }
+  int num_free_coefficients() const { return correction_is_free ? StereoCorrection::kSize : 0; }
 };
 
 }  // namespace arfm_vo

@@ -15,6 +15,8 @@ namespace {
 // six-vector of BoxPlus in the first six of the seven columns, so that the derivative of Plus is
 // (I, 0)^T and no product is spent on it.
 constexpr int kPoseSize = 7;
+constexpr int kMaxCoefficients = StereoCorrection::kSize;
+using Coefficients = StereoCorrection::Coefficients;
 using PoseArray = std::array<double, kPoseSize>;
 template <int N>
 using RowMajor = Eigen::Matrix<double, N, kPoseSize, Eigen::RowMajor>;
@@ -66,16 +68,16 @@ class PoseManifold : public ceres::LocalParameterization {
 
 /// ReprojectionTerm, N = 4 rows, or 2 without a right pixel. Parameters: pose, point, correction.
 template <int N>
-class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, 3> {
+class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, kMaxCoefficients> {
  public:
-  ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation,
-                   const BundleSelection& selection)
-      : camera_(camera), observation_(observation), selection_(selection) {}
+  ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation)
+      : camera_(camera), observation_(observation) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Rigid3 pose = PoseOf(parameters[0]);
-    const ReprojectionModel model(camera_, {Eigen::Vector3d(parameters[2])});
+    const bool with_correction = jacobians != nullptr && jacobians[2] != nullptr;
+    const ReprojectionModel model(camera_, {Coefficients(parameters[2])}, with_correction);
     const Eigen::Vector3d point(parameters[1]);
     ReprojectionTerm term;
     if (jacobians == nullptr) {
@@ -100,17 +102,13 @@ class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, 3> {
       Eigen::Map<Matrix3>(jacobians[1] + 0) = term.ByPoint(rotation).template topRows<N>();
     }
     if (jacobians[2] != nullptr) {
-      Eigen::Map<Matrix3> by_correction(jacobians[2]);
-      by_correction = term.ByCorrection().template topRows<N>();
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!selection_.correction_is_free[axis]) by_correction.col(axis).setZero();
-      }
+      Eigen::Map<Eigen::Matrix<double, N, kMaxCoefficients, Eigen::RowMajor>>(jacobians[2] + 0) =
+          term.ByCorrection().template topRows<N>();
     }
   }
 
   const StereoCamera& camera_;
   const BundleObservation& observation_;
-  const BundleSelection& selection_;
 };
 
 /// sqrt(Omega) e of a PoseConstraint. Parameters: first pose, second pose.
@@ -145,31 +143,23 @@ class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> 
   const Matrix6d root_;
 };
 
-/// (rho - mean) / sigma; an axis that stays where it starts is tied to its start instead, which
-/// keeps the equations regular.
-class CorrectionPriorCost : public ceres::SizedCostFunction<3, 3> {
+/// k / sigma of the correction's coefficients k.
+class CorrectionPriorCost : public ceres::SizedCostFunction<kMaxCoefficients, kMaxCoefficients> {
  public:
-  CorrectionPriorCost(const BundleProblem& problem, const BundleSelection& selection) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool is_free = selection.correction_is_free[axis];
-      mean_[axis] = is_free ? problem.correction_mean_rad[axis] : problem.correction.rotation[axis];
-      sigma_[axis] = is_free ? problem.correction_sigma_rad[axis] : 1;
-    }
-  }
+  explicit CorrectionPriorCost(double sigma) : inverse_sigma_(1 / sigma) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    for (int axis = 0; axis < 3; ++axis) {
-      residuals[axis] = (parameters[0][axis] - mean_[axis]) / sigma_[axis];
-    }
+    for (int i = 0; i < kMaxCoefficients; ++i) residuals[i] = inverse_sigma_ * parameters[0][i];
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix3d>(jacobians[0] + 0) = sigma_.cwiseInverse().asDiagonal();
+      Eigen::Map<Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients>>(jacobians[0] + 0) =
+          inverse_sigma_ * Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients>::Identity();
     }
     return true;
   }
 
  private:
-  Eigen::Vector3d mean_, sigma_;
+  const double inverse_sigma_;
 };
 
 class CeresLoss : public ceres::LossFunction {
@@ -209,7 +199,7 @@ class CeresBundle {
         options_(options),
         poses_(problem.camera_from_world.size()),
         points_(problem.points),
-        correction_(problem.correction.rotation),
+        correction_(problem.correction.coefficients_px),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()),
         ceres_problem_(ProblemOptions()) {
     for (size_t i = 0; i < poses_.size(); ++i) {
@@ -269,9 +259,9 @@ class CeresBundle {
       const BundleObservation& observation = problem_.observations[i];
       ceres::CostFunction* cost;
       if (observation.has_right) {
-        cost = new ReprojectionCost<4>(problem_.camera, observation, selection_);
+        cost = new ReprojectionCost<4>(problem_.camera, observation);
       } else {
-        cost = new ReprojectionCost<2>(problem_.camera, observation, selection_);
+        cost = new ReprojectionCost<2>(problem_.camera, observation);
       }
       CeresLoss* const loss = observation.has_right ? &stereo_loss_ : &mono_loss_;
       ceres_problem_.AddResidualBlock(cost, is_robust ? loss : nullptr,
@@ -289,13 +279,14 @@ class CeresBundle {
   }
 
   void AddPrior() {
-    ceres_problem_.AddResidualBlock(new CorrectionPriorCost(problem_, selection_), nullptr,
-                                    correction_.data());
-    if (!selection_.AnyCorrectionIsFree()) {
+    if (!selection_.correction_is_free) {
+      ceres_problem_.AddParameterBlock(correction_.data(), kMaxCoefficients);
       ceres_problem_.SetParameterBlockConstant(correction_.data());
-    } else {
-      ordering_->AddElementToGroup(correction_.data(), 1);
+      return;
     }
+    ceres_problem_.AddResidualBlock(new CorrectionPriorCost(problem_.correction_sigma_px), nullptr,
+                                    correction_.data());
+    ordering_->AddElementToGroup(correction_.data(), 1);
   }
 
   void SetConstants() {
@@ -323,7 +314,7 @@ class CeresBundle {
     result.camera_from_world.reserve(poses_.size());
     for (const PoseArray& pose : poses_) result.camera_from_world.push_back(PoseOf(pose.data()));
     result.points = points_;
-    result.correction.rotation = correction_;
+    result.correction.coefficients_px = correction_;
     result.num_iterations = static_cast<int>(summary.iterations.size()) - 1;
     result.initial_cost = 2 * summary.initial_cost;
     result.final_cost = 2 * summary.final_cost;
@@ -348,7 +339,7 @@ class CeresBundle {
   const BundleOptions& options_;
   std::vector<PoseArray> poses_;
   std::vector<Eigen::Vector3d> points_;
-  Eigen::Vector3d correction_;
+  Coefficients correction_;
   CeresLoss mono_loss_{RobustLoss(options_.loss, options_.loss_threshold_sigma, 2)};
   CeresLoss stereo_loss_{RobustLoss(options_.loss, options_.loss_threshold_sigma, 4)};
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;

@@ -36,7 +36,8 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       losses_{RobustLoss(options.loss, options.loss_threshold_sigma, 2),
               RobustLoss(options.loss, options.loss_threshold_sigma, 4)},
       num_threads_(options.num_threads),
-      solver_(structure),
+      num_coefficients_(selection.num_free_coefficients()),
+      solver_(structure, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
       point_borders_(structure.tracks.size()),
@@ -68,7 +69,7 @@ double NormalEquations::Linearize(const BundleState& state) {
   rotations_.clear();
   for (const Rigid3& pose : state.camera_from_world) rotations_.push_back(pose.RotationMatrix());
   ForEachPiece([&](Piece& piece) { LinearizePiece(state, piece); });
-  held_.SetZero(structure_);
+  held_.SetZero(structure_, num_coefficients_);
   double cost = 0;
   for (const Piece& piece : pieces_) {
     held_ += piece.sum;
@@ -78,12 +79,12 @@ double NormalEquations::Linearize(const BundleState& state) {
 }
 
 void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
-  const ReprojectionModel model(problem_.camera, state.correction);
-  piece.sum.SetZero(structure_);
+  const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
+  piece.sum.SetZero(structure_, num_coefficients_);
   piece.cost = 0;
   for (int track = piece.first_track; track < piece.last_track; ++track) {
     point_blocks_[track].setZero();
-    point_borders_[track].setZero();
+    point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       LinearizeSighting(model, state, track, i, piece);
@@ -125,17 +126,22 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
       sighting_blocks_[index].topRows<3>() += CrossColumns(term.x, m_r);
       sighting_blocks_[index].bottomRows<3>() += m_r;
     }
-    if (!selection_.AnyCorrectionIsFree() || !observation.has_right) continue;
-    const Eigen::Matrix3d by_x_by_correction =
-        weighted.bottomRows<2>().transpose() * term.right_by_correction;
-    point_borders_[track].noalias() += rotation.transpose() * by_x_by_correction;
-    piece.sum.corner.noalias() +=
-        weight * term.right_by_correction.transpose() * term.right_by_correction;
-    piece.sum.corner_right.noalias() -=
-        weight * term.right_by_correction.transpose() * term.residual.tail<2>();
-    if (free_pose != BundleStructure::kFixed) {
-      piece.sum.border[free_pose].topRows<3>() += CrossColumns(term.x, by_x_by_correction);
-      piece.sum.border[free_pose].bottomRows<3>() += by_x_by_correction;
+    if (num_coefficients_ == 0 || !observation.has_right) continue;
+    constexpr int kNumTerms = ImageBasis::kNumTerms;
+    const auto& basis = term.right_by_coefficients;
+    const Eigen::Matrix<double, kNumTerms, kNumTerms> corner = weight * basis * basis.transpose();
+    for (const int k : {0, 1}) {  // the coefficients of u, which move u alone, and those of v
+      const Eigen::Vector3d by_x = weighted.row(2 + k);
+      point_borders_[track].middleCols<kNumTerms>(k * kNumTerms).noalias() +=
+          (rotation.transpose() * by_x) * basis.transpose();
+      piece.sum.corner.block<kNumTerms, kNumTerms>(k * kNumTerms, k * kNumTerms) += corner;
+      piece.sum.corner_right.segment<kNumTerms>(k * kNumTerms) -=
+          weight * term.residual[2 + k] * basis;
+      if (free_pose == BundleStructure::kFixed) continue;
+      Vector6d by_pose;
+      by_pose << term.x.cross(by_x), by_x;
+      piece.sum.border[free_pose].middleCols<kNumTerms>(k * kNumTerms).noalias() +=
+          by_pose * basis.transpose();
     }
   }
 }
@@ -165,25 +171,11 @@ double NormalEquations::AddConstraints(const BundleState& state) {
 }
 
 double NormalEquations::AddPrior(const BundleState& state) {
-  double cost = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (selection_.correction_is_free[axis]) {
-      const double sigma = problem_.correction_sigma_rad[axis];
-      const double error =
-          (state.correction.rotation[axis] - problem_.correction_mean_rad[axis]) / sigma;
-      cost += error * error;
-      held_.corner(axis, axis) += 1 / (sigma * sigma);
-      held_.corner_right[axis] -= error / sigma;
-      continue;
-    }
-    for (Matrix63d& border : held_.border) border.col(axis).setZero();
-    for (Eigen::Matrix3d& border : point_borders_) border.col(axis).setZero();
-    held_.corner.row(axis).setZero();
-    held_.corner.col(axis).setZero();
-    held_.corner(axis, axis) = 1;
-    held_.corner_right[axis] = 0;
-  }
-  return cost;
+  if (num_coefficients_ == 0) return 0;
+  const double information = 1 / (problem_.correction_sigma_px * problem_.correction_sigma_px);
+  held_.corner.diagonal().array() += information;
+  held_.corner_right -= information * state.correction.coefficients_px;
+  return information * state.correction.coefficients_px.squaredNorm();
 }
 
 bool NormalEquations::Solve(double damping, BundleStep& step) {
@@ -209,8 +201,8 @@ void NormalEquations::Damp(double damping) {
 }
 
 void NormalEquations::EliminatePiece(double damping, Piece& piece) {
-  piece.sum.SetZero(structure_);
-  const bool with_correction = selection_.AnyCorrectionIsFree();
+  piece.sum.SetZero(structure_, num_coefficients_);
+  const bool with_correction = num_coefficients_ > 0;
   for (int track = piece.first_track; track < piece.last_track; ++track) {
     Eigen::Matrix3d damped = point_blocks_[track];
     for (double& value : damped.diagonal()) value = DampedDiagonal(value, damping);
@@ -222,7 +214,7 @@ void NormalEquations::EliminatePiece(double damping, Piece& piece) {
       const int row = structure_.sightings[i].free_pose;
       if (row == BundleStructure::kFixed) continue;
       piece.sum.right[row].noalias() += sighting_blocks_[i] * inverse_right;
-      const Matrix63d product = sighting_blocks_[i] * inverse;
+      const Eigen::Matrix<double, 6, 3> product = sighting_blocks_[i] * inverse;
       int block = structure_.row_begin[row];
       for (int j = i; j < last; ++j) {
         const int column = structure_.sightings[j].free_pose;
@@ -233,15 +225,15 @@ void NormalEquations::EliminatePiece(double damping, Piece& piece) {
       if (with_correction) piece.sum.border[row].noalias() += product * point_borders_[track];
     }
     if (!with_correction) continue;
-    const Eigen::Matrix3d border = point_borders_[track].transpose();
-    piece.sum.corner.noalias() += border * inverse * point_borders_[track];
-    piece.sum.corner_right.noalias() += border * inverse_right;
+    const BorderMatrix<3> product = inverse * point_borders_[track];
+    piece.sum.corner.noalias() += point_borders_[track].transpose() * product;
+    piece.sum.corner_right.noalias() += point_borders_[track].transpose() * inverse_right;
   }
 }
 
 void NormalEquations::FindPointSteps(BundleStep& step) const {
   step.points.resize(structure_.tracks.size());
-  const Eigen::Vector3d correction = step.reduced.tail<3>();
+  const CornerVector correction = step.reduced.tail(num_coefficients_);
   for (size_t track = 0; track < structure_.tracks.size(); ++track) {
     Eigen::Vector3d right = point_rights_[track] - point_borders_[track] * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
@@ -266,7 +258,7 @@ void NormalEquations::MeasureStep(double damping, BundleStep& step) const {
     add(step.reduced.segment<6>(6 * i), held_.right[i],
         held_.blocks[structure_.row_begin[i]].diagonal());
   }
-  add(step.reduced.tail<3>(), held_.corner_right, held_.corner.diagonal());
+  add(step.reduced.tail(num_coefficients_), held_.corner_right, held_.corner.diagonal());
   for (size_t track = 0; track < step.points.size(); ++track) {
     add(step.points[track], point_rights_[track], point_blocks_[track].diagonal());
   }
@@ -297,7 +289,9 @@ void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
                                     old[host.pose].rotation * step.points[track];
     point = state.camera_from_world[host.pose].Inverse() * moved_x;
   }
-  state.correction.rotation += step.reduced.tail<3>();
+  if (num_coefficients_ > 0) {
+    state.correction.coefficients_px += step.reduced.tail<kMaxCoefficients>();
+  }
 }
 
 Eigen::MatrixXd NormalEquations::InverseColumns(int first, int count) const {

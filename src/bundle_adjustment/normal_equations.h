@@ -17,7 +17,7 @@ struct BundleState {
 
 /// The step of all unknowns, and what the linear model promises of it.
 struct BundleStep {
-  Eigen::VectorXd reduced;              ///< six a free pose, three of the correction
+  Eigen::VectorXd reduced;              ///< six a free pose, then the correction's
   std::vector<Eigen::Vector3d> points;  ///< [tracks]
   double expected_decrease = 0;         ///< of the cost
 };
@@ -66,16 +66,17 @@ class NormalEquations {
   const BundleStructure& structure_;
   const RobustLoss losses_[2];  ///< without and with a right pixel
   const int num_threads_;
+  const int num_coefficients_;  ///< of the correction that are free
   ReducedSolver solver_;
   std::vector<Piece> pieces_;
-  std::vector<Eigen::Matrix3d> rotations_;       ///< [poses]
-  ReducedSystem held_;                           ///< equations with the points held
-  ReducedSystem reduced_;                        ///< with the points eliminated
-  std::vector<Matrix63d> sighting_blocks_;       ///< poses by points
-  std::vector<Eigen::Matrix3d> point_blocks_;    ///< points by points
-  std::vector<Eigen::Matrix3d> point_borders_;   ///< points by correction
-  std::vector<Eigen::Vector3d> point_rights_;    ///< of b
-  std::vector<Eigen::Matrix3d> point_inverses_;  ///< of the damped point blocks
+  std::vector<Eigen::Matrix3d> rotations_;                    ///< [poses]
+  ReducedSystem held_;                                        ///< equations with the points held
+  ReducedSystem reduced_;                                     ///< with the points eliminated
+  std::vector<Eigen::Matrix<double, 6, 3>> sighting_blocks_;  ///< poses by points
+  std::vector<Eigen::Matrix3d> point_blocks_;                 ///< points by points
+  std::vector<BorderMatrix<3>> point_borders_;                ///< points by correction
+  std::vector<Eigen::Vector3d> point_rights_;                 ///< of b
+  std::vector<Eigen::Matrix3d> point_inverses_;               ///< of the damped point blocks
 };
 
 }  // namespace arfm_vo

@@ -19,7 +19,7 @@ struct PointShare {
 
 Eigen::MatrixXd FindPoseInformation(const BundleProblem& problem, const BundleResult& result,
                                     const BundleOptions& options) {
-  const ReprojectionModel model(problem.camera, result.correction);
+  const ReprojectionModel model(problem.camera, result.correction, false);
   const RobustLoss losses[2] = {RobustLoss(options.loss, options.loss_threshold_sigma, 2),
                                 RobustLoss(options.loss, options.loss_threshold_sigma, 4)};
   const auto size = 6 * static_cast<Eigen::Index>(result.camera_from_world.size());

@@ -16,12 +16,12 @@ void ForEachPart(ReducedSystem& a, const ReducedSystem& b, Operation&& operation
 
 }  // namespace
 
-void ReducedSystem::SetZero(const BundleStructure& structure) {
+void ReducedSystem::SetZero(const BundleStructure& structure, int num_coefficients) {
   blocks.assign(structure.columns.size(), Matrix6d::Zero());
   right.assign(structure.num_free_poses(), Vector6d::Zero());
-  border.assign(structure.num_free_poses(), Matrix63d::Zero());
-  corner.setZero();
-  corner_right.setZero();
+  border.assign(structure.num_free_poses(), BorderMatrix<6>::Zero(6, num_coefficients));
+  corner.setZero(num_coefficients, num_coefficients);
+  corner_right.setZero(num_coefficients);
 }
 
 ReducedSystem& ReducedSystem::operator+=(const ReducedSystem& other) {
@@ -34,8 +34,10 @@ ReducedSystem& ReducedSystem::operator-=(const ReducedSystem& other) {
   return *this;
 }
 
-ReducedSolver::ReducedSolver(const BundleStructure& structure)
-    : structure_(structure), is_dense_(structure.num_free_poses() <= kMaxDensePoses) {
+ReducedSolver::ReducedSolver(const BundleStructure& structure, int num_coefficients)
+    : structure_(structure),
+      num_coefficients_(num_coefficients),
+      is_dense_(structure.num_free_poses() <= kMaxDensePoses) {
   if (is_dense_) {
     dense_.setZero(size(), size());
     return;
@@ -50,7 +52,7 @@ ReducedSolver::ReducedSolver(const BundleStructure& structure)
   sparse_.resize(size(), size());
   std::vector<Eigen::Triplet<double>> triplets;
   for (int column = 0; column < size(); ++column) {
-    if (column < size() - 3) {
+    if (column < size() - num_coefficients) {
       for (const int row : rows_of[column / 6]) {
         for (int i = 6 * row; i < 6 * row + 6 && i <= column; ++i)
           triplets.emplace_back(i, column, 1);
@@ -73,9 +75,9 @@ bool ReducedSolver::FactorizeDense(const ReducedSystem& system) {
     for (int i = structure_.row_begin[row]; i < structure_.row_begin[row + 1]; ++i) {
       dense_.block<6, 6>(6 * row, 6 * structure_.columns[i]) = system.blocks[i];
     }
-    dense_.block<6, 3>(6 * row, 6 * num_poses) = system.border[row];
+    dense_.block(6 * row, 6 * num_poses, 6, num_coefficients_) = system.border[row];
   }
-  dense_.bottomRightCorner<3, 3>() = system.corner;
+  dense_.bottomRightCorner(num_coefficients_, num_coefficients_) = system.corner;
   dense_factor_.compute(dense_.selfadjointView<Eigen::Upper>());
   return dense_factor_.info() == Eigen::Success;
 }
@@ -95,13 +97,13 @@ bool ReducedSolver::FactorizeSparse(const ReducedSystem& system) {
         for (int r = 0; r < count; ++r) sparse_.valuePtr()[next[column]++] = system.blocks[i](r, k);
       }
     }
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < num_coefficients_; ++k) {
       for (int r = 0; r < 6; ++r) {
         sparse_.valuePtr()[next[6 * num_poses + k]++] = system.border[row](r, k);
       }
     }
   }
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < num_coefficients_; ++k) {
     for (int r = 0; r <= k; ++r) {
       sparse_.valuePtr()[next[6 * num_poses + k]++] = system.corner(r, k);
     }
@@ -118,7 +120,7 @@ Eigen::MatrixXd ReducedSolver::Solve(const Eigen::MatrixXd& right) const {
 Eigen::VectorXd ReducedSolver::SolveFor(const ReducedSystem& system) const {
   Eigen::VectorXd right(size());
   for (int i = 0; i < structure_.num_free_poses(); ++i) right.segment<6>(6 * i) = system.right[i];
-  right.tail<3>() = system.corner_right;
+  right.tail(num_coefficients_) = system.corner_right;
   return Solve(right);
 }
 

@@ -11,18 +11,27 @@ namespace arfm_vo {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Matrix63d = Eigen::Matrix<double, 6, 3>;
+
+constexpr int kMaxCoefficients = StereoCorrection::kSize;
+/// Rows of poses or of points by columns of the correction: kMaxCoefficients, or none where it is
+/// not free.
+template <int kRows>
+using BorderMatrix =
+    Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::ColMajor, kRows, kMaxCoefficients>;
+using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                                   kMaxCoefficients, kMaxCoefficients>;
+using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxCoefficients, 1>;
 
 /// Normal equations H d = b over the free poses and the stereo correction: the part of the whole
 /// that is left when points are held or eliminated.
 struct ReducedSystem {
-  std::vector<Matrix6d> blocks;   ///< of poses by poses, as BundleStructure::columns
-  std::vector<Vector6d> right;    ///< [free poses] of b
-  std::vector<Matrix63d> border;  ///< [free poses] of poses by correction
-  Eigen::Matrix3d corner = Eigen::Matrix3d::Zero();        ///< of correction by correction
-  Eigen::Vector3d corner_right = Eigen::Vector3d::Zero();  ///< of b
+  std::vector<Matrix6d> blocks;         ///< of poses by poses, as BundleStructure::columns
+  std::vector<Vector6d> right;          ///< [free poses] of b
+  std::vector<BorderMatrix<6>> border;  ///< [free poses] of poses by correction
+  CornerMatrix corner;                  ///< of correction by correction
+  CornerVector corner_right;            ///< of b
 
-  void SetZero(const BundleStructure& structure);
+  void SetZero(const BundleStructure& structure, int num_coefficients);
   ReducedSystem& operator+=(const ReducedSystem& other);
   ReducedSystem& operator-=(const ReducedSystem& other);
 };
@@ -31,20 +40,21 @@ struct ReducedSystem {
 /// fill-reducing order where there are many.
 class ReducedSolver {
  public:
-  explicit ReducedSolver(const BundleStructure& structure);
+  ReducedSolver(const BundleStructure& structure, int num_coefficients);
 
   /// Returns false where the matrix is not positive definite.
   bool Factorize(const ReducedSystem& system);
-  /// Six unknowns a free pose in their order, then the three of the correction.
+  /// Six unknowns a free pose in their order, then those of the correction.
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const;
   Eigen::VectorXd SolveFor(const ReducedSystem& system) const;
-  int size() const { return 6 * structure_.num_free_poses() + 3; }
+  int size() const { return 6 * structure_.num_free_poses() + num_coefficients_; }
 
  private:
   bool FactorizeDense(const ReducedSystem& system);
   bool FactorizeSparse(const ReducedSystem& system);
 
   const BundleStructure& structure_;
+  const int num_coefficients_;
   const bool is_dense_;
   Eigen::MatrixXd dense_;
   Eigen::LLT<Eigen::MatrixXd> dense_factor_;

@@ -59,42 +59,32 @@ void ComputeHaarResponses(const IntegralImage& integral, const int32_t* offsets,
   }
 }
 
-/// Whether no sample within `reach` px of the keypoint needs the care that the border takes.
-bool IsInside(const IntegralImage& integral, const Keypoint& keypoint, float reach) {
-  return keypoint.x >= reach && keypoint.y >= reach &&
-         keypoint.x + reach < static_cast<float>(integral.cols()) &&
-         keypoint.y + reach < static_cast<float>(integral.rows());
-}
-
 float FindOrientation(const IntegralImage& integral, const Keypoint& keypoint,
                       const SurfKernels& kernels) {
-  const int half = OrientationHalf(keypoint.scale);
-  const float reach = kOrientationRadius * keypoint.scale + static_cast<float>(half + 2);
-  if (!IsInside(integral, keypoint, reach)) return ComputeOrientation(integral, keypoint);
-  alignas(32) int32_t offsets[SampleTables::kMaxDisc];
-  int32_t dx[SampleTables::kMaxDisc], dy[SampleTables::kMaxDisc];
-  const int num = kTables.num_disc;
-  kernels.place_samples({keypoint.x, keypoint.y, keypoint.scale, 1, 0}, kTables.disc_u,
-                        kTables.disc_v, (num + 7) / 8 * 8, integral.stride(), offsets);
-  ComputeHaarResponses(integral, offsets, num, half, dx, dy);
+  constexpr int kMaxDisc = SampleTables::kMaxDisc;
+  const int num = kTables.num_disc, padded = (num + 7) / 8 * 8;
+  const SampleGrid grid = {keypoint.x, keypoint.y, keypoint.scale,
+                           1,          0,          OrientationHalf(keypoint.scale)};
+  alignas(32) int32_t offsets[kMaxDisc], dx[kMaxDisc], dy[kMaxDisc], bins[kMaxDisc];
+  kernels.place_samples(View(integral), grid, kTables.disc_u, kTables.disc_v, padded, offsets);
+  ComputeHaarResponses(integral, offsets, padded, grid.half, dx, dy);
+  kernels.find_bins(dx, dy, padded, bins);
   OrientationHistogram histogram;
-  for (int i = 0; i < num; ++i) histogram.Add(dx[i], dy[i], kTables.disc_weight[i]);
+  for (int i = 0; i < num; ++i) histogram.Add(dx[i], dy[i], kTables.disc_weight[i], bins[i]);
   return histogram.FindDirection();
 }
 
 void Describe(const IntegralImage& integral, const Keypoint& keypoint, const SurfKernels& kernels,
               float* descriptor) {
-  const int half = DescriptorHalf(keypoint.scale);
-  const float reach = 1.4143f * kHalfGrid * keypoint.scale + static_cast<float>(half + 2);
-  if (!IsInside(integral, keypoint, reach)) {
-    ComputeDescriptor(integral, keypoint, descriptor);
-    return;
-  }
+  const SampleGrid grid = {keypoint.x,
+                           keypoint.y,
+                           keypoint.scale,
+                           std::cos(keypoint.angle),
+                           std::sin(keypoint.angle),
+                           DescriptorHalf(keypoint.scale)};
   alignas(32) int32_t offsets[kDescriptorSamples], dx[kDescriptorSamples], dy[kDescriptorSamples];
-  const SampleGrid grid = {keypoint.x, keypoint.y, keypoint.scale, std::cos(keypoint.angle),
-                           std::sin(keypoint.angle)};
-  kernels.place_samples(grid, kTables.u, kTables.v, kDescriptorSamples, integral.stride(), offsets);
-  ComputeHaarResponses(integral, offsets, kDescriptorSamples, half, dx, dy);
+  kernels.place_samples(View(integral), grid, kTables.u, kTables.v, kDescriptorSamples, offsets);
+  ComputeHaarResponses(integral, offsets, kDescriptorSamples, grid.half, dx, dy);
   kernels.sum_regions(grid, dx, dy, kTables.weight, descriptor);
   NormaliseDescriptor(descriptor);
 }

@@ -8,10 +8,6 @@
 namespace arfm_vo {
 namespace {
 
-IntegralView View(const IntegralImage& integral) {
-  return {integral.row(0), integral.stride(), integral.rows(), integral.cols()};
-}
-
 /// Runs work(first, last) on `threads` bands of [0, num).
 template <class Work>
 void ForBands(int num, int threads, const Work& work) {

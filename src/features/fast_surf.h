@@ -6,8 +6,13 @@
 #include "arfm_vo/features/scale_space_maximum.h"
 #include "arfm_vo/features/surf_descriptor.h"
 #include "arfm_vo/features/surf_detector.h"
+#include "surf_kernels.h"
 
 namespace arfm_vo {
+
+inline IntegralView View(const IntegralImage& integral) {
+  return {integral.row(0), integral.stride(), integral.rows(), integral.cols()};
+}
 
 /// The vectorised detector: the same maxima as the reference's, to the bit. Keeps its memory.
 class FastMaximumFinder {

@@ -13,7 +13,6 @@ int OrientationHistogram::FindBin(int32_t dx, int32_t dy) {
   const float larger = std::max(x, y), smaller = std::min(x, y);
   if (larger == 0) return 0;
   // Minimax polynomial of the arc tangent on [0, 1] (Abramowitz and Stegun 4.4.49), in bins.
-  constexpr float kBinsPerRadian = static_cast<float>(kBins / (2 * kPi));
   const float t = smaller / larger, t2 = t * t;
   const float arc =
       t *

@@ -3,14 +3,18 @@
 #include <array>
 #include <cstdint>
 
+#include "surf_kernels.h"
+
 namespace arfm_vo {
 
 /// Weighted Haar responses around a keypoint by their direction. Sums are whole numbers, so that
 /// they do not depend on the order of the samples.
 class OrientationHistogram {
  public:
-  void Add(int32_t dx, int32_t dy, int weight) {
-    Bin& bin = bins_[FindBin(dx, dy)];
+  void Add(int32_t dx, int32_t dy, int weight) { Add(dx, dy, weight, FindBin(dx, dy)); }
+  /// `at` is FindBin(dx, dy).
+  void Add(int32_t dx, int32_t dy, int weight, int at) {
+    Bin& bin = bins_[at];
     bin.dx += static_cast<int64_t>(weight) * dx;
     bin.dy += static_cast<int64_t>(weight) * dy;
   }
@@ -19,8 +23,8 @@ class OrientationHistogram {
   float FindDirection() const;
 
  private:
-  static constexpr int kBins = 72;        ///< of 5 degrees
-  static constexpr int kWindowBins = 12;  ///< the window that slides over them
+  static constexpr int kBins = kOrientationBins;
+  static constexpr int kWindowBins = kBins / 6;  ///< the window that slides over them
   struct Bin {
     int64_t dx = 0, dy = 0;
   };

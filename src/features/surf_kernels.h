@@ -13,13 +13,18 @@ struct IntegralView {
 
 constexpr int kKernelReadAhead = 16;  ///< values that kernels may touch beyond the end of a row
 
+constexpr int kOrientationBins = 72;  ///< of 5 degrees
+constexpr float kBinsPerRadian = static_cast<float>(kOrientationBins / 6.283185307179586);
+
 constexpr int kRegionLanes = 16;    ///< the 4 x 4 regions of a descriptor, side by side
 constexpr int kRegionSamples = 25;  ///< 5 x 5 samples of a region
 constexpr int kDescriptorSamples = kRegionLanes * kRegionSamples;
 
-/// Where a keypoint's samples lie: (x, y) + scale * turned(u, v).
+/// Where a keypoint's samples lie: (x, y) + scale * turned(u, v), moved into the image where Haar
+/// wavelets with edges of 2 `half` px do not fit.
 struct SampleGrid {
   float x, y, scale, cosine, sine;
+  int half;
 };
 
 /// The loops over pixels and samples of the fast path, for one instruction set. All sets give the
@@ -35,8 +40,10 @@ struct SurfKernels {
                     int32_t* columns);
   /// Offsets, from the origin of the sums, of the corner of pixels nearest to each of `num` samples
   /// (u, v), a multiple of 8.
-  void (*place_samples)(const SampleGrid& grid, const float* u, const float* v, int num, int stride,
-                        int32_t* offsets);
+  void (*place_samples)(const IntegralView& integral, const SampleGrid& grid, const float* u,
+                        const float* v, int num, int32_t* offsets);
+  /// Bins of OrientationHistogram of `num` Haar responses, a multiple of 8.
+  void (*find_bins)(const int32_t* dx, const int32_t* dy, int num, int32_t* bins);
   /// Sums of dx, dy, |dx|, |dy| of each region, [region][4], of weighted Haar responses turned by
   /// the grid's angle. Samples are [kRegionSamples][kRegionLanes].
   void (*sum_regions)(const SampleGrid& grid, const int32_t* dx, const int32_t* dy,

@@ -105,15 +105,51 @@ inline Ints Floor(const Floats& values) {
   return truncated + (__builtin_convertvector(truncated, Floats) > values);  // true is -1
 }
 
-void PlaceSamples(const SampleGrid& grid, const float* u, const float* v, int num, int stride,
-                  int32_t* offsets) {
+inline Ints BroadcastInt(int32_t value) { return value - Ints{}; }
+/// `mask` is all ones where to take `yes`.
+inline Floats Choose(const Ints& mask, const Floats& yes, const Floats& no) {
+  return (Floats)((mask & (Ints)yes) | (~mask & (Ints)no));
+}
+inline Ints Clamp(const Ints& values, int low, int high) {
+  const Ints least = BroadcastInt(low), most = BroadcastInt(high);
+  const Ints raised = values < least ? least : values;
+  return raised > most ? most : raised;
+}
+
+void PlaceSamples(const IntegralView& integral, const SampleGrid& grid, const float* u,
+                  const float* v, int num, int32_t* offsets) {
   const Floats x = Broadcast(grid.x), y = Broadcast(grid.y), scale = Broadcast(grid.scale);
   const Floats cosine = Broadcast(grid.cosine), sine = Broadcast(grid.sine), one = Broadcast(1);
   for (int i = 0; i < num; i += kLanes) {
     const Floats along = Load<Floats>(u + i), across = Load<Floats>(v + i);
-    const Ints column = Floor(x + scale * (cosine * along - sine * across) + one);
-    const Ints row = Floor(y + scale * (sine * along + cosine * across) + one);
-    Store(row * stride + column, offsets + i);
+    const Ints column = Clamp(Floor(x + scale * (cosine * along - sine * across) + one), grid.half,
+                              integral.cols - grid.half);
+    const Ints row = Clamp(Floor(y + scale * (sine * along + cosine * across) + one), grid.half,
+                           integral.rows - grid.half);
+    Store(row * integral.stride + column, offsets + i);
+  }
+}
+
+void FindBins(const int32_t* dx, const int32_t* dy, int num, int32_t* bins) {
+  const Ints sign = BroadcastInt(INT32_MIN);
+  const Ints last = BroadcastInt(kOrientationBins - 1);
+  const auto bin_at = [](float turns) { return Broadcast(turns * kOrientationBins); };
+  for (int i = 0; i < num; i += kLanes) {
+    const Ints whole_x = Load<Ints>(dx + i), whole_y = Load<Ints>(dy + i);
+    const Floats x = (Floats)((Ints) __builtin_convertvector(whole_x, Floats) & ~sign);
+    const Floats y = (Floats)((Ints) __builtin_convertvector(whole_y, Floats) & ~sign);
+    const Ints is_steep = y > x;
+    const Floats larger = Choose(is_steep, y, x), smaller = Choose(is_steep, x, y);
+    const Floats t = smaller / larger, t2 = t * t;  // the direction of no response does not count
+    const Floats arc =
+        t * (0.9998660f +
+             t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
+    Floats bin = arc * kBinsPerRadian;
+    bin = Choose(is_steep, bin_at(0.25f) - bin, bin);
+    bin = Choose(whole_x < 0, bin_at(0.5f) - bin, bin);
+    bin = Choose(whole_y < 0, bin_at(1) - bin, bin);
+    const Ints whole = __builtin_convertvector(Choose(larger > 0, bin, Floats{}), Ints);
+    Store(whole > last ? last : whole, bins + i);
   }
 }
 
@@ -139,7 +175,8 @@ void SumRegions(const SampleGrid& grid, const int32_t* haar_dx, const int32_t* h
   }
 }
 
-constexpr SurfKernels kKernels = {&ComputeDeterminants, &FindPeaks, &PlaceSamples, &SumRegions};
+constexpr SurfKernels kKernels = {&ComputeDeterminants, &FindPeaks, &PlaceSamples, &FindBins,
+                                  &SumRegions};
 
 }  // namespace
 }  // namespace arfm_vo

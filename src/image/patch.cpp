@@ -26,17 +26,7 @@ bool SampleBordered(const cv::Mat& grey, const cv::Point2f& centre,
     return Interpolate<kBordered, kBordered>(
         grey, centre - cv::Point2f(kBorderedHalfSpan, kBorderedHalfSpan), samples.data());
   }
-  for (int r = 0; r < kBordered; ++r) {
-    for (int c = 0; c < kBordered; ++c) {
-      const cv::Vec2f offset =
-          source_from_patch * cv::Vec2f(c - kBorderedHalfSpan, r - kBorderedHalfSpan);
-      if (!InterpolateOne(grey, centre + cv::Point2f(offset[0], offset[1]),
-                          samples[r * kBorderedStride + c])) {
-        return false;
-      }
-    }
-  }
-  return true;
+  return InterpolateWarped<kBordered, kBordered>(grey, centre, source_from_patch, samples.data());
 }
 
 Samples Weighted(const Samples& values) {

@@ -7,6 +7,17 @@
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+namespace {
+
+/// Whether two warps place no sample of a patch further apart than alignment cares for.
+bool LookAlike(const cv::Matx22f& a, const cv::Matx22f& b) {
+  constexpr float kMaxShiftPx = 0.1f;
+  const cv::Matx22f shift = Patch::kHalfSpan * (a - b);
+  return std::max(std::abs(shift(0, 0)) + std::abs(shift(0, 1)),
+                  std::abs(shift(1, 0)) + std::abs(shift(1, 1))) < kMaxShiftPx;
+}
+
+}  // namespace
 
 void LandmarkAlignerOptions::Check() const {
   patch.Check();
@@ -47,19 +58,27 @@ LandmarkAligner::LandmarkAligner(const StereoCamera& camera, const LandmarkAlign
   options.Check();
 }
 
-std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
-                                                          const Keyframe& reference,
-                                                          const StereoImages& images,
-                                                          const Rigid3& camera_from_world) const {
+std::optional<cv::Matx22f> LandmarkAligner::FindWarp(const Landmark& landmark,
+                                                     const Keyframe& reference,
+                                                     const Rigid3& eye_from_world) const {
   const auto warp =
-      SourceFromTarget(camera_, landmark, reference.camera_from_world, camera_from_world);
+      SourceFromTarget(camera_, landmark, reference.camera_from_world, eye_from_world);
   if (!warp) return std::nullopt;
   const double shrinkage = std::sqrt(cv::determinant(*warp));
   if (shrinkage * options_.max_magnification < 1 || shrinkage > options_.max_magnification) {
     return std::nullopt;
   }
-  const auto patch =
-      Patch::Sample(reference.left, {landmark.keypoint.x, landmark.keypoint.y}, *warp);
+  return warp;
+}
+
+std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
+                                                          const Keyframe& reference,
+                                                          const StereoImages& images,
+                                                          const Rigid3& camera_from_world) const {
+  const cv::Point2f place(landmark.keypoint.x, landmark.keypoint.y);
+  const auto warp = FindWarp(landmark, reference, camera_from_world);
+  if (!warp) return std::nullopt;
+  const auto patch = Patch::Sample(reference.left, place, *warp);
   if (!patch) return std::nullopt;
 
   const Eigen::Vector3d predicted = camera_.ProjectStereo(camera_from_world * landmark.x_in_world);
@@ -70,11 +89,22 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   float variance = left.covariance[0] + left.covariance[2];
-  const float disparity = static_cast<float>(predicted.x() - predicted.z());
-  const PatchAlignment right =
-      aligner_.Align(*patch, images.right, {left.position.x - disparity, left.position.y});
+  Eigen::Vector2d in_right(left.position.x - predicted.x() + predicted.z(), left.position.y);
+  if (!correction_.IsZero()) in_right += correction_.At(camera_, in_right);
+  const cv::Point2f guess(static_cast<float>(in_right.x()), static_cast<float>(in_right.y()));
+  PatchAlignment right;
+  const Rigid3 right_from_world(
+      camera_from_world.rotation,
+      camera_from_world.translation - Eigen::Vector3d(camera_.baseline_m, 0, 0));
+  if (const auto right_warp = FindWarp(landmark, reference, right_from_world)) {
+    if (LookAlike(*warp, *right_warp)) {
+      right = aligner_.Align(*patch, images.right, guess);
+    } else if (const auto right_patch = Patch::Sample(reference.left, place, *right_warp)) {
+      right = aligner_.Align(*right_patch, images.right, guess);
+    }
+  }
   observation.has_right =
-      right.IsAligned() && std::abs(right.position.y - left.position.y) < options_.max_right_row_px;
+      right.IsAligned() && std::abs(right.position.y - guess.y) < options_.max_right_row_px;
   if (observation.has_right) {
     variance = 0.5f * (variance + right.covariance[0] + right.covariance[2]);
   }

@@ -16,17 +16,6 @@ struct FrameTracker::Correspondences {
   std::vector<LandmarkObservation> observed;  ///< [N]
   std::vector<PointObservation> points;       ///< [N] the same for the pose
 
-  void Add(const Landmark& landmark, const LandmarkObservation& observation) {
-    landmarks.push_back(&landmark);
-    observed.push_back(observation);
-    PointObservation point;
-    point.x_in_world = landmark.x_in_world;
-    point.x_covariance = landmark.covariance;
-    point.pixels = observation.pixels.head<3>();
-    point.has_right = observation.has_right;
-    point.sigma_px = observation.sigma_px;
-    points.push_back(point);
-  }
   /// Those that `is_inlier` marks, sorted by landmark.
   LandmarkObservations Inliers(const std::vector<char>& is_inlier) const {
     LandmarkObservations inliers;
@@ -73,6 +62,27 @@ void FrameTrackerOptions::Check() const {
 FrameTracker::FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options)
     : camera_(camera), options_(options), aligner_(camera, options.alignment) {
   options.Check();
+}
+
+void FrameTracker::SetCorrection(const StereoCorrection& correction) {
+  correction_ = correction;
+  aligner_.SetCorrection(correction);
+}
+
+void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& observation,
+                       Correspondences& correspondences) const {
+  correspondences.landmarks.push_back(&landmark);
+  correspondences.observed.push_back(observation);
+  PointObservation point;
+  point.x_in_world = landmark.x_in_world;
+  point.x_covariance = landmark.covariance;
+  point.pixels = observation.pixels.head<3>();
+  point.has_right = observation.has_right;
+  point.sigma_px = observation.sigma_px;
+  if (point.has_right) {
+    point.pixels[2] = NominalRightPixel(camera_, correction_, observation.pixels.tail<2>()).x();
+  }
+  correspondences.points.push_back(point);
 }
 
 TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& images,
@@ -148,7 +158,7 @@ FrameTracker::Correspondences FrameTracker::Correspond(
           point->observation.y() + point->row_residual_px;
     }
     observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
-    correspondences.Add(*landmarks[match.first], observation);
+    Add(*landmarks[match.first], observation, correspondences);
   }
   return correspondences;
 }
@@ -192,7 +202,7 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
       Measure(images, map, landmarks, coarse.camera_from_world);
   Correspondences correspondences;
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    if (observations[i]) correspondences.Add(*landmarks[i], *observations[i]);
+    if (observations[i]) Add(*landmarks[i], *observations[i], correspondences);
   }
   const PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse.camera_from_world, options_.refinement);

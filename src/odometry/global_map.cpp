@@ -1,9 +1,11 @@
 #include "arfm_vo/odometry/global_map.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/pose_graph.h"
+#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {
@@ -17,7 +19,10 @@ void GlobalMapOptions::Check() const {
   solver.Check();
   Require(min_observations >= 2, "global.min_observations must be at least 2");
   Require(max_keyframes >= 2, "global.max_keyframes must be at least 2");
-  Require(stereo_rotation_sigma_rad >= 0, "global.stereo_rotation_sigma_rad must not be negative");
+  Require(stereo_correction_sigma_px >= 0,
+          "global.stereo_correction_sigma_px must not be negative");
+  Require(stereo_correction_confidence > 0 && stereo_correction_confidence < 1,
+          "global.stereo_correction_confidence must be in (0, 1)");
   loops.Check();
 }
 
@@ -93,7 +98,7 @@ void GlobalMap::BendOntoLoops() {
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
-  problem.correction_sigma_rad.setConstant(options_.stereo_rotation_sigma_rad);
+  problem.correction_sigma_px = options_.stereo_correction_sigma_px;
   for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
     if (point.num_observations < options_.min_observations) continue;
@@ -114,13 +119,27 @@ BundleProblem GlobalMap::MakeProblem() {
   return problem;
 }
 
+BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progress) const {
+  BundleResult result = AdjustBundle(problem, options_.solver, progress);
+  if (problem.correction_sigma_px == 0 || result.status == BundleStatus::kFailed) return result;
+  const auto& coefficients = result.correction.coefficients_px;
+  const double squared_significance =
+      coefficients.dot(result.correction_covariance.ldlt().solve(coefficients));
+  if (squared_significance >=
+      ChiSquareQuantile(StereoCorrection::kSize, options_.stereo_correction_confidence)) {
+    return result;
+  }
+  problem.correction_sigma_px = 0;
+  return AdjustBundle(problem, options_.solver, progress);
+}
+
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
   if (has_new_loops_) BendOntoLoops();
-  const BundleProblem problem = MakeProblem();
+  BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
-  const BundleResult result = AdjustBundle(problem, options_.solver, progress);
+  const BundleResult result = Solve(std::move(problem), progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
 
   MapUpdate update;
@@ -134,8 +153,8 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
     point.x_in_map = result.points[point.row];
     update.landmarks.push_back({id, point.x_in_map});
   }
-  update.stereo_rotation_rad = result.correction.rotation;
-  update.stereo_rotation_sigma_rad = result.correction_covariance.diagonal().cwiseSqrt();
+  update.stereo_correction = result.correction;
+  update.stereo_correction_sigma_px = result.correction_covariance.diagonal().cwiseSqrt();
   return update;
 }
 

@@ -13,9 +13,11 @@ void LocalBundleOptions::Check() const {
   Require(solver.with_point_covariance, "bundle.solver.with_point_covariance must be on");
 }
 
-LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int num_keyframes) {
+LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& correction,
+                            const LocalMap& map, int num_keyframes) {
   LocalBundle bundle;
   bundle.problem.camera = camera;
+  bundle.problem.correction = correction;
   const auto& keyframes = map.keyframes();
   const int first_moving =
       std::max(1, static_cast<int>(keyframes.size()) - num_keyframes);  // the oldest is fixed
@@ -37,8 +39,8 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int
       const auto row = rows.find(observation.landmark);
       if (row == rows.end()) continue;
       sees_any = true;
-      bundle.problem.observations.push_back({pose, row->second, observation.pixels,
-                                             observation.has_right, observation.sigma_px});
+      bundle.problem.observations.push_back(
+          {pose, row->second, observation.pixels, observation.has_right, observation.sigma_px});
     }
     if (!sees_any) continue;
     bundle.keyframes.push_back(keyframes[k].id);
@@ -56,7 +58,9 @@ void ApplyLocalBundle(const LocalBundle& bundle, const BundleResult& result, Loc
   for (size_t i = 0; i < bundle.landmarks.size(); ++i) {
     if (!result.point_is_used[i]) continue;
     map.MoveLandmark(bundle.landmarks[i], result.points[i],
-                     result.point_covariances.empty() ? map.landmarks().at(bundle.landmarks[i]).covariance : result.point_covariances[i]);
+                     result.point_covariances.empty()
+                         ? map.landmarks().at(bundle.landmarks[i]).covariance
+                         : result.point_covariances[i]);
   }
   for (size_t i = 0; i < bundle.problem.observations.size(); ++i) {
     if (result.is_inlier[i]) continue;

@@ -32,8 +32,9 @@ class LocalOdometry::Implementation {
     options.Check();
   }
 
-  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images) {
+  OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images) {
     Stopwatch stopwatch;
+    const StereoFrame frame = Corrected(measured);
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.median_row_residual_px = MedianRowResidual(frame.points);
@@ -55,6 +56,8 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     FinishBundle();
+    correction_ = update.stereo_correction;
+    tracker_.SetCorrection(correction_);
     // The newest keyframe that both know stays: odom_from_map there undoes the correction.
     const Keyframe* anchor = nullptr;
     Rigid3 anchor_in_map;
@@ -73,8 +76,7 @@ class LocalOdometry::Implementation {
     for (const auto& landmark : update.landmarks) {
       const auto known = map_.landmarks().find(landmark.id);
       if (known == map_.landmarks().end()) continue;
-      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world,
-                        known->second.covariance);
+      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world, known->second.covariance);
     }
   }
 
@@ -101,6 +103,24 @@ class LocalOdometry::Implementation {
     std::optional<Rigid3> velocity;  ///< camera_from_camera a second ago: (rotation, translation)
     double interval_s;
   };
+
+  /// The frame with its points where they are when the right image is displaced as we know.
+  StereoFrame Corrected(StereoFrame frame) const {
+    if (correction_.IsZero()) return frame;
+    const auto is_too_far = [&](StereoPoint& point) {
+      const Eigen::Vector2d right(point.observation.z(),
+                                  point.observation.y() + point.row_residual_px);
+      const double disparity =
+          point.observation.x() - NominalRightPixel(camera_, correction_, right).x();
+      if (!(disparity > point.sigma_px)) return true;
+      point.x_in_camera =
+          camera_.Triangulate(point.observation.x(), point.observation.y(), disparity);
+      return false;
+    };
+    StereoPoints& points = frame.points;
+    points.erase(std::remove_if(points.begin(), points.end(), is_too_far), points.end());
+    return frame;
+  }
 
   static double MedianRowResidual(const StereoPoints& points) {
     if (points.empty()) return 0;
@@ -167,10 +187,10 @@ class LocalOdometry::Implementation {
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update) {
     const LandmarkId first_new = map_.next_landmark();
-    const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
-                                                update.observations);
-    record_ = KeyframeRecord{keyframe.id, keyframe.stamp_s, keyframe.camera_from_world,
-                             keyframe.observations, {}};
+    const Keyframe& keyframe =
+        map_.AddKeyframe(frame, images.left, update.pose.camera_from_world, update.observations);
+    record_ = KeyframeRecord{
+        keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
     for (auto landmark = map_.landmarks().lower_bound(first_new);
          landmark != map_.landmarks().end(); ++landmark) {
       record_->landmarks.push_back({landmark->second.id, landmark->second.x_in_world,
@@ -180,9 +200,10 @@ class LocalOdometry::Implementation {
     drift_.Add(keyframe.id, update.covariance_from_start);
     drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
-    pending_ = std::async(std::launch::async, Adjust,
-                          MakeLocalBundle(camera_, map_, options_.bundle.num_keyframes),
-                          options_.bundle.solver);
+    pending_ =
+        std::async(std::launch::async, Adjust,
+                   MakeLocalBundle(camera_, correction_, map_, options_.bundle.num_keyframes),
+                   options_.bundle.solver);
   }
 
   static AdjustedWindow Adjust(LocalBundle bundle, const BundleOptions& solver) {
@@ -211,6 +232,7 @@ class LocalOdometry::Implementation {
   }
 
   StereoCamera camera_;
+  StereoCorrection correction_;
   LocalOdometryOptions options_;
   FrameTracker tracker_;
   LocalMap map_;

@@ -1,20 +1,30 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 
 namespace arfm_vo {
+namespace {
+
+constexpr int kFirstCalibration = 10;  ///< keyframes
+/// A calibration has as long: a fixed number, so that the result does not depend on its speed.
+constexpr int kCalibrationFrames = 10;
+
+}  // namespace
 
 void OdometryOptions::Check() const {
   frontend.Check();
   odometry.Check();
   global.Check();
+  Require(max_calibration_keyframes >= 0, "max_calibration_keyframes must not be negative");
 }
 
 VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions& options)
     : options_(options),
       frontend_(camera, options.frontend),
       local_(camera, options.odometry),
-      global_(camera, options.global) {
+      global_(camera, options.global),
+      next_calibration_(kFirstCalibration) {
   options.Check();
 }
 
@@ -27,10 +37,27 @@ OdometryUpdate VisualOdometry::Process(const StereoImages& images) {
 }
 
 OdometryUpdate VisualOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
+  if (calibration_.valid() && frames_.size() == calibrated_at_) {
+    if (const auto calibration = calibration_.get()) local_.Apply(*calibration);
+  }
   OdometryUpdate update = local_.Process(frame, images);
-  if (const auto keyframe = local_.TakeKeyframe()) global_.Add(*keyframe);
+  if (const auto keyframe = local_.TakeKeyframe()) {
+    global_.Add(*keyframe);
+    Calibrate();
+  }
   Remember(update);
   return update;
+}
+
+void VisualOdometry::Calibrate() {
+  if (options_.global.stereo_correction_sigma_px == 0 || calibration_.valid() ||
+      global_.num_keyframes() < next_calibration_ ||
+      next_calibration_ > options_.max_calibration_keyframes) {
+    return;
+  }
+  next_calibration_ *= 2;
+  calibrated_at_ = frames_.size() + kCalibrationFrames;
+  calibration_ = std::async(std::launch::async, [map = global_]() mutable { return map.Adjust(); });
 }
 
 void VisualOdometry::Remember(const OdometryUpdate& update) {

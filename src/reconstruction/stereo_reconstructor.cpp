@@ -74,29 +74,23 @@ StereoReconstructor::Sightings StereoReconstructor::TakeKeypoints(const Features
   return sightings;
 }
 
-void StereoReconstructor::SearchRows(const Features& left, const StereoImages& images,
-                                     std::vector<std::optional<cv::Point2f>>& guesses) {
-  row_search_.SetImages(images.left, images.right);
-  for (int i = 0; i < left.size(); ++i) {
-    if (guesses[i]) continue;
-    const cv::Point2f place = Position(left.keypoints[i]);
-    guesses[i] =
-        row_search_.Find(place, row_model_.Predict(place.x, place.y),
-                         options_.search.min_disparity_px, options_.search.max_disparity_px);
-  }
+std::optional<cv::Point2f> StereoReconstructor::SearchRow(const cv::Point2f& place) const {
+  return row_search_.Find(place, row_model_.Predict(place.x, place.y),
+                          options_.search.min_disparity_px, options_.search.max_disparity_px);
 }
 
 StereoReconstructor::Sightings StereoReconstructor::Refine(
-    const Features& left, const std::vector<std::optional<cv::Point2f>>& guesses,
-    const StereoImages& images) const {
+    const Features& left, std::vector<std::optional<cv::Point2f>> guesses,
+    const StereoImages& images) {
   const auto inflation = static_cast<float>(options_.sigma_inflation * options_.sigma_inflation);
   const auto floor = static_cast<float>(options_.sigma_floor_px * options_.sigma_floor_px);
+  if (options_.search_rows) row_search_.SetImages(images.left, images.right);
   std::vector<SlantAlignment> alignments(left.size());
   cv::parallel_for_(cv::Range(0, left.size()), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      if (!guesses[i]) continue;
-      alignments[i] =
-          aligner_.Align(images.left, Position(left.keypoints[i]), images.right, *guesses[i]);
+      const cv::Point2f place = Position(left.keypoints[i]);
+      if (!guesses[i] && options_.search_rows) guesses[i] = SearchRow(place);
+      if (guesses[i]) alignments[i] = aligner_.Align(images.left, place, images.right, *guesses[i]);
     }
   });
   Sightings sightings;
@@ -159,8 +153,7 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
     for (const Match& match : matches) {
       guesses[match.first] = Position(right.keypoints[match.second]);
     }
-    if (options_.search_rows) SearchRows(left, images, guesses);
-    sightings = Refine(left, guesses, images);
+    sightings = Refine(left, std::move(guesses), images);
   } else {
     sightings = TakeKeypoints(left, right, matches);
   }

@@ -47,18 +47,11 @@ std::vector<LandmarkRecord> ImportLandmarks(const KeyframeStamped& message) {
   return landmarks;
 }
 
-geometry_msgs::Vector3 ToVectorMessage(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
-Eigen::Vector3d FromVectorMessage(const geometry_msgs::Vector3& message, const std::string& name) {
-  const Eigen::Vector3d vector(message.x, message.y, message.z);
-  Require(vector.allFinite(), name + " is not finite");
-  return vector;
+StereoCorrection::Coefficients ImportCoefficients(const std::vector<double>& coefficients,
+                                                  const std::string& name) {
+  RequireSize(coefficients, StereoCorrection::kSize, name);
+  RequireFinite(coefficients, name);
+  return Eigen::Map<const StereoCorrection::Coefficients>(coefficients.data());
 }
 
 }  // namespace
@@ -118,8 +111,10 @@ MapUpdateStamped ToMessage(const MapUpdate& update) {
     message.landmark_id.push_back(landmark.id);
     for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
   }
-  message.stereo_rotation_rad = ToVectorMessage(update.stereo_rotation_rad);
-  message.stereo_rotation_sigma_rad = ToVectorMessage(update.stereo_rotation_sigma_rad);
+  for (int i = 0; i < StereoCorrection::kSize; ++i) {
+    message.stereo_correction_px.push_back(update.stereo_correction.coefficients_px[i]);
+    message.stereo_correction_sigma_px.push_back(update.stereo_correction_sigma_px[i]);
+  }
   return message;
 }
 
@@ -139,10 +134,10 @@ MapUpdate FromMessage(const MapUpdateStamped& message) {
   for (size_t i = 0; i < message.landmark_id.size(); ++i)
     update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
                                                             &message.landmark_position[3 * i])});
-  update.stereo_rotation_rad =
-      FromVectorMessage(message.stereo_rotation_rad, name + "stereo_rotation_rad");
-  update.stereo_rotation_sigma_rad =
-      FromVectorMessage(message.stereo_rotation_sigma_rad, name + "stereo_rotation_sigma_rad");
+  update.stereo_correction.coefficients_px =
+      ImportCoefficients(message.stereo_correction_px, name + "stereo_correction_px");
+  update.stereo_correction_sigma_px =
+      ImportCoefficients(message.stereo_correction_sigma_px, name + "stereo_correction_sigma_px");
   return update;
 }
 

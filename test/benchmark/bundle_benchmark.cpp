@@ -28,11 +28,11 @@ double PeakMegabytes() {
   return usage.ru_maxrss / 1024.0;
 }
 
-void RunWindow(const char* name, const BundleOptions& options, double correction_sigma_rad) {
+void RunWindow(const char* name, const BundleOptions& options, double correction_sigma_px) {
   CorridorOptions corridor;  // 8 poses, 2 of them fixed
   corridor.num_points = 465;
   BundleProblem problem = MakeCorridor(corridor).problem;
-  problem.correction_sigma_rad.setConstant(correction_sigma_rad);
+  problem.correction_sigma_px = correction_sigma_px;
   constexpr int kRuns = 15;
   double best_s = 1e9;
   BundleResult result;
@@ -42,7 +42,7 @@ void RunWindow(const char* name, const BundleOptions& options, double correction
     best_s = std::min(best_s, CpuSeconds() - start);
   }
   std::printf("%-22s %-10s %12zu %10d %9.2f %12.3f\n", name,
-              correction_sigma_rad > 0 ? "free" : "frozen", problem.observations.size(),
+              correction_sigma_px > 0 ? "free" : "frozen", problem.observations.size(),
               result.num_iterations, 1e3 * best_s, result.final_cost);
 }
 
@@ -52,7 +52,7 @@ void RunWindows() {
   BundleOptions options;
   options.max_iterations = 5;
   options.function_tolerance = 0;
-  for (const double sigma : {0.0, 1e-3}) {
+  for (const double sigma : {0.0, 1.0}) {
     options.solver = BundleSolver::kOwn;
     RunWindow("own", options, sigma);
     options.solver = BundleSolver::kCeres;
@@ -76,7 +76,7 @@ void RunGlobal(int num_poses, const BundleOptions& options) {
   corridor.drift_rad = 5e-4;
   corridor.drift_m = 0.01;
   CorridorScene scene = MakeCorridor(corridor);
-  scene.problem.correction_sigma_rad.setConstant(1e-3);
+  scene.problem.correction_sigma_px = 1;
   const double before_mb = PeakMegabytes();
   const double cpu = CpuSeconds();
   const BundleResult result = AdjustBundle(scene.problem, options);
@@ -86,7 +86,7 @@ void RunGlobal(int num_poses, const BundleOptions& options) {
               result.status == BundleStatus::kConverged, result.num_iterations, result.time_s,
               CpuSeconds() - cpu, PeakMegabytes() - before_mb,
               result.final_cost / (4.0 * scene.problem.observations.size()),
-              1e6 * result.correction_covariance.diagonal().cwiseSqrt().maxCoeff(),
+              result.correction_covariance.diagonal().cwiseSqrt().maxCoeff(),
               error.translation.norm());
   std::fflush(stdout);
 }
@@ -95,7 +95,7 @@ void RunGlobal(int num_poses, const BundleOptions& options) {
 void RunGlobals(const BundleOptions& options) {
   std::printf("%9s %8s %12s %10s %10s %8s %8s %9s %9s %9s %10s\n", "keyframes", "points",
               "observations", "converged", "iterations", "wall s", "cpu s", "extra MB",
-              "cost/coord", "turn urad", "end err m");
+              "cost/coord", "sigma px", "end err m");
   std::fflush(stdout);
   for (const int num_poses : {125, 250, 500, 1000}) {
     const pid_t child = fork();

@@ -9,13 +9,18 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-const StereoCorrection kCorrection{{2e-3, -1e-3, 3e-3}};
+StereoCorrection MakeCorrection() {
+  StereoCorrection correction;
+  correction.coefficients_px.setLinSpaced(-2, 3);
+  return correction;
+}
+const StereoCorrection kCorrection = MakeCorrection();
 
 TEST(BundleReprojection, ResidualCanBeCheckedByHand) {
   // 10 m ahead, 1 m to the right and 0.5 m below: (600 + 70.7, 180 + 35.35), disparity 38.178.
   BundleObservation observation{0, 0, {670, 215, 632, 216}, true, 0.5};
   ReprojectionTerm term;
-  ASSERT_TRUE(ReprojectionModel(kBundleCamera, {})
+  ASSERT_TRUE(ReprojectionModel(kBundleCamera, {}, true)
                   .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 4),
                              Eigen::Vector3d(1, 0.5, 6), term));
   EXPECT_LT((term.residual - Eigen::Vector4d(1.4, 0.7, 1.044, -1.3)).norm(), 1e-9);
@@ -24,18 +29,18 @@ TEST(BundleReprojection, ResidualCanBeCheckedByHand) {
 TEST(BundleReprojection, RightPixelsDoNotCountWithoutThem) {
   BundleObservation observation{0, 0, {670, 215, NAN, NAN}, false, 0.5};
   ReprojectionTerm term;
-  ASSERT_TRUE(ReprojectionModel(kBundleCamera, kCorrection)
+  ASSERT_TRUE(ReprojectionModel(kBundleCamera, kCorrection, true)
                   .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 4),
                              Eigen::Vector3d(1, 0.5, 6), term));
   EXPECT_EQ(term.residual.tail<2>(), Eigen::Vector2d::Zero());
   EXPECT_TRUE(term.by_x.bottomRows<2>().isZero(0));
-  EXPECT_TRUE(term.right_by_correction.isZero(0));
+  EXPECT_TRUE(term.right_by_coefficients.isZero(0));
 }
 
 TEST(BundleReprojection, APointBehindTheCameraIsALargeConstant) {
   BundleObservation observation{0, 0, {670, 215, 632, 216}, true, 0.5};
   ReprojectionTerm term;
-  EXPECT_FALSE(ReprojectionModel(kBundleCamera, {})
+  EXPECT_FALSE(ReprojectionModel(kBundleCamera, {}, true)
                    .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, -9),
                               Eigen::Vector3d(1, 0.5, 6), term));
   EXPECT_GT(term.residual.norm(), 1e3);
@@ -51,20 +56,21 @@ TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
     const Eigen::Vector3d point = pose.Inverse() * x;
     const BundleObservation observation{0, 0, {600, 180, 590, 180}, true, 0.7};
     const auto residual = [&](const Vector6d& pose_step, const Eigen::Vector3d& point_step,
-                              const Eigen::Vector3d& turn) {
+                              const StereoCorrection::Coefficients& change) {
       const Rigid3 moved = BoxPlus(pose, pose_step);
       Eigen::Vector4d value;
-      ReprojectionModel(kBundleCamera, {kCorrection.rotation + turn})
+      ReprojectionModel(kBundleCamera, {kCorrection.coefficients_px + change}, false)
           .Evaluate(observation, moved.RotationMatrix(), moved.translation, point + point_step,
                     value);
       return value;
     };
     const Vector6d zero6 = Vector6d::Zero();
     const Eigen::Vector3d zero3 = Eigen::Vector3d::Zero();
+    const StereoCorrection::Coefficients zero20 = StereoCorrection::Coefficients::Zero();
     ReprojectionTerm term;
-    ReprojectionModel(kBundleCamera, kCorrection)
+    ReprojectionModel(kBundleCamera, kCorrection, true)
         .Linearize(observation, pose.RotationMatrix(), pose.translation, point, term);
-    EXPECT_LT((term.residual - residual(zero6, zero3, zero3)).norm(), 1e-9);
+    EXPECT_LT((term.residual - residual(zero6, zero3, zero20)).norm(), 1e-9);
     constexpr double kStep = 1e-5;
     const auto expect_near = [](const Eigen::Vector4d& analytic, const Eigen::Vector4d& numeric) {
       EXPECT_LT((analytic - numeric).norm(), 1e-5 * (1 + numeric.norm()));
@@ -72,12 +78,15 @@ TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
     for (int i = 0; i < 6; ++i) {
       const Vector6d step = kStep * Vector6d::Unit(i);
       expect_near(term.ByPose().col(i),
-                  (residual(step, zero3, zero3) - residual(-step, zero3, zero3)) / (2 * kStep));
+                  (residual(step, zero3, zero20) - residual(-step, zero3, zero20)) / (2 * kStep));
     }
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
       expect_near(term.ByPoint(pose.RotationMatrix()).col(i),
-                  (residual(zero6, step, zero3) - residual(zero6, -step, zero3)) / (2 * kStep));
+                  (residual(zero6, step, zero20) - residual(zero6, -step, zero20)) / (2 * kStep));
+    }
+    for (int i = 0; i < StereoCorrection::kSize; ++i) {
+      const StereoCorrection::Coefficients step = kStep * StereoCorrection::Coefficients::Unit(i);
       expect_near(term.ByCorrection().col(i),
                   (residual(zero6, zero3, step) - residual(zero6, zero3, -step)) / (2 * kStep));
     }

@@ -90,7 +90,7 @@ TEST(SurfFastPath, AgreesOnRealImages) {
        {"kitti/odometry_06_000-050/image_0/000000.png", "matching/oxford_graf/img1.png",
         "matching/oxford_boat/img4.png", "matching/oxford_leuven/img6.png"}) {
     SCOPED_TRACE(name);
-    const std::string path = FindShared(name);
+    const std::string path = FindShared(std::string("data/") + name);
     if (path.empty()) GTEST_SKIP() << "the real image " << name << " is not there";
     const cv::Mat grey = cv::imread(path, cv::IMREAD_GRAYSCALE);
     ASSERT_FALSE(grey.empty());

@@ -56,8 +56,8 @@ MapUpdate MakeUpdate() {
   MapUpdate update;
   update.keyframes = {{2, kMotion}, {5, kMotion.Inverse()}};
   update.landmarks = {{7, {1, 2, 3}}, {9, {4, 5, 6}}};
-  update.stereo_rotation_rad = {1e-3, 2e-3, 3e-3};
-  update.stereo_rotation_sigma_rad = {1e-4, 2e-4, 3e-4};
+  update.stereo_correction.coefficients_px.setLinSpaced(0.1, 0.9);
+  update.stereo_correction_sigma_px.setLinSpaced(0.01, 0.02);
   return update;
 }
 
@@ -136,8 +136,8 @@ TEST(Conversions, AMapUpdateSurvives) {
   ASSERT_EQ(back.landmarks.size(), 2u);
   EXPECT_EQ(back.landmarks[1].id, 9);
   EXPECT_EQ(back.landmarks[1].x_in_world, Eigen::Vector3d(4, 5, 6));
-  EXPECT_EQ(back.stereo_rotation_rad, update.stereo_rotation_rad);
-  EXPECT_EQ(back.stereo_rotation_sigma_rad, update.stereo_rotation_sigma_rad);
+  EXPECT_EQ(back.stereo_correction.coefficients_px, update.stereo_correction.coefficients_px);
+  EXPECT_EQ(back.stereo_correction_sigma_px, update.stereo_correction_sigma_px);
 }
 
 /// Spoils a good message and expects an error with `text` from its conversion.
@@ -195,8 +195,8 @@ TEST(Conversions, AMalformedMapUpdateIsRefusedByName) {
                 [](auto& message) { message.keyframe_id[1] = 2; });
   ExpectRefused(good, "landmark_position[5] is not a finite number",
                 [](auto& message) { message.landmark_position[5] = kNaN; });
-  ExpectRefused(good, "stereo_rotation_rad is not finite",
-                [](auto& message) { message.stereo_rotation_rad.x = kNaN; });
+  ExpectRefused(good, "stereo_correction_px[3] is not a finite number",
+                [](auto& message) { message.stereo_correction_px[3] = kNaN; });
 }
 
 }  // namespace

@@ -96,8 +96,9 @@ struct BundleResult {
   /// What the inverse of a weighted normal matrix has to be multiplied with to be a covariance; 1
   /// unless a covariance is asked for.
   double covariance_factor = 1;
-  /// Marginal covariance of the correction, rad^2; zero for axes that stay where they start.
-  Eigen::Matrix3d correction_covariance = Eigen::Matrix3d::Zero();
+  /// Marginal covariance of the correction's coefficients, px^2; zero where they are not free.
+  Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize> correction_covariance =
+      Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>::Zero();
   /// [points] m^2, given the poses; zero for points not used. Empty unless asked for.
   std::vector<Eigen::Matrix3d> point_covariances;
   /// Of the step of BoxPlus of the last free pose, (rad, m). Nothing unless asked for.
@@ -108,8 +109,8 @@ struct BundleResult {
   double time_s = 0;
 };
 
-/// Moves the free poses, the points and the stereo correction rho to the least of
-///   sum_i rho(|r_i|^2) + sum_c e_c^T Omega_c e_c + sum_axes ((rho - mean) / sigma)^2
+/// Moves the free poses, the points and the stereo correction's coefficients k to the least of
+///   sum_i rho(|r_i|^2) + sum_c e_c^T Omega_c e_c + |k|^2 / sigma^2
 /// with r the reprojection errors (ReprojectionTerm), e the errors of the constraints with
 /// information Omega. Points that cannot be placed (seen once and by the left eye alone) take no
 /// part. Repeatable to the last bit for a given num_threads.

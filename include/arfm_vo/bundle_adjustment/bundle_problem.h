@@ -37,10 +37,9 @@ struct BundleProblem {
   std::vector<PoseConstraint> constraints;
 
   StereoCorrection correction;  ///< where to start
-  /// Prior of the correction: its mean and standard deviations, rad; sigma 0 = that axis stays
-  /// where it starts.
-  Eigen::Vector3d correction_mean_rad = Eigen::Vector3d::Zero();
-  Eigen::Vector3d correction_sigma_rad = Eigen::Vector3d::Zero();
+  /// Prior of each coefficient of the correction: a standard deviation about zero; 0 = the
+  /// correction stays where it starts.
+  double correction_sigma_px = 0;
 
   /// Throws std::invalid_argument naming what is wrong: sizes that differ, an index out of range,
   /// a value that is not finite, a sigma that is not positive, no observation or no fixed pose.

@@ -11,26 +11,30 @@ namespace arfm_vo {
 Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega);
 
 /// The reprojection error of a stereo observation of point X by pose (R, t), px / sigma:
-///   r = (pi(x) - (u_left, v_left), pi(E (x - (b, 0, 0))) - (u_right, v_right)) / sigma
-///   x = R X + t,  E = Exp(rho)
-/// with pi the pinhole projection (eq 1), b the baseline and rho the rotation of the
+///   r = (pi(x) - (u_left, v_left), p + d(p) - (u_right, v_right)) / sigma
+///   x = R X + t,  p = pi(x - (b, 0, 0))
+/// with pi the pinhole projection (eq 1), b the baseline and d the displacement by the
 /// StereoCorrection. The last two rows are zero where the right image does not see the point.
 struct ReprojectionTerm {
   Eigen::Vector4d residual;
-  Eigen::Vector3d x;                                ///< m, camera frame
-  Eigen::Matrix<double, 4, 3> by_x;                 ///< derivative by x
-  Eigen::Matrix<double, 2, 3> right_by_correction;  ///< derivative of the last two rows by rho
+  Eigen::Vector3d x;                 ///< m, camera frame
+  Eigen::Matrix<double, 4, 3> by_x;  ///< derivative by x
+  /// Derivative of the third row by the correction's coefficients of u, which is that of the fourth
+  /// by its coefficients of v; the others are zero.
+  Eigen::Matrix<double, ImageBasis::kNumTerms, 1> right_by_coefficients;
 
-  /// Derivatives by the step of BoxPlus(pose, .), by X, and by rho.
+  /// Derivatives by the step of BoxPlus(pose, .), by X, and by the correction.
   Eigen::Matrix<double, 4, 6> ByPose() const;
   Eigen::Matrix<double, 4, 3> ByPoint(const Eigen::Matrix3d& rotation) const;
-  Eigen::Matrix<double, 4, 3> ByCorrection() const;
+  Eigen::Matrix<double, 4, StereoCorrection::kSize> ByCorrection() const;
 };
 
 /// Evaluates reprojection terms for one value of the stereo correction.
 class ReprojectionModel {
  public:
-  ReprojectionModel(const StereoCamera& camera, const StereoCorrection& correction);
+  /// `with_correction`: the terms' derivatives by the correction are wanted.
+  ReprojectionModel(const StereoCamera& camera, const StereoCorrection& correction,
+                    bool with_correction);
 
   /// Returns false, with a large constant residual and all derivatives zero, where the point does
   /// not lie before the camera.
@@ -44,8 +48,9 @@ class ReprojectionModel {
 
  private:
   StereoCamera camera_;
-  Eigen::Matrix3d right_from_left_;  ///< E
-  Eigen::Matrix3d left_jacobian_;    ///< Exp(rho + d) = Exp(left_jacobian d) Exp(rho)
+  StereoCorrection correction_;
+  bool is_rectified_;  ///< the correction is zero
+  bool with_correction_;
 };
 
 /// The error of a pose constraint, (rotation rad, translation m), and its derivatives by the steps

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/mapping/landmark.h"
 
 namespace arfm_vo {
@@ -37,9 +38,11 @@ struct MapUpdate {
   };
   std::vector<KeyframePose> keyframes;      ///< sorted by id
   std::vector<LandmarkPosition> landmarks;  ///< sorted by id
-  /// Residual rotation of the right camera (rad) and its standard deviations; zero where frozen.
-  Eigen::Vector3d stereo_rotation_rad = Eigen::Vector3d::Zero();
-  Eigen::Vector3d stereo_rotation_sigma_rad = Eigen::Vector3d::Zero();
+  /// What the images say that rectification left undone, and the standard deviations of its
+  /// coefficients; zero where that is frozen or not significant.
+  StereoCorrection stereo_correction;
+  StereoCorrection::Coefficients stereo_correction_sigma_px =
+      StereoCorrection::Coefficients::Zero();
 };
 
 }  // namespace arfm_vo

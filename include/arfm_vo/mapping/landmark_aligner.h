@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/image/patch_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/keyframe.h"
@@ -37,9 +38,16 @@ class LandmarkAligner {
   std::optional<LandmarkObservation> Align(const Landmark& landmark, const Keyframe& reference,
                                            const StereoImages& images,
                                            const Rigid3& camera_from_world) const;
+  /// What is known of the right image's displacement: tells where to look there.
+  void SetCorrection(const StereoCorrection& correction) { correction_ = correction; }
 
  private:
+  /// SourceFromTarget for an eye at `eye_from_world`, where it does not change the size too much.
+  std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
+                                      const Rigid3& eye_from_world) const;
+
   StereoCamera camera_;
+  StereoCorrection correction_;
   LandmarkAlignerOptions options_;
   PatchAligner aligner_;
 };

@@ -57,9 +57,13 @@ class FrameTracker {
 
   TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
                      const std::optional<Rigid3>& predicted_camera_from_world) const;
+  /// Takes the right image's displacement into account from now on. Observations stay as measured.
+  void SetCorrection(const StereoCorrection& correction);
 
  private:
   struct Correspondences;
+  void Add(const Landmark& landmark, const LandmarkObservation& observation,
+           Correspondences& correspondences) const;
   Correspondences MatchNear(const StereoFrame& frame, const LocalMap& map,
                             const Rigid3& predicted) const;
   Correspondences MatchAll(const StereoFrame& frame, const LocalMap& map) const;
@@ -76,6 +80,7 @@ class FrameTracker {
                      const PoseEstimate& coarse) const;
 
   StereoCamera camera_;
+  StereoCorrection correction_;
   FrameTrackerOptions options_;
   LandmarkAligner aligner_;
 };

@@ -12,20 +12,28 @@
 namespace arfm_vo {
 
 struct GlobalMapOptions {
-  BundleOptions solver;
+  BundleOptions solver = DefaultSolver();
   int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
   int max_keyframes = 2000;  ///< the newest so many move; older ones are held where they are
-  double stereo_rotation_sigma_rad = 1e-3;  ///< prior of the right camera's error; 0: frozen
+  /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
+  double stereo_correction_sigma_px = 1;
+  double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
 
   LoopOptions loops;  ///< places known again; off unless enabled
 
+  static BundleOptions DefaultSolver() {
+    BundleOptions options;
+    options.loss = LossKind::kCauchy;
+    return options;
+  }
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("solver", solver);
     visit("min_observations", min_observations);
     visit("max_keyframes", max_keyframes);
-    visit("stereo_rotation_sigma_rad", stereo_rotation_sigma_rad);
+    visit("stereo_correction_sigma_px", stereo_correction_sigma_px);
+    visit("stereo_correction_confidence", stereo_correction_confidence);
     visit("loops", loops);
   }
 };
@@ -56,6 +64,7 @@ class GlobalMap {
   void Close(const Loop& loop);
   void BendOntoLoops();
   BundleProblem MakeProblem();
+  BundleResult Solve(BundleProblem problem, const BundleCallback& progress) const;
 
   StereoCamera camera_;
   GlobalMapOptions options_;

@@ -17,7 +17,7 @@ inline BundleOptions WindowSolver() {
 
 struct LocalBundleOptions {
   bool enabled = true;
-  int num_keyframes = 8;   ///< newest keyframes that move
+  int num_keyframes = 8;  ///< newest keyframes that move
   BundleOptions solver = WindowSolver();
 
   void Check() const;
@@ -39,7 +39,8 @@ struct LocalBundle {
 
 /// Takes the newest `num_keyframes` keyframes, and, held fixed, the older ones that see the same
 /// points; the oldest of all is fixed in any case.
-LocalBundle MakeLocalBundle(const StereoCamera& camera, const LocalMap& map, int num_keyframes);
+LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& correction,
+                            const LocalMap& map, int num_keyframes);
 
 /// Moves keyframes and landmarks to where the adjustment put them, and forgets the observations
 /// that disagree.

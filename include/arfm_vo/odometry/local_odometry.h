@@ -22,7 +22,7 @@ struct LocalOdometryOptions {
   LocalMapOptions map;
   LocalBundleOptions bundle;
   StandstillOptions standstill;
-  bool predict_motion = true;  ///< constant velocity; never required
+  bool predict_motion = true;    ///< constant velocity; never required
   int min_points_to_start = 30;  ///< stereo points of the first frame
 
   void Check() const;

@@ -37,8 +37,7 @@ class StandstillLock {
 
   /// The pose to hold, where the camera has not moved; otherwise nothing, and this frame is what
   /// the next ones are compared with. `observations` are sorted by landmark.
-  std::optional<Rigid3> Hold(const PoseEstimate& pose,
-                             const LandmarkObservations& observations);
+  std::optional<Rigid3> Hold(const PoseEstimate& pose, const LandmarkObservations& observations);
 
   void Reset() { anchor_.clear(); }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <future>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "arfm_vo/odometry/global_map.h"
@@ -14,6 +16,10 @@ struct OdometryOptions {
   FrontendOptions frontend;
   LocalOdometryOptions odometry;
   bool adjust_globally = true;  ///< at the end
+  /// What the first 10, 20, 40.. keyframes, up to this many, say of the stereo correction is taken
+  /// over on the way: better poses as they come, at the cost of these adjustments. 0: never; the
+  /// adjustment at the end finds the correction anyhow.
+  int max_calibration_keyframes = 0;
   GlobalMapOptions global;
 
   void Check() const;
@@ -22,6 +28,7 @@ struct OdometryOptions {
     visit("frontend", frontend);
     visit("odometry", odometry);
     visit("adjust_globally", adjust_globally);
+    visit("max_calibration_keyframes", max_calibration_keyframes);
     visit("global", global);
   }
 };
@@ -53,12 +60,16 @@ class VisualOdometry {
     Rigid3 camera_from_keyframe;
   };
 
+  void Calibrate();
   void Remember(const OdometryUpdate& update);
 
   OdometryOptions options_;
   StereoFrontend frontend_;
   LocalOdometry local_;
   GlobalMap global_;
+  int next_calibration_;  ///< number of keyframes
+  std::future<std::optional<MapUpdate>> calibration_;
+  size_t calibrated_at_ = 0;  ///< the frame before which `calibration_` is taken over
   std::vector<Frame> frames_;
   std::map<KeyframeId, Rigid3> keyframe_from_world_;
 };

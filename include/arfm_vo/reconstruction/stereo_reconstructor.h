@@ -88,12 +88,11 @@ class StereoReconstructor {
   using Sightings = std::vector<Sighting>;
 
   Matches MatchKeypoints(const Features& left, const Features& right, double max_ratio) const;
-  Sightings Refine(const Features& left, const std::vector<std::optional<cv::Point2f>>& guesses,
-                   const StereoImages& images) const;
+  Sightings Refine(const Features& left, std::vector<std::optional<cv::Point2f>> guesses,
+                   const StereoImages& images);
   Sightings TakeKeypoints(const Features& left, const Features& right,
                           const Matches& matches) const;
-  void SearchRows(const Features& left, const StereoImages& images,
-                  std::vector<std::optional<cv::Point2f>>& guesses);
+  std::optional<cv::Point2f> SearchRow(const cv::Point2f& place) const;
   void LearnRows(const Features& left, const Sightings& sightings);
   std::optional<StereoPoint> Triangulate(const Keypoint& left, const Sighting& sighting) const;
 
