@@ -2,16 +2,10 @@
 
 #include <signal.h>
 
+#include "arfm_vo/ros/node_main.h"
+
 int main(int argc, char** argv) {
   // Whoever ends this program leaves a standing rover behind.
   for (const int signal : {SIGTERM, SIGHUP}) ::signal(signal, [](int) { ros::requestShutdown(); });
-  ros::init(argc, argv, "chassis_node");
-  try {
-    arfm_vo::ChassisNode node{ros::NodeHandle(), ros::NodeHandle("~")};
-    ros::spin();
-    return 0;
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+  return arfm_vo::RunNode<arfm_vo::ChassisNode>(argc, argv, "chassis_node");
 }

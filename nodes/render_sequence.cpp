@@ -49,6 +49,14 @@ int main(int argc, char** argv) {
       "height", po::value(&scene.height)->value_name("PX"), "of the images")(
       "noise", po::value(&scene.noise_grey_levels)->value_name("LEVELS"),
       "standard deviation of the grey values")(
+      "right-x", po::value(&scene.right_x_mrad)->value_name("MRAD"),
+      "fault of rectification: the right camera's rotation about x (moves its rows)")(
+      "right-y", po::value(&scene.right_y_mrad)->value_name("MRAD"),
+      "about y (moves all disparities)")(
+      "right-z", po::value(&scene.right_z_mrad)->value_name("MRAD"), "about z")(
+      "sweep-pan", po::value(&scene.sweep_pan_deg)->value_name("DEG"),
+      "the head sweeps through so much, once to both sides")(
+      "sweep-tilt", po::value(&scene.sweep_tilt_deg)->value_name("DEG"), "twice up and down")(
       "threads", po::value(&scene.num_threads)->value_name("N"), "does not change the result");
   program.run = [&] { RenderSequence(folder, scene); };
   return RunProgram(argc, argv, program);

@@ -2,8 +2,15 @@
 # Shows the odometry at work: installs and builds what is missing, replays a recording through the
 # nodes by roslaunch, and prints the error against the ground truth.
 # Usage: scripts/demo.sh [BAG | KITTI_FOLDER] [OUTPUT_DIR]     default: the fixture, _demo
+#        scripts/demo.sh --simulation [X_M Y_M HEADING_DEG [OUTPUT_DIR]]
+# With --simulation a simulated rover drives to a goal by sight alone, and a picture of the drive is written.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [ "${1:-}" = --simulation ]; then
+  shift
+  scripts/install_dependencies.sh
+  exec scripts/simulation_demo.sh "$@"
+fi
 input=${1:-rosbag_fixtures/terrain.bag}
 output=${2:-_demo}
 [ -e "$input" ] || { echo "demo: $input: no such bag or KITTI folder" >&2; exit 1; }

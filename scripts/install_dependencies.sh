@@ -14,10 +14,10 @@ ros=(libroscpp-dev ros-message-generation ros-message-runtime
      libnodelet-dev libnodeletlib-dev pluginlib-dev
      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
      libdiagnostic-updater-dev librosbag-dev librosbag-storage-dev)
-libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev libv4l-dev zlib1g-dev libboost-program-options-dev)
+libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev zlib1g-dev libboost-program-options-dev)
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode rosbash libnodeletlib-tools tf2-tools
-         python3-rosbag python3-rospy topic-tools python3-cv-bridge rviz ros-image-view
+         python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs topic-tools python3-cv-bridge rviz ros-image-view
          ros-stereo-image-proc ros-robot-state-publisher ros-camera-calibration
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.

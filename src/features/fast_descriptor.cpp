@@ -1,48 +1,57 @@
-#include <array>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
 #include "fast_surf.h"
 #include "orientation_histogram.h"
+#include "region_window.h"
 #include "surf_kernels.h"
 #include "surf_reference.h"
 
 namespace arfm_vo {
 namespace {
 
-/// The samples around every keypoint, in scales.
-struct SampleTables {
-  static constexpr int kMaxDisc = 136;  ///< room, in a multiple of 8
+static_assert(kRegionWidth == RegionWindow::kWidth && kMaxSampleStride >= RegionWindow::kMaxSide);
 
-  int num_disc = 0;  ///< samples of the orientation's disc
-  alignas(32) float disc_u[kMaxDisc] = {}, disc_v[kMaxDisc] = {};
-  int disc_weight[kMaxDisc] = {};
-  /// [sample of the region][region]: regions lie side by side in vectors.
-  alignas(32) float u[kDescriptorSamples], v[kDescriptorSamples], weight[kDescriptorSamples];
+/// The samples around a keypoint for its orientation, in scales.
+struct OrientationDisc {
+  static constexpr int kRoom = 136;  ///< samples, a multiple of 8
 
-  SampleTables() {
+  int num = 0;
+  alignas(32) float u[kRoom] = {}, v[kRoom] = {};
+  int weight[kRoom] = {};
+
+  OrientationDisc() {
     for (int j = -kOrientationRadius; j <= kOrientationRadius; ++j) {
       for (int i = -kOrientationRadius; i <= kOrientationRadius; ++i) {
         if (!IsInOrientationDisc(i, j)) continue;
-        disc_u[num_disc] = static_cast<float>(i);
-        disc_v[num_disc] = static_cast<float>(j);
-        disc_weight[num_disc++] = OrientationWeight(i, j);
-      }
-    }
-    for (int row = 0; row < kRegions * kRegionSide; ++row) {
-      for (int col = 0; col < kRegions * kRegionSide; ++col) {
-        const int region = kRegions * (row / kRegionSide) + col / kRegionSide;
-        const int sample = kRegionSide * (row % kRegionSide) + col % kRegionSide;
-        const int at = sample * kRegionLanes + region;
-        u[at] = static_cast<float>(col) - kHalfGrid;
-        v[at] = static_cast<float>(row) - kHalfGrid;
-        weight[at] = DescriptorWeight(u[at], v[at]);
+        u[num] = static_cast<float>(i);
+        v[num] = static_cast<float>(j);
+        weight[num++] = OrientationWeight(i, j);
       }
     }
   }
 };
 
-const SampleTables kTables;
+const OrientationDisc kDisc;
+
+/// The samples of a descriptor in steps, row by row, rows filled up to whole vectors.
+struct DescriptorSamples {
+  static constexpr int kRoom = RegionWindow::kMaxSide * kMaxSampleStride;
+
+  RegionWindow window;
+  int stride, num;
+  alignas(32) float u[kRoom], v[kRoom];
+
+  explicit DescriptorSamples(const SurfDescriptorOptions& options)
+      : window(MakeRegionWindow(options)),
+        stride((window.Side() + 7) / 8 * 8),
+        num(window.Side() * stride) {
+    for (int i = 0; i < num; ++i) {
+      u[i] = static_cast<float>(i % stride) - window.HalfSide();
+      v[i] = static_cast<float>(i / stride) - window.HalfSide();
+    }
+  }
+};
 
 /// Haar responses (ComputeHaarResponse) at `offsets`, all of whose wavelets lie in the image.
 void ComputeHaarResponses(const IntegralImage& integral, const int32_t* offsets, int num, int half,
@@ -61,32 +70,33 @@ void ComputeHaarResponses(const IntegralImage& integral, const int32_t* offsets,
 
 float FindOrientation(const IntegralImage& integral, const Keypoint& keypoint,
                       const SurfKernels& kernels) {
-  constexpr int kMaxDisc = SampleTables::kMaxDisc;
-  const int num = kTables.num_disc, padded = (num + 7) / 8 * 8;
+  constexpr int kMaxDisc = OrientationDisc::kRoom;
+  const int num = kDisc.num, padded = (num + 7) / 8 * 8;
   const SampleGrid grid = {keypoint.x, keypoint.y, keypoint.scale,
                            1,          0,          OrientationHalf(keypoint.scale)};
   alignas(32) int32_t offsets[kMaxDisc], dx[kMaxDisc], dy[kMaxDisc], bins[kMaxDisc];
-  kernels.place_samples(View(integral), grid, kTables.disc_u, kTables.disc_v, padded, offsets);
+  kernels.place_samples(View(integral), grid, kDisc.u, kDisc.v, padded, offsets);
   ComputeHaarResponses(integral, offsets, padded, grid.half, dx, dy);
   kernels.find_bins(dx, dy, padded, bins);
   OrientationHistogram histogram;
-  for (int i = 0; i < num; ++i) histogram.Add(dx[i], dy[i], kTables.disc_weight[i], bins[i]);
+  for (int i = 0; i < num; ++i) histogram.Add(dx[i], dy[i], kDisc.weight[i], bins[i]);
   return histogram.FindDirection();
 }
 
 void Describe(const IntegralImage& integral, const Keypoint& keypoint, const SurfKernels& kernels,
-              float* descriptor) {
+              const DescriptorSamples& samples, float* descriptor) {
+  constexpr int kRoom = DescriptorSamples::kRoom;
+  const RegionWindow& window = samples.window;
   const SampleGrid grid = {keypoint.x,
                            keypoint.y,
-                           keypoint.scale,
+                           keypoint.scale * window.step,
                            std::cos(keypoint.angle),
                            std::sin(keypoint.angle),
-                           DescriptorHalf(keypoint.scale)};
-  alignas(32) int32_t offsets[kDescriptorSamples], dx[kDescriptorSamples], dy[kDescriptorSamples];
-  kernels.place_samples(View(integral), grid, kTables.u, kTables.v, kDescriptorSamples, offsets);
-  ComputeHaarResponses(integral, offsets, kDescriptorSamples, grid.half, dx, dy);
-  kernels.sum_regions(grid, dx, dy, kTables.weight, descriptor);
-  NormaliseDescriptor(descriptor);
+                           DescriptorHalf(keypoint.scale, window)};
+  alignas(32) int32_t offsets[kRoom], dx[kRoom], dy[kRoom];
+  kernels.place_samples(View(integral), grid, samples.u, samples.v, samples.num, offsets);
+  ComputeHaarResponses(integral, offsets, samples.num, grid.half, dx, dy);
+  kernels.sum_regions(grid, dx, dy, {window.spacing, samples.stride, window.weights}, descriptor);
 }
 
 }  // namespace
@@ -95,11 +105,14 @@ void DescribeFast(const IntegralImage& integral, const SurfDescriptorOptions& op
                   Features& features) {
   features.descriptors.create(features.size(), kDescriptorLength, CV_32FC1);
   const SurfKernels& kernels = ChooseSurfKernels();
+  const DescriptorSamples samples(options);
   const auto describe = [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       Keypoint& keypoint = features.keypoints[i];
       keypoint.angle = options.upright ? 0 : FindOrientation(integral, keypoint, kernels);
-      Describe(integral, keypoint, kernels, features.descriptors.ptr<float>(i));
+      float* descriptor = features.descriptors.ptr<float>(i);
+      Describe(integral, keypoint, kernels, samples, descriptor);
+      NormaliseDescriptor(descriptor);
     }
   };
   const cv::Range all(0, features.size());

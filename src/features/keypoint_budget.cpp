@@ -11,10 +11,6 @@ bool IsStronger(const ScaleSpaceMaximum& a, const ScaleSpaceMaximum& b) {
          std::tie(a.response, b.y, b.x, b.octave, b.layer);
 }
 
-bool IsAbove(const ScaleSpaceMaximum& a, const ScaleSpaceMaximum& b) {
-  return std::tie(a.y, a.x, a.octave, a.layer) < std::tie(b.y, b.x, b.octave, b.layer);
-}
-
 /// A maximum and its place among those of its cell, 0 for the strongest.
 struct RankedMaximum {
   ScaleSpaceMaximum maximum;
@@ -23,8 +19,8 @@ struct RankedMaximum {
 
 }  // namespace
 
-std::vector<ScaleSpaceMaximum> SelectSpread(const std::vector<ScaleSpaceMaximum>& maxima, int rows,
-                                            int cols, int target, int bucket_px) {
+std::vector<ScaleSpaceMaximum> RankSpread(const std::vector<ScaleSpaceMaximum>& maxima, int rows,
+                                          int cols, int bucket_px) {
   std::vector<ScaleSpaceMaximum> strongest = maxima;
   std::sort(strongest.begin(), strongest.end(), IsStronger);
   const int cell_px = bucket_px > 0 ? bucket_px : std::max(rows, cols);
@@ -38,12 +34,8 @@ std::vector<ScaleSpaceMaximum> SelectSpread(const std::vector<ScaleSpaceMaximum>
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const RankedMaximum& a, const RankedMaximum& b) { return a.rank < b.rank; });
-  if (static_cast<int>(ranked.size()) > target) ranked.resize(target);
-  std::vector<ScaleSpaceMaximum> selected;
-  selected.reserve(ranked.size());
-  for (const RankedMaximum& entry : ranked) selected.push_back(entry.maximum);
-  std::sort(selected.begin(), selected.end(), IsAbove);
-  return selected;
+  for (size_t i = 0; i < ranked.size(); ++i) strongest[i] = ranked[i].maximum;
+  return strongest;
 }
 
 }  // namespace arfm_vo

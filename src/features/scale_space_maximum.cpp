@@ -10,17 +10,19 @@ namespace {
 
 using Neighbours = float[3][3][3];  ///< determinants by layer, row, column
 
+float DeterminantAt(const IntegralImage& integral, int x, int y, int size) {
+  return ComputeDeterminant(ComputeBoxHessian(integral, x, y, size),
+                            1.0f / static_cast<float>(size * size));
+}
+
 void ComputeNeighbours(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
                        Neighbours& values) {
   for (int layer = 0; layer < 3; ++layer) {
     const int size = BoxFilterSize(maximum.octave, maximum.layer + layer - 1);
-    const float inverse_area = 1.0f / static_cast<float>(size * size);
     for (int row = 0; row < 3; ++row) {
       for (int col = 0; col < 3; ++col) {
-        values[layer][row][col] =
-            ComputeDeterminant(ComputeBoxHessian(integral, maximum.x + (col - 1) * step,
-                                                 maximum.y + (row - 1) * step, size),
-                               inverse_area);
+        values[layer][row][col] = DeterminantAt(integral, maximum.x + (col - 1) * step,
+                                                maximum.y + (row - 1) * step, size);
       }
     }
   }
@@ -61,6 +63,25 @@ std::optional<Keypoint> InterpolateMaximum(const IntegralImage& integral,
   keypoint.response = maximum.response;
   keypoint.laplacian_sign = sums.xx + sums.yy >= 0 ? 1 : -1;
   return keypoint;
+}
+
+bool RepeatsFinerOctave(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
+                        int layers) {
+  constexpr int kRadius = 2;  // samples of the finer octave: the neighbours of this one's
+  if (maximum.octave == 0) return false;
+  const int same = 2 * maximum.layer + 1;  // layer of the finer octave with the same filter
+  if (same < layers - 1) return true;      // a maximum there as well
+  for (const int finer : {same - 1, same + 1}) {
+    if (finer >= layers) continue;
+    const int size = BoxFilterSize(maximum.octave - 1, finer);
+    for (int dy = -kRadius; dy <= kRadius; ++dy) {
+      for (int dx = -kRadius; dx <= kRadius; ++dx) {
+        const int x = maximum.x + dx * step / 2, y = maximum.y + dy * step / 2;
+        if (DeterminantAt(integral, x, y, size) > maximum.response) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace arfm_vo

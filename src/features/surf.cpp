@@ -1,5 +1,7 @@
 #include "arfm_vo/features/surf.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/image/integral_image.h"
 #include "fast_surf.h"
@@ -8,8 +10,18 @@ namespace arfm_vo {
 
 class Surf::Workspace {
  public:
+  /// Of the same size; valid until the next call.
+  const cv::Mat& Smooth(const cv::Mat& grey) {
+    if (grey.empty()) return grey;
+    cv::GaussianBlur(grey, smooth_, cv::Size(3, 3), 0);
+    return smooth_;
+  }
+
   IntegralImage integral;
   FastMaximumFinder finder;
+
+ private:
+  cv::Mat smooth_;
 };
 
 void SurfOptions::Check() const {
@@ -25,7 +37,7 @@ Surf::Surf(const SurfOptions& options)
 Surf::~Surf() = default;
 
 Features Surf::Extract(const cv::Mat& grey) {
-  workspace_->integral.Compute(grey);
+  workspace_->integral.Compute(options_.smooth ? workspace_->Smooth(grey) : grey);
   Features features;
   const IntegralImage& integral = workspace_->integral;
   if (options_.use_fast_path) {

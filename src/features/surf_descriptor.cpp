@@ -9,6 +9,35 @@
 #include "surf_reference.h"
 
 namespace arfm_vo {
+namespace {
+
+constexpr int kParts = 4;  ///< dx, dy, |dx|, |dy|
+
+/// Haar responses at the samples of a window, along and across a keypoint's orientation.
+using TurnedHaar = float[RegionWindow::kMaxSide][RegionWindow::kMaxSide][kParts];
+
+void ComputeTurnedHaar(const IntegralImage& integral, const Keypoint& keypoint,
+                       const RegionWindow& window, TurnedHaar& turned) {
+  const float cosine = std::cos(keypoint.angle), sine = std::sin(keypoint.angle);
+  const float step = keypoint.scale * window.step;
+  const int half = DescriptorHalf(keypoint.scale, window);
+  for (int row = 0; row < window.Side(); ++row) {
+    for (int col = 0; col < window.Side(); ++col) {
+      const float u = static_cast<float>(col) - window.HalfSide();
+      const float v = static_cast<float>(row) - window.HalfSide();
+      const HaarResponse haar =
+          ComputeHaarResponse(integral, keypoint.x + step * (cosine * u - sine * v),
+                              keypoint.y + step * (sine * u + cosine * v), half);
+      float* parts = turned[row][col];
+      parts[0] = cosine * haar.dx + sine * haar.dy;
+      parts[1] = cosine * haar.dy - sine * haar.dx;
+      parts[2] = std::abs(parts[0]);
+      parts[3] = std::abs(parts[1]);
+    }
+  }
+}
+
+}  // namespace
 
 float ComputeOrientation(const IntegralImage& integral, const Keypoint& keypoint) {
   OrientationHistogram histogram;
@@ -24,28 +53,26 @@ float ComputeOrientation(const IntegralImage& integral, const Keypoint& keypoint
   return histogram.FindDirection();
 }
 
-void ComputeDescriptor(const IntegralImage& integral, const Keypoint& keypoint, float* descriptor) {
-  std::fill(descriptor, descriptor + kDescriptorLength, 0.0f);
-  const float scale = keypoint.scale;
-  const float cosine = std::cos(keypoint.angle), sine = std::sin(keypoint.angle);
-  const int half = DescriptorHalf(scale);
-  for (int row = 0; row < kRegions * kRegionSide; ++row) {
-    for (int col = 0; col < kRegions * kRegionSide; ++col) {
-      const float u = static_cast<float>(col) - kHalfGrid, v = static_cast<float>(row) - kHalfGrid;
-      const float x = keypoint.x + scale * (cosine * u - sine * v);
-      const float y = keypoint.y + scale * (sine * u + cosine * v);
-      const HaarResponse haar = ComputeHaarResponse(integral, x, y, half);
-      const float weight = DescriptorWeight(u, v);
-      const float dx = weight * (cosine * haar.dx + sine * haar.dy);
-      const float dy = weight * (cosine * haar.dy - sine * haar.dx);
-      float* region = descriptor + 4 * (kRegions * (row / kRegionSide) + col / kRegionSide);
-      region[0] += dx;
-      region[1] += dy;
-      region[2] += std::abs(dx);
-      region[3] += std::abs(dy);
+void ComputeDescriptor(const IntegralImage& integral, const Keypoint& keypoint,
+                       const RegionWindow& window, float* descriptor) {
+  TurnedHaar haar;
+  ComputeTurnedHaar(integral, keypoint, window, haar);
+  for (int i = 0; i < RegionWindow::kRegions; ++i) {
+    for (int j = 0; j < RegionWindow::kRegions; ++j) {
+      for (int part = 0; part < kParts; ++part) {
+        float sum = 0;
+        for (int l = 0; l < RegionWindow::kWidth; ++l) {
+          float column_sum = 0;
+          for (int k = 0; k < RegionWindow::kWidth; ++k) {
+            const float response = haar[window.spacing * i + k][window.spacing * j + l][part];
+            column_sum += window.weights[i][k] * response;
+          }
+          sum += window.weights[j][l] * column_sum;
+        }
+        *descriptor++ = sum;
+      }
     }
   }
-  NormaliseDescriptor(descriptor);
 }
 
 void NormaliseDescriptor(float* descriptor) {
@@ -57,11 +84,14 @@ void NormaliseDescriptor(float* descriptor) {
 }
 
 void SurfDescriptor::Describe(const IntegralImage& integral, Features& features) const {
+  const RegionWindow window = MakeRegionWindow(options_);
   features.descriptors.create(features.size(), kDescriptorLength, CV_32FC1);
   for (int i = 0; i < features.size(); ++i) {
     Keypoint& keypoint = features.keypoints[i];
+    float* descriptor = features.descriptors.ptr<float>(i);
     keypoint.angle = options_.upright ? 0 : ComputeOrientation(integral, keypoint);
-    ComputeDescriptor(integral, keypoint, features.descriptors.ptr<float>(i));
+    ComputeDescriptor(integral, keypoint, window, descriptor);
+    NormaliseDescriptor(descriptor);
   }
 }
 

@@ -1,6 +1,9 @@
 #include "arfm_vo/features/surf_detector.h"
 
+#include <algorithm>
 #include <opencv2/core/mat.hpp>
+#include <tuple>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/features/box_hessian.h"
@@ -45,6 +48,10 @@ void FindMaxima(const cv::Mat_<float>* layers, int octave, int layer, int step, 
   }
 }
 
+bool IsAbove(const ScaleSpaceMaximum& a, const ScaleSpaceMaximum& b) {
+  return std::tie(a.y, a.x, a.octave, a.layer) < std::tie(b.y, b.x, b.octave, b.layer);
+}
+
 }  // namespace
 
 void SurfDetectorOptions::Check() const {
@@ -77,15 +84,22 @@ std::vector<ScaleSpaceMaximum> FindMaxima(const IntegralImage& integral,
 std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral,
                                       const std::vector<ScaleSpaceMaximum>& maxima,
                                       const SurfDetectorOptions& options) {
-  const int target =
-      options.target_keypoints > 0 ? options.target_keypoints : static_cast<int>(maxima.size());
-  std::vector<Keypoint> keypoints;
+  const size_t target = options.target_keypoints > 0 ? options.target_keypoints : maxima.size();
+  std::vector<std::pair<ScaleSpaceMaximum, Keypoint>> selected;
   for (const ScaleSpaceMaximum& maximum :
-       SelectSpread(maxima, integral.rows(), integral.cols(), target, options.bucket_px)) {
-    const auto keypoint =
-        InterpolateMaximum(integral, maximum, options.initial_step << maximum.octave);
-    if (keypoint) keypoints.push_back(*keypoint);
+       RankSpread(maxima, integral.rows(), integral.cols(), options.bucket_px)) {
+    if (selected.size() == target) break;
+    const int step = options.initial_step << maximum.octave;
+    if (options.merge_octaves && RepeatsFinerOctave(integral, maximum, step, options.layers)) {
+      continue;
+    }
+    const auto keypoint = InterpolateMaximum(integral, maximum, step);
+    if (keypoint) selected.emplace_back(maximum, *keypoint);
   }
+  std::sort(selected.begin(), selected.end(),
+            [](const auto& a, const auto& b) { return IsAbove(a.first, b.first); });
+  std::vector<Keypoint> keypoints;
+  for (const auto& entry : selected) keypoints.push_back(entry.second);
   return keypoints;
 }
 

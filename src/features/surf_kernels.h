@@ -16,14 +16,20 @@ constexpr int kKernelReadAhead = 16;  ///< values that kernels may touch beyond 
 constexpr int kOrientationBins = 72;  ///< of 5 degrees
 constexpr float kBinsPerRadian = static_cast<float>(kOrientationBins / 6.283185307179586);
 
-constexpr int kRegionLanes = 16;    ///< the 4 x 4 regions of a descriptor, side by side
-constexpr int kRegionSamples = 25;  ///< 5 x 5 samples of a region
-constexpr int kDescriptorSamples = kRegionLanes * kRegionSamples;
+constexpr int kRegionWidth = 5;       ///< samples along a side of a region
+constexpr int kMaxSampleStride = 24;  ///< values from row to row of a descriptor's samples
 
-/// Where a keypoint's samples lie: (x, y) + scale * turned(u, v), moved into the image where Haar
+/// A RegionWindow and how its samples lie in memory.
+struct RegionSamples {
+  int spacing;                           ///< samples from region to region
+  int stride;                            ///< values from row to row, a multiple of 8
+  const float (*weights)[kRegionWidth];  ///< [4 regions][kRegionWidth]
+};
+
+/// Where a keypoint's samples lie: (x, y) + step * turned(u, v), moved into the image where Haar
 /// wavelets with edges of 2 `half` px do not fit.
 struct SampleGrid {
-  float x, y, scale, cosine, sine;
+  float x, y, step, cosine, sine;
   int half;
 };
 
@@ -44,10 +50,10 @@ struct SurfKernels {
                         const float* v, int num, int32_t* offsets);
   /// Bins of OrientationHistogram of `num` Haar responses, a multiple of 8.
   void (*find_bins)(const int32_t* dx, const int32_t* dy, int num, int32_t* bins);
-  /// Sums of dx, dy, |dx|, |dy| of each region, [region][4], of weighted Haar responses turned by
-  /// the grid's angle. Samples are [kRegionSamples][kRegionLanes].
+  /// Sums of dx, dy, |dx|, |dy| of each region, [4][4][4], of weighted Haar responses turned by
+  /// the grid's angle.
   void (*sum_regions)(const SampleGrid& grid, const int32_t* dx, const int32_t* dy,
-                      const float* weights, float* descriptor);
+                      const RegionSamples& samples, float* descriptor);
 };
 
 extern const SurfKernels kSurfKernelsBaseline;

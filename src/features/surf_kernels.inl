@@ -118,13 +118,13 @@ inline Ints Clamp(const Ints& values, int low, int high) {
 
 void PlaceSamples(const IntegralView& integral, const SampleGrid& grid, const float* u,
                   const float* v, int num, int32_t* offsets) {
-  const Floats x = Broadcast(grid.x), y = Broadcast(grid.y), scale = Broadcast(grid.scale);
+  const Floats x = Broadcast(grid.x), y = Broadcast(grid.y), step = Broadcast(grid.step);
   const Floats cosine = Broadcast(grid.cosine), sine = Broadcast(grid.sine), one = Broadcast(1);
   for (int i = 0; i < num; i += kLanes) {
     const Floats along = Load<Floats>(u + i), across = Load<Floats>(v + i);
-    const Ints column = Clamp(Floor(x + scale * (cosine * along - sine * across) + one), grid.half,
+    const Ints column = Clamp(Floor(x + step * (cosine * along - sine * across) + one), grid.half,
                               integral.cols - grid.half);
-    const Ints row = Clamp(Floor(y + scale * (sine * along + cosine * across) + one), grid.half,
+    const Ints row = Clamp(Floor(y + step * (sine * along + cosine * across) + one), grid.half,
                            integral.rows - grid.half);
     Store(row * integral.stride + column, offsets + i);
   }
@@ -153,24 +153,41 @@ void FindBins(const int32_t* dx, const int32_t* dy, int num, int32_t* bins) {
   }
 }
 
-void SumRegions(const SampleGrid& grid, const int32_t* haar_dx, const int32_t* haar_dy,
-                const float* weights, float* descriptor) {
+/// Weighted sums of turned responses over the rows of a row of regions, [4 parts][stride].
+inline void SumRows(const SampleGrid& grid, const int32_t* haar_dx, const int32_t* haar_dy,
+                    const float* weights, int stride, float* columns) {
   const Floats cosine = Broadcast(grid.cosine), sine = Broadcast(grid.sine);
-  for (int lane = 0; lane < kRegionLanes; lane += kLanes) {
+  for (int col = 0; col < stride; col += kLanes) {
     Floats sums[4] = {};
-    for (int i = lane; i < kDescriptorSamples; i += kRegionLanes) {
-      const Floats x = __builtin_convertvector(Load<Ints>(haar_dx + i), Floats);
-      const Floats y = __builtin_convertvector(Load<Ints>(haar_dy + i), Floats);
-      const Floats weight = Load<Floats>(weights + i);
-      const Floats dx = weight * (cosine * x + sine * y);
-      const Floats dy = weight * (cosine * y - sine * x);
-      sums[0] += dx;
-      sums[1] += dy;
-      sums[2] += dx < 0 ? -dx : dx;
-      sums[3] += dy < 0 ? -dy : dy;
+    for (int row = 0; row < kRegionWidth; ++row) {
+      const int at = row * stride + col;
+      const Floats x = __builtin_convertvector(Load<Ints>(haar_dx + at), Floats);
+      const Floats y = __builtin_convertvector(Load<Ints>(haar_dy + at), Floats);
+      const Floats weight = Broadcast(weights[row]);
+      const Floats dx = cosine * x + sine * y;
+      const Floats dy = cosine * y - sine * x;
+      sums[0] += weight * dx;
+      sums[1] += weight * dy;
+      sums[2] += weight * (dx < 0 ? -dx : dx);
+      sums[3] += weight * (dy < 0 ? -dy : dy);
     }
-    for (int k = 0; k < kLanes; ++k) {
-      for (int part = 0; part < 4; ++part) descriptor[4 * (lane + k) + part] = sums[part][k];
+    for (int part = 0; part < 4; ++part) Store(sums[part], columns + part * stride + col);
+  }
+}
+
+void SumRegions(const SampleGrid& grid, const int32_t* haar_dx, const int32_t* haar_dy,
+                const RegionSamples& samples, float* descriptor) {
+  float columns[4 * kMaxSampleStride];
+  for (int i = 0; i < 4; ++i) {
+    const int first = samples.spacing * i * samples.stride;
+    SumRows(grid, haar_dx + first, haar_dy + first, samples.weights[i], samples.stride, columns);
+    for (int j = 0; j < 4; ++j) {
+      for (int part = 0; part < 4; ++part) {
+        const float* column = columns + part * samples.stride + samples.spacing * j;
+        float sum = 0;
+        for (int k = 0; k < kRegionWidth; ++k) sum += samples.weights[j][k] * column[k];
+        *descriptor++ = sum;
+      }
     }
   }
 }

@@ -1,17 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "arfm_vo/features/features.h"
+#include "arfm_vo/features/surf_descriptor.h"
 #include "arfm_vo/image/integral_image.h"
+#include "region_window.h"
 
 namespace arfm_vo {
 
 // The samples of SURF-64, for both paths.
 constexpr int kDescriptorLength = 64;
-constexpr int kRegions = 4;            ///< along a side
-constexpr int kRegionSide = 5;         ///< samples along a side of a region
-constexpr float kHalfGrid = 9.5f;      ///< from the first sample to the keypoint, scales
 constexpr int kOrientationRadius = 6;  ///< scales
 
 inline bool IsInOrientationDisc(int i, int j) {
@@ -22,18 +22,17 @@ inline int OrientationWeight(int i, int j) {
   constexpr double kSigma = 2.5;
   return static_cast<int>(std::lround(256 * std::exp(-(i * i + j * j) / (2 * kSigma * kSigma))));
 }
-inline float DescriptorWeight(float u, float v) {
-  constexpr float kSigma = 3.3f;
-  return std::exp(-(u * u + v * v) / (2 * kSigma * kSigma));
-}
 /// Half the edge of the Haar wavelets, px.
 inline int OrientationHalf(float scale) { return static_cast<int>(std::lround(2 * scale)); }
-inline int DescriptorHalf(float scale) { return std::max(1, static_cast<int>(std::lround(scale))); }
+inline int DescriptorHalf(float scale, const RegionWindow& window) {
+  return std::max(1, static_cast<int>(std::lround(window.wavelet * scale)));
+}
 
 /// Direction of a keypoint, rad, from the Haar responses on the disc of radius 6 s around it.
 float ComputeOrientation(const IntegralImage& integral, const Keypoint& keypoint);
-/// [64] from 4 x 4 regions of 5 x 5 samples, one scale apart, weighted by a Gaussian of 3.3 scales.
-void ComputeDescriptor(const IntegralImage& integral, const Keypoint& keypoint, float* descriptor);
+/// [64], not normalised: for each region of the window the weighted sums of dx, dy, |dx|, |dy|.
+void ComputeDescriptor(const IntegralImage& integral, const Keypoint& keypoint,
+                       const RegionWindow& window, float* descriptor);
 /// Scales a descriptor to unit length; leaves one of zeros.
 void NormaliseDescriptor(float* descriptor);
 

@@ -62,6 +62,7 @@ GoalReport ToMessage(const GoalResult& result) {
     message.text += std::string(": ") + ToString(result.reason);
   message.x_m = result.goal.x_m;
   message.y_m = result.goal.y_m;
+  message.heading_rad = result.goal.heading_rad.value_or(0);
   message.position_error_m = result.position_error_m;
   message.heading_error_rad = result.heading_error_rad;
   return message;

@@ -11,8 +11,6 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kTick_s = 0.02;
-/// After so long without /clock in simulated time the rover is stopped.
-constexpr double kMaxClockStall_s = 1.0;
 
 }  // namespace
 
@@ -86,7 +84,8 @@ void ChassisNode::Tick() {
 }
 
 void ChassisNode::Look(double now_s) {
-  const bool is_clock_stalled = (ros::WallTime::now() - clock_moved_).toSec() > kMaxClockStall_s;
+  const bool is_clock_stalled =
+      (ros::WallTime::now() - clock_moved_).toSec() > options_.max_clock_stall_s;
   const auto sighting = sight_.Look();
   if (!sighting || is_clock_stalled) return driver_.pilot().ObserveNoPose();
   const bool is_new = sighting->stamp != seen_;

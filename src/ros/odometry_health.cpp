@@ -22,7 +22,7 @@ OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
   options.Check();
 }
 
-void OdometryHealth::Count(const StereoFrame& frame, const RoverPose& pose, double ms) {
+void OdometryHealth::Count(const StereoFrame& frame, const RoverEstimate& pose, double ms) {
   RunningMedian row_residual_px(frame.points.size());
   for (const StereoPoint& point : frame.points)
     row_residual_px.Add(std::abs(point.row_residual_px));

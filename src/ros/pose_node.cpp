@@ -114,7 +114,7 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
   images.Check();
   Require(images.left.cols == camera.width && images.left.rows == camera.height,
           "left/image_rect does not have the size that features tells of the camera");
-  const RoverPose pose = rover_->Process(frame, camera, images, message.header);
+  const RoverEstimate pose = rover_->Process(frame, camera, images, message.header);
   outputs_.Publish(pose, message, num_dropped);
   outputs_.PublishPicture(images.left, frame, pose, message.header);
   health_.Count(frame, pose, stopwatch.LapMs());

@@ -13,7 +13,7 @@
 namespace arfm_vo {
 namespace {
 
-OdometryStatus MakeStatus(const RoverPose& pose, const StereoFrameStamped& frame,
+OdometryStatus MakeStatus(const RoverEstimate& pose, const StereoFrameStamped& frame,
                           uint32_t num_dropped) {
   OdometryStatus status;
   status.state = pose.state;
@@ -59,7 +59,7 @@ PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
       keyframe_publisher_(node.advertise<KeyframeStamped>("keyframe", 100)),
       picture_publisher_(image_transport::ImageTransport(node).advertise("matches_image", 1)) {}
 
-void PoseOutputs::Publish(const RoverPose& pose, const StereoFrameStamped& frame,
+void PoseOutputs::Publish(const RoverEstimate& pose, const StereoFrameStamped& frame,
                           uint32_t num_dropped) {
   std_msgs::Header header;
   header.stamp = frame.header.stamp;
@@ -79,7 +79,7 @@ void PoseOutputs::Publish(const RoverPose& pose, const StereoFrameStamped& frame
   status_publisher_.publish(status);
 }
 
-void PoseOutputs::PublishOdometry(const RoverPose& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishOdometry(const RoverEstimate& pose, const std_msgs::Header& header) {
   const auto odometry = boost::make_shared<nav_msgs::Odometry>();
   odometry->header = header;
   odometry->child_frame_id = base_frame_;
@@ -96,7 +96,7 @@ void PoseOutputs::PublishOdometry(const RoverPose& pose, const std_msgs::Header&
   odometry_publisher_.publish(odometry);
 }
 
-void PoseOutputs::PublishTransform(const RoverPose& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishTransform(const RoverEstimate& pose, const std_msgs::Header& header) {
   geometry_msgs::TransformStamped transform;
   transform.header = header;
   transform.child_frame_id = base_frame_;
@@ -104,12 +104,12 @@ void PoseOutputs::PublishTransform(const RoverPose& pose, const std_msgs::Header
   broadcaster_.sendTransform(transform);
 }
 
-void PoseOutputs::PublishPath(const RoverPose& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishPath(const RoverEstimate& pose, const std_msgs::Header& header) {
   if (path_.Add(header, ToPoseMessage(pose.odom_from_base))) path_publisher_.publish(path_.path());
 }
 
 void PoseOutputs::PublishPicture(const cv::Mat& left, const StereoFrame& frame,
-                                 const RoverPose& pose, const std_msgs::Header& header) {
+                                 const RoverEstimate& pose, const std_msgs::Header& header) {
   if (picture_publisher_.getNumSubscribers() == 0) return;
   const cv_bridge::CvImage picture(header, sensor_msgs::image_encodings::BGR8,
                                    DrawMatches(left, frame, pose.update));

@@ -33,9 +33,9 @@ Matrix6 GapCovariance(const Eigen::Matrix<double, 6, 1>& twist, double gap_s) {
 
 }  // namespace
 
-bool RoverPose::IsTracked() const { return state == OdometryStatus::TRACKED; }
+bool RoverEstimate::IsTracked() const { return state == OdometryStatus::TRACKED; }
 
-bool RoverPose::IsTried() const {
+bool RoverEstimate::IsTried() const {
   return state != OdometryStatus::NO_TRANSFORM && state != OdometryStatus::HEAD_SLEWING;
 }
 
@@ -46,14 +46,14 @@ RoverOdometry::RoverOdometry(const LocalOdometryOptions& options, const CameraMo
       restart_after_lost_s_(restart_after_lost_s),
       world_(first_world) {}
 
-RoverPose RoverOdometry::Process(const StereoFrame& frame, const StereoCamera& camera,
-                                 const StereoImages& images, const std_msgs::Header& header) {
+RoverEstimate RoverOdometry::Process(const StereoFrame& frame, const StereoCamera& camera,
+                                     const StereoImages& images, const std_msgs::Header& header) {
   if (!odometry_ || !(camera == camera_)) {
     if (odometry_) StartWorld();
     odometry_ = std::make_unique<LocalOdometry>(camera, options_);
     camera_ = camera;
   }
-  RoverPose pose;
+  RoverEstimate pose;
   pose.odom_from_base = base_.odom_from_base();
   pose.update.stamp_s = frame.stamp_s;
   if (const auto base_from_camera = Locate(header, pose)) {
@@ -73,7 +73,8 @@ RoverPose RoverOdometry::Process(const StereoFrame& frame, const StereoCamera& c
   return pose;
 }
 
-std::optional<Rigid3> RoverOdometry::Locate(const std_msgs::Header& header, RoverPose& pose) const {
+std::optional<Rigid3> RoverOdometry::Locate(const std_msgs::Header& header,
+                                            RoverEstimate& pose) const {
   const auto base_from_camera = mount_.BaseFromCamera(header.frame_id, header.stamp);
   if (!base_from_camera) {
     pose.state = OdometryStatus::NO_TRANSFORM;
@@ -88,7 +89,7 @@ std::optional<Rigid3> RoverOdometry::Locate(const std_msgs::Header& header, Rove
   return base_from_camera;
 }
 
-void RoverOdometry::FollowBase(const Rigid3& base_from_camera, RoverPose& pose) {
+void RoverOdometry::FollowBase(const Rigid3& base_from_camera, RoverEstimate& pose) {
   const PoseEstimate& estimate = pose.update.pose;
   const bool is_new_world = !base_.has_world();
   pose.odom_from_base = base_.Move(estimate.camera_from_world, base_from_camera);
@@ -107,7 +108,7 @@ void RoverOdometry::FollowBase(const Rigid3& base_from_camera, RoverPose& pose) 
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
 }
 
-void RoverOdometry::SetTwist(const Matrix6& base_covariance, RoverPose& pose) const {
+void RoverOdometry::SetTwist(const Matrix6& base_covariance, RoverEstimate& pose) const {
   const double interval_s = pose.update.stamp_s - last_->stamp_s;
   if (interval_s > kMaxTwistInterval_s) return;
   const Rigid3 motion = last_->odom_from_base.Inverse() * pose.odom_from_base;
@@ -115,7 +116,7 @@ void RoverOdometry::SetTwist(const Matrix6& base_covariance, RoverPose& pose) co
   pose.twist_covariance = base_covariance * (2 / (interval_s * interval_s));
 }
 
-void RoverOdometry::PlaceKeyframe(const Rigid3& base_from_camera, RoverPose& pose) {
+void RoverOdometry::PlaceKeyframe(const Rigid3& base_from_camera, RoverEstimate& pose) {
   const auto record = odometry_->TakeKeyframe();
   if (record)
     pose.keyframe =

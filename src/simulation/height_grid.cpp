@@ -125,6 +125,9 @@ double HeightGrid::Intersect(const Ray& world_ray, double begin, double end) con
   Ray ray = world_ray;
   ray.origin.head<2>() = (ray.origin.head<2>() - heights_.min_corner()) / heights_.cell_m();
   ray.direction.head<2>() /= heights_.cell_m();
+  if (ray.direction.z() > 0) {
+    end = std::min(end, (max_heights_.back().front() - ray.origin.z()) / ray.direction.z());
+  }
   const double inverse_x = SafeInverse(ray.direction.x());
   const double inverse_y = SafeInverse(ray.direction.y());
   // A step past a border that is certainly seen in double precision: 1e-7 cells.

@@ -9,7 +9,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kMargin = 40;  ///< m of detailed ground around the path
+constexpr double kRoadMargin = 60;  ///< m more of it where the way is a road
 
 /// The segments of a path; `length_m` of driving are asked for.
 std::vector<PathSegment> Segments(const std::string& path, double length_m) {
@@ -56,6 +56,13 @@ void SceneOptions::Check() const {
   Require(width >= 0 && height >= 0 && width <= 8192 && height <= 8192,
           "width and height must be in 0..8192");
   Require(num_threads >= 1, "threads must be at least 1");
+  Require(margin_m >= 1 && margin_m <= 500, "margin must be in [1, 500] m");
+  for (const double sweep : {sweep_pan_deg, sweep_tilt_deg}) {
+    Require(sweep >= 0 && sweep <= 180, "sweep-pan and sweep-tilt must be in [0, 180] deg");
+  }
+  for (const double angle : {right_x_mrad, right_y_mrad, right_z_mrad}) {
+    Require(std::abs(angle) <= 50, "right-x, right-y and right-z must be in [-50, 50] mrad");
+  }
 }
 
 Scene::Scene(const SceneOptions& options) : options_(options) {
@@ -70,10 +77,16 @@ Scene::Scene(const SceneOptions& options) : options_(options) {
   render.sensor.noise_grey_levels = options.noise_grey_levels;
   render.sensor.seed = options.seed;
   renderer_ = std::make_unique<TerrainRenderer>(*terrain_, render);
-  const Rigid3 base_from_left = BaseFromLeftEye(shape_);
-  for (const PlanarPose& pose : path) {
-    world_from_left_.push_back(PlaceRover(*terrain_, pose, shape_) * base_from_left);
+  for (size_t i = 0; i < path.size(); ++i) {
+    world_from_left_.push_back(PlaceRover(*terrain_, path[i], shape_) *
+                               BaseFromLeft(Stamp(static_cast<int>(i))));
   }
+}
+
+Rigid3 Scene::BaseFromLeft(double stamp_s) const {
+  const double angle = 2 * M_PI * stamp_s / Stamp(std::max(1, options_.num_pairs - 1));
+  return BaseFromLeftEye(shape_, options_.sweep_pan_deg / 2 * kDegree * std::sin(angle),
+                         options_.sweep_tilt_deg / 2 * kDegree * std::sin(2 * angle));
 }
 
 void Scene::ChooseCamera() {
@@ -121,11 +134,13 @@ TerrainOptions Scene::ChooseTerrain(const PlanarPath& path) const {
     terrain.relief_m = 0.8;
     terrain.relief_wavelength_m = 60;
     terrain.hills_m = 140;
-    terrain.rocks = {0.6, 0.06, 4, 1.4, 0.9};
+    terrain.texture_contrast = 0.4;
+    terrain.rocks = {0.3, 0.08, 4, 1.2, 0.9};
   }
   PlanarPath centered = path;
-  const double half = CenterPath(centered) + kMargin + (options_.path == "wide_turn" ? 60 : 0);
-  double cells = 1024;
+  const double half =
+      CenterPath(centered) + options_.margin_m + (options_.path == "wide_turn" ? kRoadMargin : 0);
+  double cells = 128;
   while (cells < 2048 && cells * terrain.cell_m < 2 * half) cells *= 2;
   while (cells * terrain.cell_m < 2 * half) terrain.cell_m *= 2;
   terrain.side_m = cells * terrain.cell_m;
@@ -143,9 +158,9 @@ Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
   corridor.points.push_back(
       last.position + 10 * Eigen::Vector2d(std::cos(last.heading_rad), std::sin(last.heading_rad)));
   if (options_.path == "wide_turn") {
-    corridor.half_width_m = 4.5;
+    corridor.half_width_m = 9;
     corridor.max_rock_radius_m = 0;
-    corridor.contrast = 0.25;
+    corridor.contrast = 0.4;
     corridor.tone = 0.8;
   }
   return corridor;
@@ -153,20 +168,32 @@ Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
 
 std::vector<Solid> Scene::Bodies(int pair) const {
   if (options_.path != "shadow") return {};
-  // A box as high as the camera drives by 2.5 m ahead, about a third of the picture wide.
+  // A box, about as large as a third of the picture with its shadow, drives by 2.8 m ahead.
   const double share = static_cast<double>(pair) / std::max(1, num_pairs() - 1);
-  const double half_view = 2.5 * camera_.width / (2 * camera_.fx);
+  const double half_view = 2.8 * camera_.width / (2 * camera_.fx);
   const Rigid3& world_from_left = world_from_left_.at(pair);
-  const Eigen::Vector3d in_eye((2 * share - 1) * 2 * half_view, 0.3, 2.8);
+  const Eigen::Vector3d in_eye((2 * share - 1) * 1.5 * half_view, 0.3, 2.8);
   Solid box = MakeBox(world_from_left * Rigid3(Eigen::Quaterniond::Identity(), in_eye),
-                      {half_view / 3, 0.9, 0.3});
+                      {0.45 * half_view, 1.3, 0.3});
   box.texture_offset_m = {17, 23};
   box.albedo = 0.5;
   return {box};
 }
 
+Rigid3 Scene::WorldFromRight(int pair) const {
+  const Eigen::Vector3d rotation(options_.right_x_mrad, options_.right_y_mrad,
+                                 options_.right_z_mrad);
+  const Rigid3 nominal_from_right(ExpSO3(-1e-3 * rotation), Eigen::Vector3d::Zero());
+  return RightEyePose(camera_, WorldFromLeft(pair)) * nominal_from_right;
+}
+
 StereoImages Scene::RenderPair(int pair) const {
-  return renderer_->RenderPair(camera_, WorldFromLeft(pair), pair, Stamp(pair), Bodies(pair));
+  const std::vector<Solid> bodies = Bodies(pair);
+  StereoImages images;
+  images.stamp_s = Stamp(pair);
+  images.left = renderer_->Render(camera_, WorldFromLeft(pair), 2 * pair, bodies);
+  images.right = renderer_->Render(camera_, WorldFromRight(pair), 2 * pair + 1, bodies);
+  return images;
 }
 
 }  // namespace arfm_vo

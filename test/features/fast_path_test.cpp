@@ -56,6 +56,11 @@ void ExpectPathsAgree(const cv::Mat& grey) {
   for (const bool upright : {false, true}) {
     ExpectSame(ExtractWith(grey, false, upright, 1), ExtractWith(grey, true, upright, 1));
   }
+  SurfOptions bay;  // as published
+  bay.smooth = bay.detector.merge_octaves = bay.descriptor.overlapping_regions = false;
+  SurfOptions plain_bay = bay;
+  plain_bay.use_fast_path = false;
+  ExpectSame(Surf(plain_bay).Extract(grey), Surf(bay).Extract(grey));
 }
 
 TEST(SurfFastPath, AgreesWithTheReferenceOnAScene) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -57,7 +58,32 @@ TEST(SurfTest, ScaleDoublesWithTheBlob) {
   const Keypoint small = FindBlob(RenderBlob(160, 160, 80, 80, 2.5, -100));
   const Keypoint large = FindBlob(RenderBlob(160, 160, 80, 80, 5.0, -100));
   EXPECT_EQ(small.laplacian_sign, 1);
-  EXPECT_NEAR(large.scale / small.scale, 2.0, 0.1);
+  const double smoothing = 0.5;  // variance of (1 2 1) / 4, px^2
+  EXPECT_NEAR(large.scale / small.scale, std::sqrt((25 + smoothing) / (6.25 + smoothing)), 0.1);
+}
+
+/// Keypoints at the centre of a blob that are not much weaker than the strongest.
+int CountAtBlob(double sigma, bool merge_octaves) {
+  SurfOptions options;
+  options.detector.octaves = 3;
+  options.detector.merge_octaves = merge_octaves;
+  const cv::Mat grey = RenderBlob(200, 200, 100, 100, sigma, 100);
+  const float strongest = FindBlob(grey, options).response;
+  int num = 0;
+  for (const Keypoint& keypoint : Surf(options).Extract(grey).keypoints) {
+    const double distance = std::hypot(keypoint.x - 100, keypoint.y - 100);
+    if (distance < 3 && keypoint.response > 0.5f * strongest) ++num;
+  }
+  return num;
+}
+
+TEST(SurfTest, FindsABlobInOneOctaveOnly) {
+  int most_without_merging = 0;
+  for (double sigma = 2.25; sigma < 8; sigma += 0.25) {
+    EXPECT_EQ(CountAtBlob(sigma, true), 1) << sigma;
+    most_without_merging = std::max(most_without_merging, CountAtBlob(sigma, false));
+  }
+  EXPECT_GT(most_without_merging, 1);
 }
 
 TEST(SurfTest, AngleFollowsAQuarterTurn) {

@@ -22,14 +22,14 @@ StereoFrame FrameWithRows(double row_residual_px) {
   return frame;
 }
 
-RoverPose PoseWithState(uint8_t state, const std::string& text) {
-  RoverPose pose;
+RoverEstimate PoseWithState(uint8_t state, const std::string& text) {
+  RoverEstimate pose;
   pose.state = state;
   pose.text = text;
   return pose;
 }
 
-const RoverPose kTracked = PoseWithState(OdometryStatus::TRACKED, "tracked");
+const RoverEstimate kTracked = PoseWithState(OdometryStatus::TRACKED, "tracked");
 
 int LevelOfRows(double row_residual_px) {
   OdometryHealth health{OdometryHealthOptions()};
@@ -78,7 +78,7 @@ TEST(OdometryHealth, AScaleThatDisagreesWithTheTracksIsTold) {
   OdometryHealth health{OdometryHealthOptions()};
   for (int i = 0; i < 200; ++i) {
     health.scale().AddTrack(0.1 * i, {0.1 * i, 0, 0});
-    RoverPose pose = kTracked;
+    RoverEstimate pose = kTracked;
     pose.update.stamp_s = 0.1 * i - 0.05;
     pose.odom_from_base.translation = {0.13 * i, 0, 0};
     health.Count({}, pose, 1);

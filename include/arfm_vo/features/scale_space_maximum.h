@@ -20,4 +20,9 @@ struct ScaleSpaceMaximum {
 std::optional<Keypoint> InterpolateMaximum(const IntegralImage& integral,
                                            const ScaleSpaceMaximum& maximum, int step);
 
+/// Whether an octave below, sampled every `step` px, has a larger determinant at the place of this
+/// maximum, between its filter and the next ones: then the same blob is found there too.
+bool RepeatsFinerOctave(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
+                        int layers);
+
 }  // namespace arfm_vo

@@ -12,6 +12,8 @@ namespace arfm_vo {
 struct SurfOptions {
   SurfDetectorOptions detector;
   SurfDescriptorOptions descriptor;
+  /// Smooth the image by (1 2 1) / 4 before: box filters and wavelets of whole pixels alias.
+  bool smooth = true;
   bool use_fast_path = true;  ///< false: the readable reference, same result
   int threads = 1;            ///< for one image, with the fast path
 
@@ -21,6 +23,7 @@ struct SurfOptions {
   void VisitFields(Visitor&& visit) {
     visit("detector", detector);
     visit("descriptor", descriptor);
+    visit("smooth", smooth);
     visit("use_fast_path", use_fast_path);
     visit("threads", threads);
   }

@@ -13,8 +13,10 @@ struct SurfDetectorOptions {
   /// 0..255 divided by the filter's area. 650 times OpenSURF's; 30 gives some 1000 to 2000 points
   /// on a street scene. With a target it is the floor, below which nothing but noise is found.
   double hessian_threshold = 1.0;
-  int octaves = 3;
-  int layers = 4;        ///< filters an octave, the outer two for comparison only
+  int octaves = 2;  ///< large blobs are found less precisely
+  int layers = 4;   ///< filters an octave, the outer two for comparison only
+  /// Leave out maxima that are maxima of the finer octave too: each blob once, not twice.
+  bool merge_octaves = true;
   int initial_step = 1;  ///< px between samples of the first octave; doubles with each octave
   int target_keypoints = 1000;  ///< keypoints wanted an image, 0: all above the threshold
   int bucket_px = 64;  ///< edge of the cells over which the wanted keypoints are spread, 0: none
@@ -26,6 +28,7 @@ struct SurfDetectorOptions {
     visit("hessian_threshold", hessian_threshold);
     visit("octaves", octaves);
     visit("layers", layers);
+    visit("merge_octaves", merge_octaves);
     visit("initial_step", initial_step);
     visit("target_keypoints", target_keypoints);
     visit("bucket_px", bucket_px);

@@ -12,12 +12,15 @@ struct ChassisNodeOptions {
   std::string map_frame = "map";
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
+  /// In simulated time the rover is stopped where /clock stands still so long, wall time.
+  double max_clock_stall_s = 1;
   PilotOptions pilot;
 
   void Check() const {
     Require(!can.empty(), "can must name a bus");
     Require(!map_frame.empty() && !odom_frame.empty() && !base_frame.empty(),
             "map_frame, odom_frame and base_frame must not be empty");
+    Require(max_clock_stall_s > 0, "max_clock_stall_s must be positive");
     pilot.Check();
   }
   template <class Visitor>
@@ -26,6 +29,7 @@ struct ChassisNodeOptions {
     visit("map_frame", map_frame);
     visit("odom_frame", odom_frame);
     visit("base_frame", base_frame);
+    visit("max_clock_stall_s", max_clock_stall_s);
     visit("pilot", pilot);
   }
 };

@@ -37,7 +37,7 @@ class OdometryHealth {
 
   explicit OdometryHealth(const OdometryHealthOptions& options);
 
-  void Count(const StereoFrame& frame, const RoverPose& pose, double ms);
+  void Count(const StereoFrame& frame, const RoverEstimate& pose, double ms);
   void CountRefused(const std::string& why);
   void CountDropped(uint32_t num_dropped) { num_dropped_ = num_dropped; }
   ScaleCheck& scale() { return scale_; }
@@ -53,7 +53,7 @@ class OdometryHealth {
   RunningMedian row_residual_px_;
   ScaleCheck scale_;
   WallRate rate_;
-  RoverPose last_;
+  RoverEstimate last_;
   bool is_new_ = false;  ///< a pair came since the last report
   std::string refusal_;
   double ms_ = 0;

@@ -17,7 +17,7 @@
 namespace arfm_vo {
 
 /// What one pair says of the rover.
-struct RoverPose {
+struct RoverEstimate {
   uint8_t state = 0;  ///< of OdometryStatus
   std::string text;   ///< the state in words
   uint32_t world = 0;
@@ -45,8 +45,8 @@ class RoverOdometry {
 
   /// Takes the next pair, later than the one before; `header` is that of its left image. A camera
   /// that has changed starts a new world.
-  RoverPose Process(const StereoFrame& frame, const StereoCamera& camera,
-                    const StereoImages& images, const std_msgs::Header& header);
+  RoverEstimate Process(const StereoFrame& frame, const StereoCamera& camera,
+                        const StereoImages& images, const std_msgs::Header& header);
 
   /// Takes what a global adjustment of `world` found, unless that is past.
   void Apply(const MapUpdate& update, uint32_t world);
@@ -67,10 +67,10 @@ class RoverOdometry {
     Eigen::Matrix<double, 6, 1> twist;
   };
 
-  std::optional<Rigid3> Locate(const std_msgs::Header& header, RoverPose& pose) const;
-  void FollowBase(const Rigid3& base_from_camera, RoverPose& pose);
-  void SetTwist(const Matrix6& base_covariance, RoverPose& pose) const;
-  void PlaceKeyframe(const Rigid3& base_from_camera, RoverPose& pose);
+  std::optional<Rigid3> Locate(const std_msgs::Header& header, RoverEstimate& pose) const;
+  void FollowBase(const Rigid3& base_from_camera, RoverEstimate& pose);
+  void SetTwist(const Matrix6& base_covariance, RoverEstimate& pose) const;
+  void PlaceKeyframe(const Rigid3& base_from_camera, RoverEstimate& pose);
   void CountLost(double stamp_s);
 
   LocalOdometryOptions options_;

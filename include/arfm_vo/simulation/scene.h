@@ -22,6 +22,11 @@ struct SceneOptions {
   int num_threads = 1;
   int width = 0, height = 0;  ///< px; 0: as the path's camera has it
   double noise_grey_levels = 1;
+  double margin_m = 40;  ///< of ground with rocks and full detail around the path
+  /// A fault of rectification: what the right eye sees is turned by this rotation vector, mrad.
+  double right_x_mrad = 0, right_y_mrad = 0, right_z_mrad = 0;
+  /// The head sweeps through so much: pan once to the left and the right, tilt twice down and up.
+  double sweep_pan_deg = 0, sweep_tilt_deg = 0;
 
   void Check() const;
 };
@@ -44,11 +49,18 @@ class Scene {
   Rigid3 FirstFromLeft(int pair) const {
     return world_from_left_.front().Inverse() * world_from_left_.at(pair);
   }
+  /// The left eye on the base, at any time; the head moves in between the pairs too.
+  Rigid3 BaseFromLeft(double stamp_s) const;
+  /// The base in its own frame at the first pair: the ground truth.
+  Rigid3 FirstFromBase(int pair) const {
+    return BaseFromLeft(Stamp(0)) * FirstFromLeft(pair) * BaseFromLeft(Stamp(pair)).Inverse();
+  }
   StereoImages RenderPair(int pair) const;
   /// The moving things at a pair.
   std::vector<Solid> Bodies(int pair) const;
 
  private:
+  Rigid3 WorldFromRight(int pair) const;
   void ChooseCamera();
   TerrainOptions ChooseTerrain(const PlanarPath& path) const;
   Corridor ChooseCorridor(const PlanarPath& path) const;

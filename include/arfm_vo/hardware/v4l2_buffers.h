@@ -1,0 +1,39 @@
+#pragma once
+
+#include <linux/videodev2.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace arfm_vo {
+
+/// The memory-mapped buffers of a streaming V4L2 device, queued and streaming while it lives. The
+/// descriptor stays the caller's. Methods throw std::system_error naming `path` and the call.
+class V4l2Buffers {
+ public:
+  V4l2Buffers() = default;
+  V4l2Buffers(const V4l2Buffers&) = delete;
+  ~V4l2Buffers();
+
+  void Start(int fd, const std::string& path, int count);
+
+  /// A filled buffer, which must be given back; nothing where none is ready.
+  std::optional<v4l2_buffer> Take();
+  void GiveBack(v4l2_buffer& buffer);
+  const void* Memory(const v4l2_buffer& buffer) const { return mapped_[buffer.index].start; }
+
+ private:
+  struct Mapping {
+    void* start;
+    size_t length;
+  };
+
+  void Map(unsigned index);
+
+  int fd_ = -1;
+  std::string path_;
+  std::vector<Mapping> mapped_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,137 @@
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/configuration/program.h"
+#include "arfm_vo/configuration/yaml_reader.h"
+#include "arfm_vo/rehearsal/drive_picture.h"
+
+namespace {
+
+using namespace arfm_vo;
+
+struct Request {
+  std::string output, config;
+  int num_goals = 20, first_seed = 1, width = 0, num_threads = 1;
+  GoalSceneOptions scene;
+};
+
+/// Of all drives.
+struct Summary {
+  int num_good = 0, num_arrived = 0, num_lost = 0, num_pairs = 0;
+  long frames_before_start = 0;
+  double worst_share = 0, worst_error_m = 0, worst_heading_deg = 0, fastest_mps = 0, driven_m = 0,
+         steepest_deg = 0;
+
+  void Add(const Drive& drive) {
+    num_good += drive.IsGood();
+    num_arrived += drive.has_arrived;
+    num_lost += drive.num_lost;
+    num_pairs += drive.num_pairs;
+    frames_before_start += drive.num_frames_before_start;
+    worst_share = std::max(worst_share, drive.final_error_m / drive.AllowedError());
+    worst_error_m = std::max(worst_error_m, drive.final_error_m);
+    worst_heading_deg = std::max(worst_heading_deg, drive.final_heading_error_deg);
+    fastest_mps = std::max(fastest_mps, drive.fastest_command_mps);
+    driven_m += drive.driven_m;
+    steepest_deg = std::max(steepest_deg, drive.steepest_deg);
+  }
+};
+
+void PrintHeader() {
+  std::printf("%4s %7s %8s %7s %7s %8s %9s %6s %8s %6s %5s %5s %7s  %s\n", "seed", "goal_m",
+              "driven_m", "error_m", "allowed", "head_deg", "slope_deg", "slip_%", "max_mps",
+              "before", "pairs", "lost", "drive_s", "outcome");
+}
+
+void PrintRow(int seed, const Drive& drive) {
+  std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f  %s\n", seed,
+              std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
+              drive.AllowedError(), drive.final_heading_error_deg, drive.steepest_deg,
+              100 * drive.slip_ratio, drive.fastest_command_mps, drive.num_frames_before_start,
+              drive.num_pairs, drive.num_lost, drive.duration_s, drive.outcome.c_str());
+  std::fflush(stdout);
+}
+
+void SavePicture(const Request& request, const GoalScene& scene, const Drive& drive, int seed) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "drive_%02d.png", seed);
+  const auto path = std::filesystem::path(request.output) / name;
+  const std::string temporary = path.string() + ".new.png";
+  Require(cv::imwrite(temporary, DrawDrive(scene.terrain(), scene.start(), drive)),
+          temporary + ": cannot be written");
+  std::filesystem::rename(temporary, path);
+}
+
+void PrintSummary(const Summary& summary, int num_goals, double wall_s) {
+  std::cout << "goals: " << num_goals << "\nreached: " << summary.num_arrived
+            << "\nwithin_allowed_error: " << summary.num_good
+            << "\nworst_error_m: " << summary.worst_error_m
+            << "\nworst_error_over_allowed: " << summary.worst_share
+            << "\nworst_heading_error_deg: " << summary.worst_heading_deg
+            << "\nfastest_frame_mps: " << summary.fastest_mps
+            << "\nframes_before_start: " << summary.frames_before_start
+            << "\nsteepest_slope_deg: " << summary.steepest_deg
+            << "\ndriven_m: " << summary.driven_m << "\npairs: " << summary.num_pairs
+            << "\nlost: " << summary.num_lost << "\nwall_s: " << wall_s << "\n";
+}
+
+void DriveGoals(Request request) {
+  RehearsalOptions options;
+  if (!request.config.empty()) options = ReadYamlFile<RehearsalOptions>(request.config);
+  if (request.width > 0) {
+    options.sight.rig.height = options.sight.rig.height * request.width / options.sight.rig.width;
+    options.sight.rig.width = request.width;
+  }
+  options.sight.render.num_threads = request.scene.num_threads = request.num_threads;
+  if (!request.output.empty()) std::filesystem::create_directories(request.output);
+  Stopwatch stopwatch;
+  Summary summary;
+  PrintHeader();
+  for (int i = 0; i < request.num_goals; ++i) {
+    request.scene.seed = options.plant.seed = request.first_seed + i;
+    options.sight.render.sensor.seed = request.scene.seed;
+    const GoalScene scene(request.scene, options.shape);
+    const Drive drive = Rehearse(scene, options);
+    summary.Add(drive);
+    PrintRow(request.scene.seed, drive);
+    if (!request.output.empty()) SavePicture(request, scene, drive, request.scene.seed);
+  }
+  PrintSummary(summary, request.num_goals, stopwatch.LapMs() / 1000);
+  Require(summary.num_good == request.num_goals,
+          std::to_string(request.num_goals - summary.num_good) + " goals were not reached well");
+  Require(summary.fastest_mps <= kMaxSpeed_mps, "a frame exceeded the speed limit");
+  Require(summary.frames_before_start == 0, "frames were sent before start");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  namespace po = boost::program_options;
+  Request request;
+  Program program;
+  program.name = "drive_simulation";
+  program.description =
+      "Drives a simulated rover to goals on rendered terrain by its visual odometry alone, in\n"
+      "process and repeatable: pilot, CAN frames, slipping tracks, stereo pairs. Fails where a "
+      "goal\n"
+      "is not reached within 1 % of the way and 5 cm.";
+  program.options.add_options()("goals", po::value(&request.num_goals)->value_name("N"),
+                                "how many, 20 if not given")(
+      "seed", po::value(&request.first_seed)->value_name("S"), "of the first goal, then S + 1, ..")(
+      "min-distance", po::value(&request.scene.min_distance_m)->value_name("M"), "of the goals")(
+      "max-distance", po::value(&request.scene.max_distance_m)->value_name("M"), "of the goals")(
+      "max-slope", po::value(&request.scene.max_slope_deg)->value_name("DEG"),
+      "of the straight way to a goal")("width", po::value(&request.width)->value_name("PX"),
+                                       "of the pictures, with the same view")(
+      "threads", po::value(&request.num_threads)->value_name("N"),
+      "of the renderer; do not change the result")("config",
+                                                   po::value(&request.config)->value_name("FILE"),
+                                                   "YAML: pilot, plant, sight, odometry, shape")(
+      "output", po::value(&request.output)->value_name("DIR"), "a picture of each drive goes here");
+  program.run = [&] { DriveGoals(request); };
+  return RunProgram(argc, argv, program);
+}

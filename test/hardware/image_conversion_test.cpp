@@ -1,0 +1,92 @@
+#include "arfm_vo/hardware/image_conversion.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+namespace arfm_vo {
+namespace {
+
+std::optional<cv::Mat> Convert(const std::string& name, const std::vector<uint8_t>& bytes,
+                               int width, int height, int bytes_per_line = 0) {
+  return ToGrey(bytes.data(), bytes.size(), {ParseFourcc(name), width, height, bytes_per_line});
+}
+
+std::vector<int> Levels(const cv::Mat& grey) {
+  return {grey.begin<uint8_t>(), grey.end<uint8_t>()};
+}
+
+TEST(ToGrey, GreyIsTakenAsItIsWithoutLinePadding) {
+  const auto grey = Convert("GREY", {1, 2, 99, 3, 4, 99}, 2, 2, 3);
+  ASSERT_TRUE(grey);
+  EXPECT_EQ(Levels(*grey), (std::vector{1, 2, 3, 4}));
+}
+
+TEST(ToGrey, LuminanceOutOfPackedColour) {
+  EXPECT_EQ(Levels(*Convert("YUYV", {1, 128, 2, 128}, 2, 1)), (std::vector{1, 2}));
+  EXPECT_EQ(Levels(*Convert("YVYU", {1, 128, 2, 128}, 2, 1)), (std::vector{1, 2}));
+  EXPECT_EQ(Levels(*Convert("UYVY", {128, 1, 128, 2}, 2, 1)), (std::vector{1, 2}));
+  EXPECT_EQ(Levels(*Convert("NV12", {1, 2, 3, 4, 128, 128}, 2, 2)), (std::vector{1, 2, 3, 4}));
+}
+
+TEST(ToGrey, TopBitsOfDeepGrey) {
+  EXPECT_EQ(Levels(*Convert("Y16", {0xff, 0x12, 0x00, 0xff}, 2, 1)), (std::vector{0x12, 0xff}));
+  EXPECT_EQ(Levels(*Convert("Y10", {0xff, 0x03, 0x07, 0x00}, 2, 1)), (std::vector{255, 1}));
+}
+
+/// A flat colour in a Bayer pattern comes out as its grey level everywhere.
+TEST(ToGrey, BayerPatternsStartWithTheColourOfTheirName) {
+  constexpr int kRed = 200, kGreen = 100, kBlue = 40;
+  constexpr double kLevel = 0.299 * kRed + 0.587 * kGreen + 0.114 * kBlue;
+  const std::pair<const char*, const char*> patterns[] = {
+      {"RGGB", "RGGB"}, {"BA81", "BGGR"}, {"GRBG", "GRBG"}, {"GBRG", "GBRG"}};
+  for (const auto& [name, colours] : patterns) {
+    std::vector<uint8_t> bytes(8 * 8);
+    for (int i = 0; i < 64; ++i) {
+      const char colour = colours[2 * (i / 8 % 2) + i % 2];
+      bytes[i] = colour == 'R' ? kRed : colour == 'G' ? kGreen : kBlue;
+    }
+    const auto grey = Convert(name, bytes, 8, 8);
+    ASSERT_TRUE(grey);
+    for (const int level : Levels(*grey)) EXPECT_NEAR(level, kLevel, 2) << name;
+  }
+}
+
+TEST(ToGrey, MotionJpegIsDecodedAndRubbishIsNot) {
+  const cv::Mat picture(16, 24, CV_8UC1, cv::Scalar(77));
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", picture, bytes);
+  const auto grey = Convert("MJPG", bytes, 24, 16);
+  ASSERT_TRUE(grey);
+  EXPECT_NEAR(grey->at<uint8_t>(8, 12), 77, 2);
+  EXPECT_FALSE(Convert("MJPG", bytes, 16, 16));  // another size
+  EXPECT_FALSE(Convert("MJPG", {1, 2, 3}, 24, 16));
+  EXPECT_FALSE(Convert("MJPG", {}, 24, 16));
+}
+
+TEST(ToGrey, AShortBufferIsNoFrame) {
+  EXPECT_FALSE(Convert("GREY", {1, 2, 3}, 2, 2));
+  EXPECT_FALSE(Convert("YUYV", {1, 2, 3, 4}, 2, 2));
+}
+
+TEST(ToGrey, AnUnknownFormatIsNamed) {
+  try {
+    Convert("H264", {1}, 1, 1);
+    ADD_FAILURE() << "converted H264";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("H264"), std::string::npos);
+  }
+  EXPECT_FALSE(IsKnownPixelFormat(ParseFourcc("H264")));
+  EXPECT_TRUE(IsKnownPixelFormat(ParseFourcc("MJPG")));
+}
+
+TEST(Fourcc, GoesBothWays) {
+  EXPECT_EQ(ParseFourcc("GREY"), 0x59455247U);
+  EXPECT_EQ(FormatFourcc(ParseFourcc("Y16")), "Y16 ");
+  EXPECT_THROW(ParseFourcc(""), std::invalid_argument);
+  EXPECT_THROW(ParseFourcc("GREYS"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

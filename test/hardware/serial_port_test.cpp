@@ -1,0 +1,100 @@
+#include "arfm_vo/hardware/serial_port.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/pan_tilt.h"
+#include "arfm_vo/hardware/simulated_ptu_port.h"
+
+namespace arfm_vo {
+namespace {
+
+std::string Link() {
+  return (std::filesystem::temp_directory_path() / ("arfm_vo_pty_" + std::to_string(::getpid())))
+      .string();
+}
+
+/// Reads until as many bytes have come as are wanted; all that came where they do not in 2 s.
+template <class End>
+std::string ReadAll(End& end, size_t size) {
+  std::string bytes;
+  for (const double limit = MonotonicNow() + 2; bytes.size() < size && MonotonicNow() < limit;)
+    bytes += end.Read(0.1);
+  return bytes;
+}
+
+TEST(SerialPort, CarriesAllBytesBothWays) {
+  PseudoTerminal device(Link());
+  SerialPort port(Link(), 9600);
+  std::string all;
+  for (int c = 0; c < 256; ++c) all += static_cast<char>(c);
+  port.Write(all, 1);
+  EXPECT_EQ(ReadAll(device, 256), all);
+  device.Write(all);
+  EXPECT_EQ(ReadAll(port, 256), all);
+}
+
+TEST(SerialPort, ReadReturnsByItsTimeout) {
+  PseudoTerminal device(Link());
+  SerialPort port(Link(), 9600);
+  const double start = MonotonicNow();
+  EXPECT_EQ(port.Read(0.02), "");
+  EXPECT_GE(MonotonicNow() - start, 0.019);
+}
+
+TEST(SerialPort, AnUnpluggedLineThrows) {
+  auto device = std::make_unique<PseudoTerminal>(Link());
+  SerialPort port(Link(), 9600);
+  device.reset();
+  EXPECT_THROW(ReadAll(port, 1), std::system_error);
+  EXPECT_THROW(port.Write("pp ", 0.1), std::system_error);
+}
+
+TEST(SerialPort, SaysWhatDoesNotOpen) {
+  try {
+    SerialPort("/nowhere/ttyUSB0", 9600);
+    ADD_FAILURE() << "opened a port that is not there";
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/ttyUSB0"), std::string::npos);
+  }
+  EXPECT_THROW(SerialPort("/dev/null", 9600), std::system_error);  // no serial line
+  PseudoTerminal device(Link());
+  EXPECT_THROW(SerialPort(Link(), 12345), std::invalid_argument);
+}
+
+TEST(SimulatedPtuPort, TheDriverMovesItAndSurvivesThePlugOverARealLine) {
+  SimulatedPtuOptions simulation;
+  simulation.baud = 115200;
+  simulation.reset_time_s = 0.1;
+  SimulatedPtuPort unit(Link(), simulation);
+  PanTiltOptions options;
+  options.reopen.first_s = 0.01;
+  PanTilt head(
+      options, [] { return std::make_unique<SerialPort>(Link(), 9600); }, &MonotonicNow);
+  const auto step_until = [&](const std::function<bool()>& is_reached) {
+    for (const double limit = MonotonicNow() + 10; MonotonicNow() < limit;) {
+      head.Step();
+      if (is_reached()) return true;
+    }
+    return false;
+  };
+  const auto is_ready = [&] { return head.state() == PanTiltState::kReady; };
+  ASSERT_TRUE(step_until(is_ready)) << head.problem();
+  ASSERT_EQ(head.MoveTo({0.2, -0.1}), std::nullopt);
+  ASSERT_TRUE(step_until([&] { return head.IsSettled(); }));
+  EXPECT_NEAR(unit.Position(PtuAxis::kPan), 0.2 * 180 / M_PI * 3600 / 185.1428, 0.5);
+  unit.Unplug();
+  ASSERT_TRUE(step_until([&] { return head.state() == PanTiltState::kClosed; }));
+  unit.Plug();
+  ASSERT_TRUE(step_until(is_ready)) << head.problem();
+  EXPECT_EQ(head.num_reopened(), 1);
+  ASSERT_TRUE(step_until([&] { return head.IsSettled(); }));  // where it was left
+}
+
+}  // namespace
+}  // namespace arfm_vo

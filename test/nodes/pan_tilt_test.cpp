@@ -1,0 +1,133 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/String.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+
+#include "arfm_vo/hardware/simulated_ptu_port.h"
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/simulation/drive_path.h"
+#include "nodes/inbox.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kCount_rad = 185.1428 / 3600 * kDegree;
+
+std::unique_ptr<SimulatedPtuPort> ptu;  ///< stays plugged in from test to test
+
+class PanTiltNodeTest : public testing::Test {
+ protected:
+  void Send(double pan_rad, double tilt_rad) {
+    WaitUntil([this] { return commands_.getNumSubscribers() > 0; }, "the node");
+    sensor_msgs::JointState command;
+    command.name = {"pan", "tilt"};
+    command.position = {pan_rad, tilt_rad};
+    commands_.publish(command);
+  }
+  bool IsSettled() const { return settled_.size() > 0 && settled_.all().back().data; }
+  /// The newest position of a joint.
+  double Position(const std::string& joint) const {
+    if (joint_states_.size() == 0) return NAN;
+    return joint_states_.all().back().position.at(joint == "pan" ? 0 : 1);
+  }
+  std::string Diagnosis(uint8_t level) const {
+    for (auto array = diagnostics_.all().rbegin(); array != diagnostics_.all().rend(); ++array)
+      for (const auto& status : array->status)
+        if (status.name.find("pan-tilt") != std::string::npos && status.level == level)
+          return status.message;
+    return "";
+  }
+  void GoTo(double pan_rad, double tilt_rad) {
+    WaitUntil([this] { return IsSettled(); }, "settled");
+    Send(pan_rad, tilt_rad);
+    WaitUntil(
+        [&] {
+          return IsSettled() && std::abs(Position("pan") - pan_rad) < kCount_rad &&
+                 std::abs(Position("tilt") - tilt_rad) < kCount_rad;
+        },
+        "the goal");
+  }
+
+  ros::Publisher commands_ = ros::NodeHandle().advertise<sensor_msgs::JointState>("/head/cmd", 10);
+  Inbox<sensor_msgs::JointState> joint_states_{"/joint_states"};
+  Inbox<std_msgs::Bool> settled_{"/head/settled"};
+  Inbox<std_msgs::String> refused_{"/head/refused"};
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+};
+
+TEST_F(PanTiltNodeTest, HomesThenGoesWhereItIsSent) {
+  GoTo(0.5, -0.3);
+  EXPECT_NEAR(ptu->Position(PtuAxis::kPan) * kCount_rad, 0.5, kCount_rad);
+  EXPECT_NEAR(ptu->Position(PtuAxis::kTilt) * kCount_rad, -0.3, kCount_rad);
+  // Stamped when the axes were read: in order, not in the future.
+  ros::Time last;
+  for (const auto& state : joint_states_.all()) {
+    EXPECT_THAT(state.name, testing::ElementsAre("pan", "tilt"));
+    EXPECT_GT(state.header.stamp, last);
+    EXPECT_LT(state.header.stamp, ros::Time::now());
+    last = state.header.stamp;
+  }
+}
+
+TEST_F(PanTiltNodeTest, TheDescriptionPlacesTheCameraAsTheSimulatorDoes) {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  for (const auto& [pan_rad, tilt_rad] : {std::pair(0.0, 0.0), {0.5, -0.3}, {-0.7, 0.2}}) {
+    GoTo(pan_rad, tilt_rad);
+    // One more reading at rest than those that said so.
+    WaitUntil([this, size = joint_states_.size()] { return joint_states_.size() > size; }, "rest");
+    const ros::Time now = ros::Time::now();
+    WaitUntil([&] { return buffer.canTransform("base_link", "left_camera_optical", now); }, "tf");
+    const Rigid3 seen = FromMessage(
+        buffer.lookupTransform("base_link", "left_camera_optical", now).transform, "tf");
+    const Rigid3 expected = BaseFromLeftEye({}, pan_rad, -tilt_rad);
+    EXPECT_LT((seen.translation - expected.translation).norm(), 1e-3);
+    EXPECT_LT((seen.Inverse() * expected).Angle(), 2 * kCount_rad);
+  }
+}
+
+TEST_F(PanTiltNodeTest, GoalsOutsideTheLimitsAreRefusedWithAMessage) {
+  GoTo(0, 0);
+  Send(4, 0);
+  EXPECT_THAT(refused_.last().data, testing::HasSubstr("pan"));
+  Send(0.1, NAN);
+  WaitUntil([this] { return refused_.size() == 2; }, "the second refusal");
+  EXPECT_THAT(refused_.last().data, testing::HasSubstr("no number"));
+  EXPECT_NEAR(ptu->Position(PtuAxis::kPan), 0, 1);
+}
+
+TEST_F(PanTiltNodeTest, AnUnpluggedLineIsAnErrorAndSurvived) {
+  GoTo(0.2, 0);
+  ptu->Unplug();
+  WaitUntil([this] { return Diagnosis(diagnostic_msgs::DiagnosticStatus::ERROR) != ""; }, "ERROR");
+  EXPECT_FALSE(IsSettled());
+  const int num_before = joint_states_.size();
+  ptu->Plug();
+  WaitUntil([&] { return joint_states_.size() > num_before + 4; }, "readings");
+  EXPECT_NEAR(Position("pan"), 0.2, kCount_rad);
+  GoTo(-0.2, 0.1);
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_pan_tilt");
+  const ros::NodeHandle keeper;  // between tests too
+  std::string port;
+  if (!ros::param::get("~port", port)) return 1;
+  arfm_vo::SimulatedPtuOptions options;
+  options.reset_time_s = 0.5;
+  arfm_vo::ptu = std::make_unique<arfm_vo::SimulatedPtuPort>(port, options);
+  const int status = RUN_ALL_TESTS();
+  arfm_vo::ptu.reset();
+  return status;
+}

@@ -1,0 +1,123 @@
+#include "arfm_vo/ros/camera_health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "arfm_vo/configuration/yaml_reader.h"
+#include "arfm_vo/ros/stereo_camera_node.h"
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using testing::HasSubstr;
+using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
+
+/// 10 pairs since the last report, as asked.
+StereoCameraStatus GoodStatus() {
+  StereoCameraStatus status;
+  status.is_open = true;
+  status.rate_hz = 10;
+  status.num_pairs = 110;
+  return status;
+}
+
+StereoCameraStatus StatusBefore() {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  return status;
+}
+
+Wrapper Camera(const StereoCameraStatus& status) {
+  Wrapper report;
+  ReportCamera(status, StatusBefore(), {}, {}, report);
+  return report;
+}
+
+TEST(CameraHealth, PairsAsAskedAreOk) {
+  EXPECT_EQ(Camera(GoodStatus()).level, DiagnosticStatus::OK);
+}
+
+TEST(CameraHealth, AFailureIsAnErrorWithItsReason) {
+  StereoCameraStatus status = GoodStatus();
+  status.is_open = false;
+  status.problem = "/dev/video1: No such device";
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("/dev/video1"));
+}
+
+TEST(CameraHealth, EyesThatNeverMatchAreAnErrorThatTellsTheSkew) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = status.num_unpaired_right = 10;
+  status.rejected_skew_s = 0.02;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("20.0 ms apart"));
+}
+
+TEST(CameraHealth, SeldomPairsAndLonelyFramesAreWarnings) {
+  StereoCameraStatus seldom = GoodStatus();
+  seldom.rate_hz = 7.9;
+  EXPECT_EQ(Camera(seldom).level, DiagnosticStatus::WARN);
+  StereoCameraStatus lonely = GoodStatus();
+  lonely.num_unpaired_right = 2;  // 2 of 12
+  EXPECT_EQ(Camera(lonely).level, DiagnosticStatus::WARN);
+  EXPECT_THAT(Camera(lonely).message, HasSubstr("17 %"));
+}
+
+TEST(CameraHealth, ADeviceThatDoesNotDoAsAskedIsAWarning) {
+  StereoCameraStatus status = GoodStatus();
+  status.warning = "left eye: its gain cannot be set";
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(Camera(status).message, status.warning);
+}
+
+sensor_msgs::CameraInfo Info(double baseline_m) {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.K[0] = info.P[0] = 500;
+  info.P[3] = -500 * baseline_m;
+  return info;
+}
+
+Wrapper Calibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right) {
+  Wrapper report;
+  ReportCalibration(left, right, 640, 480, report);
+  return report;
+}
+
+TEST(CameraHealth, CalibrationIsWatched) {
+  EXPECT_EQ(Calibration(Info(0), Info(0.2)).level, DiagnosticStatus::OK);
+  EXPECT_EQ(Calibration({}, {}).level, DiagnosticStatus::WARN);
+  EXPECT_THAT(Calibration(Info(0), {}).message, HasSubstr("right eye is not calibrated"));
+  sensor_msgs::CameraInfo small = Info(0.2);
+  small.width = 320;
+  EXPECT_EQ(Calibration(Info(0), small).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Calibration(Info(0), small).message, HasSubstr("320x480"));
+}
+
+TEST(CameraHealth, ABaselineInMillimetresOrOfSwappedEyesIsAnError) {
+  EXPECT_EQ(Calibration(Info(0), Info(200)).level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(Calibration(Info(0), Info(-0.2)).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Calibration(Info(0), Info(-0.2)).message, HasSubstr("swapped"));
+}
+
+TEST(StereoCameraNodeOptions, ShippedConfigIsReadStrictly) {
+  const auto options = ReadYamlFile<StereoCameraNodeOptions>(std::string(ARFM_VO_SOURCE_DIR) +
+                                                             "/config/camera.yaml");
+  EXPECT_EQ(options.camera.left_device, "/dev/video0");
+}
+
+TEST(StereoCameraNodeOptions, PathsThatAreNoUrlsAreRefused) {
+  StereoCameraNodeOptions options;
+  options.left_camera_info_url = "/etc/rover/left.yaml";
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options.left_camera_info_url = options.right_camera_info_url = "file:///etc/rover/left.yaml";
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options.right_camera_info_url = "file:///etc/rover/right.yaml";
+  EXPECT_NO_THROW(options.Check());
+}
+
+}  // namespace
+}  // namespace arfm_vo
