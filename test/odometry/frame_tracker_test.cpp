@@ -1,0 +1,87 @@
+#include "arfm_vo/odometry/frame_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "arfm_vo/odometry/stereo_frontend.h"
+#include "ros/textured_wall.h"
+
+namespace arfm_vo {
+namespace {
+
+class FrameTrackerTest : public ::testing::Test {
+ protected:
+  FrameTrackerTest()
+      : camera_(wall_.camera()), frontend_(camera_, {}), map_(camera_, LocalMapOptions()) {
+    const StereoImages images = wall_.Render(0, Rigid3());
+    map_.AddKeyframe(frontend_.Process(images), images.left, Rigid3(), {});
+  }
+
+  TrackedFrame Track(const Rigid3& truth, const std::optional<Rigid3>& predicted,
+                     const FrameTrackerOptions& options = {}) {
+    const StereoImages images = wall_.Render(1, truth);
+    return FrameTracker(camera_, options).Track(frontend_.Process(images), images, map_, predicted);
+  }
+
+  static void ExpectNear(const Rigid3& pose, const Rigid3& truth, double metres) {
+    const Rigid3 error = pose * truth.Inverse();
+    EXPECT_LT(error.translation.norm(), metres);
+    EXPECT_LT(error.Angle(), 0.2 * metres);
+  }
+
+  TexturedWall wall_;
+  StereoCamera camera_;
+  StereoFrontend frontend_;
+  LocalMap map_;
+  const Rigid3 truth_{ExpSO3({0.01, 0.04, -0.02}), Eigen::Vector3d(-0.2, 0.05, -0.3)};
+};
+
+TEST_F(FrameTrackerTest, FindsThePoseWithAGoodPrediction) {
+  const TrackedFrame tracked = Track(truth_, truth_);
+  ASSERT_TRUE(tracked.pose.IsTracked());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
+  EXPECT_GT(tracked.pose.num_inliers, 50);
+  EXPECT_EQ(static_cast<int>(tracked.observations.size()), tracked.pose.num_inliers);
+}
+
+TEST_F(FrameTrackerTest, NeedsNoPrediction) {
+  const TrackedFrame tracked = Track(truth_, std::nullopt);
+  ASSERT_TRUE(tracked.pose.IsTracked());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
+}
+
+TEST_F(FrameTrackerTest, IsNotMisledByAWrongPrediction) {
+  const Rigid3 wrong(ExpSO3({0, 0.8, 0}), Eigen::Vector3d(3, 0, 2));
+  const TrackedFrame tracked = Track(truth_, wrong);
+  ASSERT_TRUE(tracked.pose.IsTracked());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
+}
+
+TEST_F(FrameTrackerTest, KeypointsAloneDoToo) {
+  FrameTrackerOptions options;
+  options.align_patches = false;
+  const TrackedFrame tracked = Track(truth_, truth_, options);
+  ASSERT_TRUE(tracked.pose.IsTracked());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.05);
+}
+
+TEST_F(FrameTrackerTest, SaysThatItIsLostInTheDarkAndElsewhere) {
+  const StereoImages dark = wall_.RenderDark(1);
+  const FrameTracker tracker(camera_, {});
+  EXPECT_FALSE(tracker.Track(frontend_.Process(dark), dark, map_, Rigid3()).pose.IsTracked());
+  const StereoImages elsewhere = TexturedWall(2).Render(1, Rigid3());
+  EXPECT_FALSE(
+      tracker.Track(frontend_.Process(elsewhere), elsewhere, map_, Rigid3()).pose.IsTracked());
+}
+
+TEST_F(FrameTrackerTest, ObservationsAreSortedAndOfKnownLandmarks) {
+  const TrackedFrame tracked = Track(truth_, truth_);
+  LandmarkId last = -1;
+  for (const LandmarkObservation& observation : tracked.observations) {
+    EXPECT_GT(observation.landmark, last);
+    EXPECT_EQ(map_.landmarks().count(observation.landmark), 1u);
+    last = observation.landmark;
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo

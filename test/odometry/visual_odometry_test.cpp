@@ -1,0 +1,88 @@
+#include "arfm_vo/odometry/visual_odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <stdexcept>
+
+#include "ros/textured_wall.h"
+
+namespace arfm_vo {
+namespace {
+
+class VisualOdometryTest : public ::testing::Test {
+ protected:
+  VisualOdometryTest() : odometry_(wall_.camera(), {}) {}
+
+  /// Frame `i` of a drive along the wall, 10 cm a frame.
+  static Rigid3 Truth(int i) {
+    return {ExpSO3({0, 0.005 * i, 0}), Eigen::Vector3d(-0.1 * i, 0, 0.01 * i)};
+  }
+  PoseEstimate See(int i) { return odometry_.Process(wall_.Render(0.1 * i, Truth(i))).pose; }
+  PoseEstimate SeeNothing(int i) { return odometry_.Process(wall_.RenderDark(0.1 * i)).pose; }
+
+  static double ErrorIn(const Rigid3& camera_from_world, int i) {
+    return (camera_from_world * Truth(i).Inverse()).translation.norm();
+  }
+
+  TexturedWall wall_;
+  VisualOdometry odometry_;
+};
+
+TEST_F(VisualOdometryTest, FollowsADrive) {
+  for (int i = 0; i < 15; ++i) {
+    const PoseEstimate pose = See(i);
+    ASSERT_TRUE(pose.IsTracked()) << i;
+    EXPECT_LT(ErrorIn(pose.camera_from_world, i), 0.02) << i;
+  }
+  const Trajectory trajectory = odometry_.Finish();
+  ASSERT_EQ(trajectory.size(), 15u);
+  EXPECT_LT(ErrorIn(trajectory.back().world_from_camera.Inverse(), 14), 0.02);
+}
+
+TEST_F(VisualOdometryTest, FindsItsWayAgainAfterTenBlackPairs) {
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(See(i).IsTracked());
+  for (int i = 5; i < 15; ++i) EXPECT_FALSE(SeeNothing(i).IsTracked()) << i;
+  for (int i = 15; i < 18; ++i) {  // a metre further on
+    const PoseEstimate pose = See(i);
+    ASSERT_TRUE(pose.IsTracked()) << i;
+    EXPECT_LT(ErrorIn(pose.camera_from_world, i), 0.03) << i;
+  }
+  const Trajectory trajectory = odometry_.Finish();
+  EXPECT_FALSE(trajectory[9].is_tracked);
+  EXPECT_LT(ErrorIn(trajectory[9].world_from_camera.Inverse(), 9), 0.1);  // between the neighbours
+}
+
+TEST_F(VisualOdometryTest, FindsItsWayAfterItWasCarriedBack) {
+  for (int i = 0; i < 12; ++i) ASSERT_TRUE(See(i).IsTracked());
+  const PoseEstimate pose = odometry_.Process(wall_.Render(1.2, Truth(3))).pose;
+  ASSERT_TRUE(pose.IsTracked());
+  EXPECT_LT(ErrorIn(pose.camera_from_world, 3), 0.02);
+}
+
+TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
+  const StereoImages still = wall_.Render(0, Rigid3());
+  cv::RNG random(3);
+  for (int i = 0; i < 30; ++i) {
+    StereoImages noisy{0.1 * i, still.left.clone(), still.right.clone()};
+    for (cv::Mat* image : {&noisy.left, &noisy.right}) {
+      cv::Mat noise(image->size(), CV_16S);
+      random.fill(noise, cv::RNG::NORMAL, 0, 2);
+      cv::add(*image, noise, *image, cv::noArray(), CV_8U);
+    }
+    const PoseEstimate pose = odometry_.Process(noisy).pose;
+    ASSERT_TRUE(pose.IsTracked());
+    EXPECT_LT(pose.camera_from_world.translation.norm(), 1e-3) << i;
+    EXPECT_LT(pose.camera_from_world.Angle(), 0.01 * M_PI / 180) << i;
+  }
+}
+
+TEST_F(VisualOdometryTest, RefusesImagesThatDoNotFitTheCamera) {
+  StereoImages images = wall_.Render(0, Rigid3());
+  images.left = images.left.colRange(0, 100).clone();
+  images.right = images.right.colRange(0, 100).clone();
+  EXPECT_THROW(odometry_.Process(images), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo
