@@ -121,7 +121,9 @@ BundleProblem GlobalMap::MakeProblem() {
 
 BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progress) const {
   BundleResult result = AdjustBundle(problem, options_.solver, progress);
-  if (problem.correction_sigma_px == 0 || result.status == BundleStatus::kFailed) return result;
+  const bool is_whole =
+      result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
+  if (problem.correction_sigma_px == 0 || !is_whole) return result;
   const auto& coefficients = result.correction.coefficients_px;
   const double squared_significance =
       coefficients.dot(result.correction_covariance.ldlt().solve(coefficients));
