@@ -4,7 +4,7 @@
 # Usage: scripts/ablation.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
 cd "$(dirname "$0")/.."
-data=../shared/data/kitti
+data=${ARFM_VO_SHARED:-../shared}/data/kitti
 folders=("$@")
 if [ ${#folders[@]} -eq 0 ]; then
   for folder in "$data/odometry_06_000-050" "$data/raw_2011_09_26_drive_0001"; do

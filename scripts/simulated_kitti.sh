@@ -3,7 +3,7 @@
 # Usage: scripts/simulated_kitti.sh [POSES_DIR]     default: ../shared/data/kitti/ground_truth_poses
 set -euo pipefail
 cd "$(dirname "$0")/.."
-poses=${1:-../shared/data/kitti/ground_truth_poses}
+poses=${1:-${ARFM_VO_SHARED:-../shared}/data/kitti/ground_truth_poses}
 [ -d "$poses" ] || { echo "simulated_kitti: $poses: no such folder of KITTI poses" >&2; exit 1; }
 scripts/build.sh simulate_kitti simulate_rest
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo
