@@ -9,7 +9,7 @@
 
 #include "arfm_vo/calibration/pair_detection.h"
 #include "calibration/rendered_board.h"
-#include "calibration/shared_data.h"
+#include "base/shared_data.h"
 
 namespace arfm_vo {
 namespace {
@@ -108,8 +108,8 @@ double ReadFigure(const std::string& figures, const std::string& key) {
 }
 
 TEST(Calibration, AgreesWithTheReferenceOfOpenCvsPairs) {
-  const fs::path folder = SharedFolder("data/calibration/opencv_9x6");
-  if (!fs::exists(folder)) GTEST_SKIP() << "no real calibration pairs at " << folder;
+  const fs::path folder = FindShared("data/calibration/opencv_9x6");
+  if (folder.empty()) GTEST_SKIP() << "no real calibration pairs in the shared data";
   const Chessboard board{9, 6, 1};
   const DetectedPairs detected = DetectPairs(FindImagePairs(folder), board, 5);
   const StereoCalibration calibration = CalibrateStereo(detected.pairs, board, detected.image_size);
