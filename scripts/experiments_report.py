@@ -43,6 +43,15 @@ class Matching:
         self.stereo = [name for name in self.sets if name in learnt]
         self.planar = [name for name in self.sets if name not in learnt]
 
+    def check(self):
+        """Without ratio test some points are always each other's nearest: a method that never has
+        matches was not measured, and must not be judged."""
+        for name in self.sets:
+            for method in {row["method"] for row in self.select(experiment="method", set=name)}:
+                if not any(row["matches"] for row in self.near(1, experiment="method", set=name,
+                                                               method=method)):
+                    sys.exit(f"experiments: {method} on {name} has no match at all: nothing is written")
+
     def select(self, **wanted):
         return [row for row in self.rows if all(row[key] == value for key, value in wanted.items())]
 
@@ -589,6 +598,7 @@ Lines: T from 0.5 to 1; dots: T {RATIO}. Ours against theirs:
 
 def main():
     work, docs = sys.argv[1:3]
+    Matching(os.path.join(work, "matching.csv")).check()
     shutil.rmtree(os.path.join(docs, "experiments"), ignore_errors=True)
     os.makedirs(os.path.join(docs, "experiments"))
     matching, runs, claims = Matching(os.path.join(work, "matching.csv")), read_runs(work), []
