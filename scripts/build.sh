@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Builds the package and its tests into BUILD_DIR (default _b in the package).
-# Usage: scripts/build.sh [TARGET ...]        default targets: all and tests
+# Usage: scripts/build.sh [TARGET ...]        default targets: all, tests and the messages for Python
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # Debian's python3 first: another one on PATH breaks catkin_pkg.
 export PATH=/usr/bin:$PATH
 build=${BUILD_DIR:-_b}
 [ -f "$build/build.ninja" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
-if [ $# -gt 0 ]; then ninja -C "$build" "$@"; else ninja -C "$build" all tests; fi
+if [ $# -gt 0 ]; then ninja -C "$build" "$@"; else ninja -C "$build" all tests arfm_vo_generate_messages_py; fi
