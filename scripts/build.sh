@@ -6,5 +6,7 @@ cd "$(dirname "$0")/.."
 # Debian's python3 first: another one on PATH breaks catkin_pkg.
 export PATH=/usr/bin:$PATH
 build=${BUILD_DIR:-_b}
+# catkin keeps the environment of the tests as it is when it configures: Python's messages must have their folder.
+mkdir -p "$build/devel/lib/python3/dist-packages"
 [ -f "$build/build.ninja" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
 if [ $# -gt 0 ]; then ninja -C "$build" "$@"; else ninja -C "$build" all tests arfm_vo_generate_messages_py; fi
