@@ -154,7 +154,7 @@ TEST_F(V4l2CameraTest, AFormatThatIsNotThereIsAnsweredWithThoseThatAre) {
                              testing::HasSubstr("640x360")));
 }
 
-TEST_F(V4l2CameraTest, GreyFromAnyFormatIsTheSamePicture) {
+TEST_F(V4l2CameraTest, PairsComeInEveryFormat) {
   for (const char* format : {"GREY", "YUYV", "UYVY", "NV12", "RGGB"}) {
     StereoCameraOptions options = VividOptions();
     options.video.pixel_format = format;

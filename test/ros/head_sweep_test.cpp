@@ -20,8 +20,8 @@ struct Drift {
   int num_tracked = 0, num_slewing = 0;
 };
 
-/// Renders a drive and runs the odometry on it with the head's tf as a unit on a serial line gives
-/// it: read at its own times, 8 times a second, and interpolated to the images' stamps.
+/// Renders a drive and runs the odometry on it with the head's tf as from a unit on a slow line
+/// (8 readings a second are assumed), at times of its own, interpolated to the images' stamps.
 Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   constexpr int kStride = 2;  // 5 pairs a second
   constexpr double kReading_s = 0.125, kStart_s = 100;

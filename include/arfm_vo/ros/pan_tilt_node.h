@@ -15,7 +15,7 @@ namespace arfm_vo {
 struct PanTiltNodeOptions {
   std::string port = "/dev/ttyUSB0";  ///< the serial line's device file
   int baud = 9600;
-  double max_rate_hz = 20;  ///< of readings; a line of 9600 baud gives about 8
+  double max_rate_hz = 20;  ///< of readings; the line allows fewer at 9600 baud
   std::string pan_joint = "pan", tilt_joint = "tilt";
   PanTiltOptions unit;  ///< its keys stand beside those of the node
 
