@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Drives the simulated rover to 20 goals by sight alone, as many at a time as there are CPUs, and writes
-# docs/driving.md and docs/drives.png. Usage: scripts/closed_loop.sh [DIR]     drives already in DIR are not driven again
+# docs/driving.md and docs/drives.jpg. Usage: scripts/closed_loop.sh [DIR]     drives already in DIR are not driven again
 set -euo pipefail
 cd "$(dirname "$0")/.."
 goals=20
@@ -41,7 +41,7 @@ side slopes; all that the pilot knows of its place comes from the visual odometr
 (320 x 240, one each 0.75 s), 0.2 s late. Allowed are 1 % of the way driven and 5 cm. The tests `ClosedLoopTest` drive
 to three of these goals.
 
-![four of the drives](drives.png)
+![four of the drives](drives.jpg)
 
 *Four of the drives from above: contours every 0.25 m, green the true way, red the way by sight, yellow the goal.*
 
@@ -65,6 +65,6 @@ TEXT
 } > "$work/driving.md"
 
 mapfile -t pictures < <(find "$work" -name 'drive_*.png' | sort | tail -4)
-montage "${pictures[@]}" -tile 2x2 -geometry 500x634+4+4 "$work/drives.png"
-mv "$work/driving.md" "$work/drives.png" docs/
+montage "${pictures[@]}" -tile 2x2 -geometry 500x634+4+4 -quality 80 "$work/drives.jpg"
+mv "$work/driving.md" "$work/drives.jpg" docs/
 [ "$(count within_allowed_error)" -eq $goals ] || { echo "closed_loop: not all goals were reached well" >&2; exit 1; }
