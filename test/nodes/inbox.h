@@ -9,9 +9,9 @@
 
 namespace arfm_vo {
 
-/// Spins until `condition` holds; a failure that names what was waited for after 20 s.
+/// Spins until `condition` holds; a failure that names what was waited for after 60 s.
 inline void WaitUntil(const std::function<bool()>& condition, const std::string& what) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20);
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60);
   while (!condition()) {
     if (!ros::ok() || ros::WallTime::now() > end) {
       GTEST_FAIL() << "waited in vain for " << what;
