@@ -140,6 +140,8 @@ void BaNode::PublishMap() {
 void BaNode::SendTransform() {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = ros::Time::now() + ros::Duration(options_.tf_tolerance_s);
+  if (transform.header.stamp == sent_) return;  // simulated time jumped, and the timer catches up
+  sent_ = transform.header.stamp;
   transform.header.frame_id = options_.map_frame;
   transform.child_frame_id = options_.odom_frame;
   transform.transform = ToTransformMessage(told_.Get().map_from_odom);

@@ -88,6 +88,7 @@ class BaNode {
   Worker worker_;
   ros::Subscriber keyframes_;
   ros::ServiceServer save_;
+  ros::Time sent_;  ///< the newest transform's stamp
   ros::WallTimer timer_;
   ros::Timer tf_timer_;
 };
