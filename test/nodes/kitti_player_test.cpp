@@ -8,6 +8,7 @@
 #include "arfm_vo/ros/stereo_camera_model.h"
 #include "arfm_vo/ros/stereo_messages.h"
 #include "datasets/sequence_folder.h"
+#include "nodes/inbox.h"
 
 namespace arfm_vo {
 namespace {
@@ -46,24 +47,27 @@ TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
       ++num_infos[info->header.stamp.toSec()];
     };
   };
+  FILE* player =
+      StartPlayer("player", "_sequence:=" + folder.Path() + " _rate_hz:=30 _end_delay_s:=0.5");
+  // The player waits for the pictures' subscribers: the other topics must be connected before.
+  WaitUntil([] { return !ros::Time::now().isZero(); }, "the clock");
+  const ros::Subscriber truth = node.subscribe<geometry_msgs::PoseStamped>(
+      "ground_truth", 100, [&](const geometry_msgs::PoseStamped::ConstPtr& pose) {
+        truth_z.push_back(pose->pose.position.z);
+      });
+  WaitUntil([&] { return truth.getNumPublishers() > 0; }, "ground_truth");
   const std::vector<ros::Subscriber> subscribers = {
       node.subscribe<Image>("left/image_rect", 100, keep_grey(left)),
       node.subscribe<Image>("right/image_rect", 100, keep_grey(right)),
       node.subscribe<Info>("left/camera_info", 100, keep_info(left_info)),
-      node.subscribe<Info>("right/camera_info", 100, keep_info(right_info)),
-      node.subscribe<geometry_msgs::PoseStamped>(
-          "ground_truth", 100, [&](const geometry_msgs::PoseStamped::ConstPtr& pose) {
-            truth_z.push_back(pose->pose.position.z);
-          })};
-  FILE* player =
-      StartPlayer("player", "_sequence:=" + folder.Path() + " _rate_hz:=30 _end_delay_s:=0.5");
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(30);
-  while (left.size() + right.size() < 2 * kNumPairs || num_infos[kStampOffset_s + 0.4] < 2 ||
-         truth_z.size() < kNumPairs || ros::Time::now().toSec() < kStampOffset_s + 0.4) {
-    ASSERT_LT(ros::WallTime::now(), deadline);
-    ros::spinOnce();
-    ros::WallDuration(0.001).sleep();
-  }
+      node.subscribe<Info>("right/camera_info", 100, keep_info(right_info))};
+  WaitUntil(
+      [&] {
+        return left.size() + right.size() == 2 * kNumPairs &&
+               num_infos[kStampOffset_s + 0.4] == 2 && truth_z.size() == kNumPairs &&
+               ros::Time::now().toSec() >= kStampOffset_s + 0.4;
+      },
+      "all pairs");
   int status = -1;
   const std::string text = Finish(player, status);
   EXPECT_EQ(status, 0) << text;
