@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 x=${1:-4} y=${2:-1.5} heading=${3:-90} output=${4:-_demo_simulation}
-scripts/build.sh simulator_node chassis_node arfm_node pose_node ba_node truth_path_node arfm_vo_nodelets \
+scripts/build.sh simulator_node chassis_node arfm_node pose_node ba_node truth_path_node pan_tilt_node arfm_vo_nodelets \
   arfm_vo_generate_messages_py
 export PATH=/usr/bin:$PATH
 # shellcheck disable=SC1091

@@ -62,6 +62,13 @@ void PtuAxisMotion::Step(double dt) {
   }
 }
 
+SimulatedPtuOptions SimulatedPtuOptions::Instant() {
+  SimulatedPtuOptions options;
+  options.baud = std::numeric_limits<double>::infinity();
+  options.command_time_s = options.reset_time_s = 0;
+  return options;
+}
+
 SimulatedPtu::SimulatedPtu(const SimulatedPtuOptions& options)
     : options_(options), pan_(options.pan), tilt_(options.tilt) {
   options.Check();

@@ -59,7 +59,9 @@ PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
           options_.unit,
           [this] { return std::make_unique<SerialPort>(options_.port, options_.baud); },
           &MonotonicNow),
-      clock_(&MonotonicNow, [] { return ros::WallTime::now().toSec(); }),
+      clock_(
+          &MonotonicNow, [] { return ros::Time::now().toSec(); },
+          ros::Time::isSystemTime() ? 1 : 0),  // simulated time does not run evenly
       said_(head_.problem()),
       joint_states_(node.advertise<sensor_msgs::JointState>("joint_states", 20)),
       settled_(node.advertise<std_msgs::Bool>("settled", 1, true)),

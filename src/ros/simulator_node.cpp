@@ -42,11 +42,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       terrain_(options_.terrain, Corridor{}, options_.render.num_threads),
       renderer_(terrain_, options_.render),
       camera_(options_.rig.Camera()),
-      base_from_camera_(BaseFromLeftEye(options_.shape)),
       map_from_world_(GroundOf(terrain_, options_.shape)(RoverPose{}).Inverse()),
       chassis_(OpenCanBus(options_.can),
                TrackedPlant(options_.plant, RoverPose{}, GroundOf(terrain_, options_.shape))),
       now_ns_(static_cast<uint64_t>(kStampOffset_s * 1e9)),
+      head_(options_.head_port.empty() ? nullptr
+                                       : std::make_unique<SimulatedPtuPort>(
+                                             options_.head_port, SimulatedPtuOptions::Instant(),
+                                             [this] { return 1e-9 * now_ns_; })),
       pair_due_ns_(now_ns_),
       stereo_(ros::NodeHandle(node, "stereo")),
       clock_(node.advertise<rosgraph_msgs::Clock>("/clock", 10)),
@@ -56,7 +59,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)) {}
 
 void SimulatorNode::Run() {
-  PublishMount();
+  if (!head_) PublishFixedMount();
   WaitForSubscribers();
   const ros::WallDuration step(1e-9 * kStep_ns / options_.max_speed_up);
   while (ros::ok()) {
@@ -88,19 +91,26 @@ void SimulatorNode::WaitForOdometry() {
 }
 
 void SimulatorNode::Step() {
-  now_ns_ += kStep_ns;
-  chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
   const bool is_late = (Stamp() - pair_stamp_).toSec() >= options_.max_latency_s;
   if (is_late && !HasOdometry()) WaitForOdometry();
+  now_ns_ += kStep_ns;
   PublishClock();
+  chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
   if (now_ns_ < pair_due_ns_) return;
   pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));
   TakePair();
 }
 
+Rigid3 SimulatorNode::BaseFromCamera() {
+  if (!head_) return BaseFromLeftEye(options_.shape);
+  // The unit tilts upward, BaseFromLeftEye downward.
+  return BaseFromLeftEye(options_.shape, head_->Angle(PtuAxis::kPan),
+                         -head_->Angle(PtuAxis::kTilt));
+}
+
 void SimulatorNode::TakePair() {
   const Rigid3 world_from_base = chassis_.plant().WorldFromBase();
-  const Rigid3 world_from_camera = world_from_base * base_from_camera_;
+  const Rigid3 world_from_camera = world_from_base * BaseFromCamera();
   pair_stamp_ = Stamp();
   SequencePair pair;
   pair.images = renderer_.RenderPair(camera_, world_from_camera, num_pairs_++,
@@ -131,12 +141,12 @@ void SimulatorNode::PublishTruth(const Rigid3& map_from_base) const {
   truth_.publish(truth);
 }
 
-void SimulatorNode::PublishMount() {
+void SimulatorNode::PublishFixedMount() {
   geometry_msgs::TransformStamped mount;
   mount.header.stamp = Stamp();
   mount.header.frame_id = options_.base_frame;
   mount.child_frame_id = options_.camera_frame;
-  mount.transform = ToTransformMessage(base_from_camera_);
+  mount.transform = ToTransformMessage(BaseFromCamera());
   broadcaster_.sendTransform(mount);
 }
 

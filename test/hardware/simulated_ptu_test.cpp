@@ -82,6 +82,14 @@ TEST(SimulatedPtu, ResetTakesItsTimeAndEndsWithItsWord) {
   EXPECT_EQ(Converse(ptu, now, "", 2), "!T!T!P!P*\r\n");
 }
 
+TEST(SimulatedPtu, AnInstantOneAnswersWhileTheClockStandsAndMovesAsItRuns) {
+  SimulatedPtu ptu(SimulatedPtuOptions::Instant());
+  ptu.Receive("ft ed pp100 pp ", 5);
+  EXPECT_EQ(ptu.Transmit(5), "ft *\r\ned *\r\n*\r\n* 0\r\n");
+  EXPECT_EQ(ptu.Position(PtuAxis::kPan, 5), 0);
+  EXPECT_EQ(ptu.Position(PtuAxis::kPan, 6), 100);
+}
+
 TEST(SimulatedPtu, BytesTakeTheTimeOfTheLine) {
   SimulatedPtu ptu;
   double now = 0;

@@ -1,26 +1,131 @@
 #!/usr/bin/python3
-"""The simulated rover drives to a goal by sight alone through all the nodes."""
+"""The simulated rover sees, pans its head and drives to a goal by sight alone, through all the nodes."""
+import math
 import pathlib
 import sys
+import time
 import unittest
 
 import rospy
 import rostest
 from arfm_vo.msg import DriveStatus
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 from drive_to import Errand  # noqa: E402
 
+PATIENCE_S = 120
+MAX_COVARIANCE = 1  # a pose that is lost has thousands
+
+
+def turn_between(a, b):
+    """The angle between two orientations, rad."""
+    dot = abs(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w)
+    return 2 * math.acos(min(1.0, dot))
+
+
+def way_between(a, b):
+    return math.sqrt((a.x - b.x) ** 2 + (a.y - b.y) ** 2 + (a.z - b.z) ** 2)
+
+
+class Head:
+    """The pan-tilt unit, and where the eye truly is."""
+
+    def __init__(self):
+        self.is_settled = False
+        self.angles = {}
+        self.eye = None
+        self.commands = rospy.Publisher("/head/cmd", JointState, queue_size=1, latch=True)
+        self.subscribers = [
+            rospy.Subscriber("/head/settled", Bool, self.take_settled),
+            rospy.Subscriber("/joint_states", JointState, self.take_angles),
+            rospy.Subscriber("/stereo/ground_truth", PoseStamped, self.take_eye)]
+
+    def take_settled(self, message):
+        self.is_settled = message.data
+
+    def take_angles(self, message):
+        self.angles = dict(zip(message.name, message.position))
+
+    def take_eye(self, message):
+        self.eye = message.pose
+
+    def send(self, pan_rad, tilt_rad):
+        self.commands.publish(JointState(name=["pan", "tilt"], position=[pan_rad, tilt_rad]))
+
+    def is_at(self, pan_rad, tilt_rad):
+        return self.is_settled and all(
+            abs(self.angles.get(name, math.inf) - angle) < 0.01
+            for name, angle in (("pan", pan_rad), ("tilt", tilt_rad)))
+
 
 class SimulationTest(unittest.TestCase):
-    def test_drives_to_a_goal_by_sight(self):
+    def setUp(self):
+        self.poses = []
+        self.odometry = rospy.Subscriber("odom", Odometry, self.take_odometry)
+        self.head = Head()
+        self.wait(lambda: self.head.is_settled and self.head.eye, "the head and the first pair")
+        self.head.send(0, 0)
+        self.wait(lambda: self.head.is_at(0, 0), "the head ahead")
+
+    def tearDown(self):
+        for subscriber in [self.odometry] + self.head.subscribers:
+            subscriber.unregister()
+
+    def take_odometry(self, odometry):
+        if odometry.pose.covariance[0] < MAX_COVARIANCE:
+            self.poses.append(odometry.pose.pose)
+
+    def wait(self, condition, what):
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.assertLess(time.monotonic(), end, "waited in vain for " + what)
+            time.sleep(0.01)
+
+    def go_on(self, num_poses):
+        seen = len(self.poses)
+        self.wait(lambda: len(self.poses) >= seen + num_poses, "%d poses" % num_poses)
+
+    def test_panning_the_head_leaves_the_parked_base_where_it_is(self):
+        self.go_on(3)
+        first, eye = self.poses[-1], self.head.eye
+        del self.poses[:-1]
+        self.head.send(0.5, -0.1)
+        self.wait(lambda: self.head.is_at(0.5, -0.1), "the head to the left")
+        self.go_on(3)
+        # The pictures are taken where the head looks: else the base would seem to turn.
+        self.assertAlmostEqual(turn_between(eye.orientation, self.head.eye.orientation), 0.51, delta=0.02)
+        self.head.send(0, 0)
+        self.wait(lambda: self.head.is_at(0, 0), "the head ahead")
+        self.go_on(3)
+        self.assertLess(turn_between(eye.orientation, self.head.eye.orientation), 0.01)
+        self.assertGreater(len(self.poses), 10)
+        ways = [way_between(first.position, pose.position) for pose in self.poses]
+        turns = [turn_between(first.orientation, pose.orientation) for pose in self.poses]
+        print("head: %d poses, base moves %.1f mm and turns %.2f deg at most" %
+              (len(ways), 1000 * max(ways), math.degrees(max(turns))))
+        self.assertLess(max(ways), 0.03)
+        self.assertLess(math.degrees(max(turns)), 1)
+
+    def test_drives_to_a_goal_by_sight_while_the_head_moves(self):
         speeds = []
-        rospy.Subscriber("drive_status", DriveStatus, lambda status: speeds.append(abs(status.forward_mps)))
+
+        def take_status(status):
+            speeds.append(abs(status.forward_mps))
+            if speeds[-1] > 0.09 >= max(speeds[:-1], default=0):
+                self.head.send(0.3, 0)
+
+        rospy.Subscriber("drive_status", DriveStatus, take_status)
         errand = Errand()
         self.assertTrue(errand.run(0.8, 0.2, 30, timeout_s=280), errand.report)
         self.assertLess(errand.error_m(), 0.01 * 0.8 + 0.05)
         self.assertGreater(max(speeds), 0.05)
         self.assertLessEqual(max(speeds), 0.1)
+        self.wait(lambda: self.head.is_at(0.3, 0), "the head")
+        print("drive: error %.1f mm" % (1000 * errand.error_m()))
 
 
 if __name__ == "__main__":

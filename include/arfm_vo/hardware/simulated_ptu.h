@@ -35,6 +35,9 @@ struct SimulatedPtuOptions {
   double command_time_s = 0.002;  ///< from a command's last byte to its reply's first
   double reset_time_s = 8;
 
+  /// A unit that answers at once: for a clock that may stand still.
+  static SimulatedPtuOptions Instant();
+
   void Check() const {
     Require(baud > 0 && command_time_s >= 0 && reset_time_s >= 0,
             "simulated PTU: baud must be positive, times not negative");

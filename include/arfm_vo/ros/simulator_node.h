@@ -7,8 +7,11 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <string>
 
+#include "arfm_vo/hardware/simulated_ptu_port.h"
 #include "arfm_vo/rehearsal/rehearsal.h"
 #include "arfm_vo/ros/stereo_publisher.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
@@ -17,6 +20,8 @@ namespace arfm_vo {
 
 struct SimulatorNodeOptions {
   std::string can = "udp:47112:47111";  ///< the chassis' end of the bus, as OpenCanBus takes it
+  std::string head_port;  ///< name of the pan-tilt unit's device file, made here; empty: the head
+                          ///< is fixed, and its tf told
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   std::string camera_frame = "left_camera_optical";
@@ -35,6 +40,7 @@ struct SimulatorNodeOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("can", can);
+    visit("head_port", head_port);
     visit("map_frame", map_frame);
     visit("base_frame", base_frame);
     visit("camera_frame", camera_frame);
@@ -52,11 +58,12 @@ struct SimulatorNodeOptions {
 };
 
 /// The world around the nodes: /clock, a tracked chassis at the other end of the CAN bus that slips
-/// on a terrain, stereo pairs rendered where the rover truly stands, and the truth.
+/// on a terrain, a pan-tilt unit on a serial line, stereo pairs rendered where the rover truly
+/// stands and its head truly looks, and the truth.
 class SimulatorNode {
  public:
-  /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus
-  /// cannot be opened.
+  /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus or
+  /// the head's device file cannot be opened.
   SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node);
 
   /// Until ROS shuts down.
@@ -67,10 +74,11 @@ class SimulatorNode {
   bool HasOdometry() const { return odometry_done_ >= pair_stamp_; }
   void WaitForOdometry();
   void Step();
+  Rigid3 BaseFromCamera();
   void TakePair();
   void PublishClock() const;
   void PublishTruth(const Rigid3& map_from_base) const;
-  void PublishMount();
+  void PublishFixedMount();
   void TakeStatus(const OdometryStatus& status) {
     odometry_done_ = std::max(odometry_done_, status.header.stamp);
   }
@@ -83,11 +91,13 @@ class SimulatorNode {
   Terrain terrain_;
   TerrainRenderer renderer_;
   StereoCamera camera_;
-  Rigid3 base_from_camera_, map_from_world_;
+  Rigid3 map_from_world_;
   SimulatedChassis chassis_;
   Drive drive_;  ///< since the last goal ended, for the picture
   double driven_before_m_ = 0;
-  uint64_t now_ns_, pair_due_ns_;
+  std::atomic<uint64_t> now_ns_;  ///< read by the head's thread
+  std::unique_ptr<SimulatedPtuPort> head_;
+  uint64_t pair_due_ns_;
   uint32_t num_pairs_ = 0;
   ros::Time odometry_done_, pair_stamp_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
