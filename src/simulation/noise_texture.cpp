@@ -11,6 +11,7 @@ namespace {
 constexpr int kNumLevels = 7;
 constexpr double kMaxLod = 5.5;  ///< beyond it the pattern has averaged out
 constexpr int kMaxProbes = 12;
+constexpr double kScales[kNumLevels] = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
 
 using Pixels = std::vector<float>;
 
@@ -104,6 +105,13 @@ Pixels Halve(const Pixels& in, int size) {
   return out;
 }
 
+/// The bits of x apart, with zeros between them.
+uint32_t SpreadBits(uint32_t x) {
+  uint32_t spread = 0;
+  for (int bit = 0; bit < 16; ++bit) spread |= (x & (1u << bit)) << bit;
+  return spread;
+}
+
 }  // namespace
 
 NoiseTexture::NoiseTexture(int size_log2, double pebbles_per_texel, uint32_t seed)
@@ -115,16 +123,27 @@ NoiseTexture::NoiseTexture(int size_log2, double pebbles_per_texel, uint32_t see
   for (int level = 1; level < kNumLevels; ++level) {
     levels_.push_back(Halve(levels_.back(), size_ >> (level - 1)));
   }
+  for (int i = 0; i < size_; ++i) place_.push_back(SpreadBits(i));
+  for (int level = 0; level < kNumLevels; ++level)
+    levels_[level] = Fold(levels_[level], size_ >> level);
 }
 
-double NoiseTexture::SampleLevel(double x, double y, int level) const {
-  const int size = size_ >> level, mask = size - 1;
-  const double scale = 1.0 / (1 << level);
-  const double lx = x * scale - 0.5, ly = y * scale - 0.5;
+std::vector<float> NoiseTexture::Fold(const std::vector<float>& rows, int size) const {
+  std::vector<float> folded(rows.size());
+  for (int j = 0; j < size; ++j) {
+    for (int i = 0; i < size; ++i) folded[place_[i] + 2 * place_[j]] = rows[j * size + i];
+  }
+  return folded;
+}
+
+inline double NoiseTexture::SampleLevel(double x, double y, int level) const {
+  const int mask = (size_ >> level) - 1;
+  const double lx = x * kScales[level] - 0.5, ly = y * kScales[level] - 0.5;
   const int i = FloorToInt(lx), j = FloorToInt(ly);
   const float u = static_cast<float>(lx - i), v = static_cast<float>(ly - j);
-  const int i0 = i & mask, i1 = (i + 1) & mask, j0 = j & mask, j1 = (j + 1) & mask;
-  const float *above = &levels_[level][j0 * size], *below = &levels_[level][j1 * size];
+  const uint32_t i0 = place_[i & mask], i1 = place_[(i + 1) & mask];
+  const float* above = &levels_[level][2 * place_[j & mask]];
+  const float* below = &levels_[level][2 * place_[(j + 1) & mask]];
   const float top = above[i0] + u * (above[i1] - above[i0]);
   const float bottom = below[i0] + u * (below[i1] - below[i0]);
   return top + v * (bottom - top);

@@ -25,8 +25,8 @@ struct ClosedLoop {
 /// A goal near by, for what does not depend on the distance.
 ClosedLoop ShortDrive(int seed) {
   ClosedLoop loop(seed);
-  loop.scene.min_distance_m = 1;
-  loop.scene.max_distance_m = 1.5;
+  loop.scene.min_distance_m = 0.4;
+  loop.scene.max_distance_m = 0.6;
   return loop;
 }
 

@@ -39,9 +39,13 @@ class NoiseTexture {
 
  private:
   double SampleLevel(double x, double y, int level) const;
+  std::vector<float> Fold(const std::vector<float>& rows, int size) const;
 
   int size_;
-  std::vector<std::vector<float>> levels_;  ///< level k: [size/2^k x size/2^k], row-major
+  /// Level k: [size/2^k x size/2^k], in Morton's order: the probes of a pixel lie close together in
+  /// memory whichever way they go.
+  std::vector<std::vector<float>> levels_;
+  std::vector<uint32_t> place_;  ///< texel (i, j) is at place_[i] + 2 place_[j]
 };
 
 }  // namespace arfm_vo
