@@ -8,6 +8,7 @@
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/node_main.h"
 #include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/pose_message.h"
 #include "arfm_vo/ros/stereo_input.h"
 #include "arfm_vo/ros/truth_path.h"
 
@@ -74,11 +75,8 @@ class TruthPathNode {
   }
 
   std::optional<Rigid3> Align(const geometry_msgs::PoseStamped& truth) {
-    const auto& position = truth.pose.position;
-    const auto& orientation = truth.pose.orientation;
-    const Rigid3 truth_from_camera(
-        Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z).normalized(),
-        Eigen::Vector3d(position.x, position.y, position.z));
+    Rigid3 truth_from_camera = ToRigid3(truth.pose);
+    truth_from_camera.rotation.normalize();
     return alignment_.Align(truth.header.stamp, truth_from_camera);
   }
 

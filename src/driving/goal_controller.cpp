@@ -12,6 +12,10 @@ constexpr double kCostPerRadian_m = 0.3;
 /// Tolerances widen by this at rest, so that noise does not drive the rover to and fro.
 constexpr double kSettledSlack = 1.5;
 
+double BearingTo(const Waypoint& waypoint, const RoverPose& pose) {
+  return std::atan2(waypoint.y_m - pose.y_m, waypoint.x_m - pose.x_m);
+}
+
 }  // namespace
 
 void GoalControllerOptions::Check() const {
@@ -60,8 +64,7 @@ double GoalController::DistanceToWaypoint(const RoverPose& pose) const {
 }
 
 double GoalController::BearingError(const RoverPose& pose) const {
-  const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
-  return WrapAngle(bearing_rad - pose.heading_rad + (is_backward_ ? M_PI : 0));
+  return WrapAngle(BearingTo(route_[next_], pose) - pose.heading_rad + (is_backward_ ? M_PI : 0));
 }
 
 double GoalController::RemainingDistance(const RoverPose& pose) const {
@@ -85,7 +88,7 @@ double GoalController::Cost(const RoverPose& pose) const {
 
 bool GoalController::IsBetterBackward(const RoverPose& pose) const {
   if (DistanceToWaypoint(pose) > options_.max_backward_m) return false;
-  const double bearing_rad = std::atan2(route_[next_].y_m - pose.y_m, route_[next_].x_m - pose.x_m);
+  const double bearing_rad = BearingTo(route_[next_], pose);
   const auto total_turn = [&](double direction_rad) {
     double turn_rad = std::abs(WrapAngle(direction_rad - pose.heading_rad));
     if (IsLast() && route_[next_].heading_rad)

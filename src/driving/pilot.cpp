@@ -196,8 +196,10 @@ PlanarMotion Pilot::RouteMotion(double now_s) {
 }
 
 void Pilot::NoteMotion(double now_s, double dt_s, const PlanarMotion& motion) {
-  if (!motion.IsZero()) at_rest_since_s_ = now_s;
-  if (!motion.IsZero()) driven_s_ += dt_s;
+  if (!motion.IsZero()) {
+    at_rest_since_s_ = now_s;
+    driven_s_ += dt_s;
+  }
   motion_ = motion;
 }
 

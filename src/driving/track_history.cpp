@@ -50,9 +50,4 @@ std::optional<TrackWays> TrackHistory::At(double time_s) const {
                    before.ways.right_m + share * (after->ways.right_m - before.ways.right_m)};
 }
 
-std::optional<double> TrackHistory::LastTime() const {
-  if (readings_.empty()) return std::nullopt;
-  return readings_.back().time_s;
-}
-
 }  // namespace arfm_vo

@@ -90,10 +90,6 @@ std::string SimulatedPtu::Transmit(double now_s) {
   return bytes;
 }
 
-double SimulatedPtu::NextByteTime() const {
-  return output_.empty() ? std::numeric_limits<double>::infinity() : output_.front().first;
-}
-
 double SimulatedPtu::Position(PtuAxis axis, double now_s) {
   Advance(now_s);
   return Motion(axis).Position();

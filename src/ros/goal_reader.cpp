@@ -4,17 +4,9 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/pose_message.h"
 
 namespace arfm_vo {
-namespace {
-
-Rigid3 ToRigid3(const geometry_msgs::Pose& pose) {
-  return {Eigen::Quaterniond(pose.orientation.w, pose.orientation.x, pose.orientation.y,
-                             pose.orientation.z),
-          Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z)};
-}
-
-}  // namespace
 
 Waypoint GoalReader::Read(const geometry_msgs::PoseStamped& goal) const {
   const std::string& frame = goal.header.frame_id;

@@ -9,6 +9,7 @@
 #include "arfm_vo/rehearsal/drive_picture.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/pose_message.h"
 
 namespace arfm_vo {
 namespace {
@@ -153,11 +154,7 @@ void SimulatorNode::PublishFixedMount() {
 void SimulatorNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
   for (auto point = drive_.track.rbegin(); point != drive_.track.rend(); ++point) {
     if (std::abs(point->time_s - odometry.header.stamp.toSec()) > 1e-3) continue;
-    const auto& pose = odometry.pose.pose;
-    point->sight =
-        ProjectToPlane(Rigid3(Eigen::Quaterniond(pose.orientation.w, pose.orientation.x,
-                                                 pose.orientation.y, pose.orientation.z),
-                              Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z)));
+    point->sight = ProjectToPlane(ToRigid3(odometry.pose.pose));
     point->is_tracked = true;
     return;
   }

@@ -27,8 +27,6 @@ class TrackHistory {
   bool Covers(double time_s) const {
     return !readings_.empty() && readings_.front().time_s <= time_s;
   }
-  /// When the last reading came.
-  std::optional<double> LastTime() const;
 
  private:
   struct Reading {

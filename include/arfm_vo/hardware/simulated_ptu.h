@@ -78,8 +78,6 @@ class SimulatedPtu {
   void Receive(const std::string& bytes, double now_s);
   /// What it has sent by `now_s` and was not taken yet.
   std::string Transmit(double now_s);
-  /// When the next byte leaves; infinity where none waits.
-  double NextByteTime() const;
 
   /// The true position, counts.
   double Position(PtuAxis axis, double now_s);
