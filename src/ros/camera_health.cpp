@@ -31,6 +31,13 @@ void Summarize(const StereoCameraStatus& status, const StereoCameraStatus& befor
   if (!status.is_open || !status.problem.empty())
     diagnostics.summary(DiagnosticStatus::ERROR,
                         status.problem.empty() ? "no pairs yet" : status.problem);
+  else if (status.num_pairs == before.num_pairs && status.num_ambiguous > before.num_ambiguous)
+    diagnostics.summaryf(
+        DiagnosticStatus::ERROR,
+        "no pairs: frames of one eye come within %.1f ms, as two for one partner "
+        "(max_skew_s is %.1f ms): its rate is higher than asked, or its stamps are "
+        "wrong",
+        2e3 * camera.max_skew_s, 1e3 * camera.max_skew_s);
   else if (status.num_pairs == before.num_pairs && share > 0)
     diagnostics.summaryf(DiagnosticStatus::ERROR,
                          "no pairs: the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
@@ -61,6 +68,7 @@ void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& be
   diagnostics.addf("skew, largest (ms)", "%.3f", 1e3 * status.max_skew_s);
   diagnostics.add("frames without partner, left", status.num_unpaired_left);
   diagnostics.add("frames without partner, right", status.num_unpaired_right);
+  diagnostics.add("frames too close to be told apart", status.num_ambiguous);
   diagnostics.add("frames dropped by the driver", status.num_dropped);
   diagnostics.add("frames corrupted", status.num_corrupted);
   diagnostics.add("frames without a usable stamp", status.num_stamped_late);

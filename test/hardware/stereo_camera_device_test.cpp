@@ -161,7 +161,7 @@ TEST(StereoCameraOptions, BadValuesAreNamed) {
   };
   StereoCameraOptions options = Options();
   EXPECT_EQ(message_of(options), "");
-  options.max_skew_s = 0.05;  // at 10 Hz a frame could have two partners
+  options.max_skew_s = 0.026;  // over a quarter of the time between frames
   EXPECT_THAT(message_of(options), testing::HasSubstr("max_skew_s"));
   options = Options();
   options.right_device = "left";

@@ -55,6 +55,14 @@ TEST(CameraHealth, EyesThatNeverMatchAreAnErrorThatTellsTheSkew) {
   EXPECT_THAT(Camera(status).message, HasSubstr("20.0 ms apart"));
 }
 
+TEST(CameraHealth, FramesTooCloseToBeToldApartAreAnErrorThatTellsWhy) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = status.num_unpaired_right = status.num_ambiguous = 10;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("within 8.0 ms"));
+}
+
 TEST(CameraHealth, SeldomPairsAndLonelyFramesAreWarnings) {
   StereoCameraStatus seldom = GoodStatus();
   seldom.rate_hz = 7.9;
