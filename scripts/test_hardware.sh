@@ -2,7 +2,7 @@
 # Tests the drivers on the kernel's real SocketCAN and V4L2, in a small virtual machine (scripts/virtual_machine.sh):
 # every script in test/hardware/ runs in one of its own, and what they tell of faults and recoveries goes to
 # docs/hardware_faults.md. The package must be built. Skipped, with the reason, where there can be no such machine.
-# Usage: scripts/test_hardware.sh [PART ...]     video, vcan, chain; default: all. chain has not passed yet.
+# Usage: scripts/test_hardware.sh [PART ...]     video, vcan, chain; default: all
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if reason=$(scripts/virtual_machine.sh --prepare 2>&1); then :; else
