@@ -95,6 +95,7 @@ void StereoCameraDevice::Open() {
       status_.warning += (status_.warning.empty() ? "" : "; ") + Name(i) + ": " + warning;
   }
   status_.is_open = true;
+  if (status_.num_failures == 0) status_.problem = "no pairs yet";
   ++status_.num_opened;
 }
 

@@ -63,6 +63,7 @@ TEST_F(StereoCameraTest, EyesOutOfStepGiveNoPairAndSayByHowMuch) {
   world_.faults[1].phase_s = 0.012;
   EXPECT_EQ(Run(5), 0);
   EXPECT_NEAR(camera_.status().rejected_skew_s, 0.012, 1e-9);
+  EXPECT_EQ(camera_.status().problem, "no pairs yet");
   EXPECT_GT(camera_.status().num_unpaired_left, 40);
   EXPECT_TRUE(camera_.status().is_open);
 }

@@ -40,7 +40,7 @@ struct StereoCameraOptions {
 /// How the camera does, for diagnostics. Counts go on over reopenings.
 struct StereoCameraStatus {
   bool is_open = false;
-  std::string problem;         ///< of the last failure; empty while all is well
+  std::string problem;         ///< of the last failure; empty once pairs come
   std::string warning;         ///< what the devices do not do as asked
   double rate_hz = 0;          ///< of pairs
   double skew_s = 0;           ///< right stamp - left stamp of the last pair
