@@ -37,21 +37,21 @@ TEST_F(LandmarkAlignerTest, MeasuresThePlaceInBothImagesToAFractionOfAPixel) {
   const StereoImages images = wall_.Render(1, pose);
   Eigen::Matrix<double, 6, 1> error;
   error << 0, 0, 0, 0.02, -0.015, 0;  // of the prediction: about a pixel
-  int num_aligned = 0;
-  for (double u = 80; u <= 400; u += 40) {
+  // Inside a disc of the wall there is one edge only: a few places there may slide along it.
+  int num_aligned = 0, num_accurate = 0;
+  for (double u = 80; u <= 400; u += 8) {
     const Landmark landmark = LandmarkAt(u, 140);
     const auto seen = aligner_.Align(landmark, reference_, images, BoxPlus(pose, error));
     if (!seen) continue;
     ++num_aligned;
-    const Eigen::Vector3d truth = camera_.ProjectStereo(pose * landmark.x_in_world);
     EXPECT_EQ(seen->landmark, 7);
-    EXPECT_NEAR(seen->pixels[0], truth.x(), 0.15);
-    EXPECT_NEAR(seen->pixels[1], truth.y(), 0.15);
-    if (!seen->has_right) continue;
-    EXPECT_NEAR(seen->pixels[2], truth.z(), 0.15);
-    EXPECT_NEAR(seen->pixels[3], truth.y(), 0.15);
+    EXPECT_TRUE(seen->has_right);
+    const Eigen::Vector3d truth = camera_.ProjectStereo(pose * landmark.x_in_world);
+    const Eigen::Vector4d pixels(truth.x(), truth.y(), truth.z(), truth.y());
+    if ((seen->pixels - pixels).cwiseAbs().maxCoeff() < 0.15) ++num_accurate;
   }
-  EXPECT_GE(num_aligned, 5);  // of 9
+  EXPECT_GE(num_aligned, 32);  // of 41
+  EXPECT_GE(num_accurate, 0.95 * num_aligned);
 }
 
 TEST_F(LandmarkAlignerTest, TheRightEyeMayBeBlind) {
