@@ -57,17 +57,19 @@ LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& option
   options.Check();
 }
 
-void LoopDetector::Clear() { index_ = DescriptorIndex(options_.index); }
+void LoopDetector::Clear() {
+  index_ = DescriptorIndex(options_.index);
+  next_search_ = 0;
+}
 
 std::optional<Loop> LoopDetector::Detect(const MapStore& map) {
   Index(map);
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
   if (!index_.is_trained() || newest < next_search_) return std::nullopt;
+  next_search_ = newest + options_.search_interval_keyframes;
   const View view(map);
   const auto place = Recognise(map, view);
-  if (!place) return std::nullopt;
-  next_search_ = newest + options_.search_interval_keyframes;
-  return Verify(map, view, *place);
+  return place ? Verify(map, view, *place) : std::nullopt;
 }
 
 /// Takes up the landmarks of the keyframe that is now old enough, if others saw them too.
@@ -96,23 +98,20 @@ void LoopDetector::Index(const MapStore& map) {
 
 /// The keyframe in the middle of the place that the view looks most like.
 std::optional<int> LoopDetector::Recognise(const MapStore& map, const View& view) const {
-  const auto max_squared = static_cast<float>(options_.max_distance * options_.max_distance);
   std::vector<int> votes(map.keyframes.size(), 0);
   for (const auto& seen : view.landmarks) {
-    float least = max_squared;
     int voted = -1;
-    for (const LandmarkId id : index_.FindCandidates(seen->second.descriptor.data())) {
+    const auto accept = [&](LandmarkId id) {
       const auto old = map.Find(id);
       const bool is_old = old != map.landmarks.end() &&
                           old->second.last_keyframe + options_.min_gap_keyframes <= view.keyframe;
-      if (!is_old || !LookAlike(seen->second, old->second)) continue;
-      const float squared =
-          SquaredDescriptorDistance(seen->second.descriptor.data(), old->second.descriptor.data());
-      if (squared >= least) continue;
-      least = squared;
+      if (!is_old || !LookAlike(seen->second, old->second)) return false;
       voted = old->second.first_keyframe;
+      return true;
+    };
+    if (index_.FindNearest(seen->second.descriptor.data(), options_.max_distance, accept)) {
+      ++votes[voted];
     }
-    if (voted >= 0) ++votes[voted];
   }
   const int reach = options_.place_keyframes, count = static_cast<int>(votes.size());
   int sum = 0, best_sum = options_.min_votes - 1, best = -1;

@@ -23,7 +23,7 @@ inline PoseEstimatorOptions LoopPose() {
 struct LoopOptions {
   bool enabled = false;
   int min_gap_keyframes = 30;         ///< newer keyframes are no loop
-  int search_interval_keyframes = 5;  ///< after a place that looks known
+  int search_interval_keyframes = 3;  ///< each so manyth keyframe is looked at
   double max_distance = 0.6;          ///< of descriptors
   double max_ratio = 0.85;            ///< nearest over second-nearest distance, another place's
   int min_votes = 12;                 ///< landmarks that look like those of a place
