@@ -1,8 +1,10 @@
 #include "arfm_vo/base/process_usage.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <fstream>
 
 namespace arfm_vo {
 namespace {
@@ -17,6 +19,13 @@ double ReadSeconds(clockid_t clock) {
 
 double GetProcessCpuSeconds() { return ReadSeconds(CLOCK_PROCESS_CPUTIME_ID); }
 double GetThreadCpuSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
+
+double GetMemoryMb() {
+  std::ifstream pages("/proc/self/statm");
+  double all = 0, resident = 0;
+  if (!(pages >> all >> resident)) return 0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
 
 double GetPeakMemoryMb() {
   rusage usage;

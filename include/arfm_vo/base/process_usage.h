@@ -7,6 +7,8 @@ double GetProcessCpuSeconds();
 /// CPU time of the calling thread so far, s.
 double GetThreadCpuSeconds();
 
+/// Resident memory of this process now, MB (10^6 bytes); 0 where the system does not tell.
+double GetMemoryMb();
 /// The most memory that this process has held so far, MB (10^6 bytes).
 double GetPeakMemoryMb();
 
