@@ -130,13 +130,15 @@ BundleProblem GlobalMap::MakeProblem() {
   for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
     const int pose = k - store_.first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_map);
-    problem.pose_is_fixed.push_back(k < first_moving);
+    bool is_tied = false;  // to older ones: not where the odometry was lost in between
     for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
       const auto landmark = store_.Find(observation.landmark);
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
+      is_tied |= landmark->second.first_keyframe < k;
       problem.observations.push_back({pose, landmark->second.row, observation.pixels,
                                       observation.has_right, observation.sigma_px});
     }
+    problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
   for (const PoseConstraint& loop : loops_) {
     if (loop.first >= store_.first_seeing || loop.second < first_moving) continue;

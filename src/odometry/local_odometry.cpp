@@ -16,6 +16,7 @@ void LocalOdometryOptions::Check() const {
   map.Check();
   bundle.Check();
   standstill.Check();
+  archive.Check();
   Require(bundle.num_keyframes <= map.max_keyframes,
           "odometry.bundle.num_keyframes must not exceed odometry.map.max_keyframes");
   Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
@@ -28,7 +29,8 @@ class LocalOdometry::Implementation {
         options_(options),
         tracker_(camera, options.tracker),
         map_(camera, options.map),
-        standstill_(options.standstill) {
+        standstill_(options.standstill),
+        archive_(camera, options.archive) {
     options.Check();
   }
 
@@ -46,7 +48,6 @@ class LocalOdometry::Implementation {
       Continue(frame, images, update);
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
-    if (update.pose.IsTracked()) AddDrift(update);
     if (update.is_keyframe) AddKeyframe(frame, images, update);
     update.stage_ms.emplace_back("map", stopwatch.LapMs());
     return update;
@@ -85,6 +86,7 @@ class LocalOdometry::Implementation {
     map_.Clear();
     standstill_.Reset();
     drift_.Clear();
+    archive_.Clear();
     last_.reset();
     record_.reset();
   }
@@ -141,6 +143,7 @@ class LocalOdometry::Implementation {
     update.pose.num_inliers = update.pose.num_matches;
     update.pose.covariance.setIdentity();
     update.pose.covariance *= 1e-12;  // the world is this camera
+    update.covariance_from_start = update.pose.covariance;
     update.is_keyframe = true;
     last_ = Motion{frame.stamp_s, update.pose.camera_from_world, std::nullopt, 0};
   }
@@ -151,6 +154,7 @@ class LocalOdometry::Implementation {
     if (!tracked.pose.IsTracked()) {
       last_.reset();
       standstill_.Reset();
+      Recover(frame, update);
       return;
     }
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
@@ -164,6 +168,24 @@ class LocalOdometry::Implementation {
                                   tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     Remember(frame.stamp_s, update.pose.camera_from_world);
+    AddDrift(update);
+  }
+
+  /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
+  void Recover(const StereoFrame& frame, OdometryUpdate& update) {
+    if (static_cast<int>(frame.points.size()) < options_.min_points_to_start) return;
+    const auto place = archive_.Find(frame);
+    if (!place) return;
+    for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
+    map_.Clear();
+    update.pose = place->pose;
+    update.covariance_from_start = place->covariance_from_start;
+    update.is_keyframe = true;
+    Remember(frame.stamp_s, update.pose.camera_from_world);
+  }
+
+  void Retire(const Keyframe& keyframe) {
+    archive_.Add(keyframe, map_, drift_.Covariance(keyframe.id));
   }
 
   std::optional<Rigid3> Predict(double stamp_s) const {
@@ -187,6 +209,8 @@ class LocalOdometry::Implementation {
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update) {
     const LandmarkId first_new = map_.next_landmark();
+    const bool is_full = static_cast<int>(map_.keyframes().size()) == options_.map.max_keyframes;
+    if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe =
         map_.AddKeyframe(frame, images.left, update.pose.camera_from_world, update.observations);
     record_ = KeyframeRecord{
@@ -214,10 +238,9 @@ class LocalOdometry::Implementation {
   }
 
   void AddDrift(OdometryUpdate& update) const {
-    update.covariance_from_start = update.pose.covariance;
-    if (map_.keyframes().empty()) return;
     const Keyframe& newest = map_.keyframes().back();
-    update.covariance_from_start +=
+    update.covariance_from_start =
+        update.pose.covariance +
         CarryCovariance(update.pose.camera_from_world * newest.camera_from_world.Inverse(),
                         drift_.Covariance(newest.id));
   }
@@ -237,6 +260,7 @@ class LocalOdometry::Implementation {
   FrameTracker tracker_;
   LocalMap map_;
   StandstillLock standstill_;
+  KeyframeArchive archive_;
   std::optional<Motion> last_;
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
