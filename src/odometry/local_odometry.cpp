@@ -7,6 +7,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/odometry/motion_model.h"
 
 namespace arfm_vo {
 
@@ -43,7 +44,7 @@ class LocalOdometry::Implementation {
     FinishBundle();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
-      Start(frame, images, update);
+      Start(frame, update);
     } else {
       Continue(frame, images, update);
     }
@@ -87,7 +88,7 @@ class LocalOdometry::Implementation {
     standstill_.Reset();
     drift_.Clear();
     archive_.Clear();
-    last_.reset();
+    motion_.Reset();
     record_.reset();
   }
 
@@ -99,13 +100,6 @@ class LocalOdometry::Implementation {
     BundleResult result;
     Eigen::MatrixXd information;  ///< FindPoseInformation
   };
-  struct Motion {
-    double stamp_s;
-    Rigid3 camera_from_world;
-    std::optional<Rigid3> velocity;  ///< camera_from_camera a second ago: (rotation, translation)
-    double interval_s;
-  };
-
   /// The frame with its points where they are when the right image is displaced as we know.
   StereoFrame Corrected(StereoFrame frame) const {
     if (correction_.IsZero()) return frame;
@@ -133,7 +127,7 @@ class LocalOdometry::Implementation {
     return *middle;
   }
 
-  void Start(const StereoFrame& frame, const StereoImages&, OdometryUpdate& update) {
+  void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
     if (update.pose.num_matches < options_.min_points_to_start) {
       update.pose.status = PoseStatus::kTooFewFeatures;
@@ -145,14 +139,16 @@ class LocalOdometry::Implementation {
     update.pose.covariance *= 1e-12;  // the world is this camera
     update.covariance_from_start = update.pose.covariance;
     update.is_keyframe = true;
-    last_ = Motion{frame.stamp_s, update.pose.camera_from_world, std::nullopt, 0};
+    motion_.Reset();
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
 
   void Continue(const StereoFrame& frame, const StereoImages& images, OdometryUpdate& update) {
-    TrackedFrame tracked = tracker_.Track(frame, images, map_, Predict(frame.stamp_s));
+    const auto predicted = options_.predict_motion ? motion_.Predict(frame.stamp_s) : std::nullopt;
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted);
     update.pose = tracked.pose;
     if (!tracked.pose.IsTracked()) {
-      last_.reset();
+      motion_.Reset();
       standstill_.Reset();
       Recover(frame, update);
       return;
@@ -167,7 +163,7 @@ class LocalOdometry::Implementation {
         !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
                                   tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
-    Remember(frame.stamp_s, update.pose.camera_from_world);
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
     AddDrift(update);
   }
 
@@ -181,29 +177,11 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     update.is_keyframe = true;
-    Remember(frame.stamp_s, update.pose.camera_from_world);
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
 
   void Retire(const Keyframe& keyframe) {
     archive_.Add(keyframe, map_, drift_.Covariance(keyframe.id));
-  }
-
-  std::optional<Rigid3> Predict(double stamp_s) const {
-    if (!options_.predict_motion || !last_) return std::nullopt;
-    if (!last_->velocity || last_->interval_s <= 0) return last_->camera_from_world;
-    const double ratio = (stamp_s - last_->stamp_s) / last_->interval_s;
-    const Rigid3 motion(ExpSO3(ratio * LogSO3(last_->velocity->rotation)),
-                        Eigen::Vector3d(ratio * last_->velocity->translation));
-    return motion * last_->camera_from_world;
-  }
-
-  void Remember(double stamp_s, const Rigid3& camera_from_world) {
-    Motion now{stamp_s, camera_from_world, std::nullopt, 0};
-    if (last_) {
-      now.velocity = camera_from_world * last_->camera_from_world.Inverse();
-      now.interval_s = stamp_s - last_->stamp_s;
-    }
-    last_ = now;
   }
 
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
@@ -261,7 +239,7 @@ class LocalOdometry::Implementation {
   LocalMap map_;
   StandstillLock standstill_;
   KeyframeArchive archive_;
-  std::optional<Motion> last_;
+  MotionModel motion_;
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
   std::future<AdjustedWindow> pending_;
