@@ -19,7 +19,8 @@ libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev zlib1g-dev l
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode rosbash libnodeletlib-tools tf2-tools
          python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs topic-tools python3-cv-bridge rviz ros-image-view
-         ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher ros-camera-calibration
+         ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher
+         ros-camera-calibration python3-image-geometry
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2)

@@ -20,12 +20,18 @@ class FastMaximumFinder {
   /// The scale-space maxima of the image, in the reference's order.
   std::vector<ScaleSpaceMaximum> Find(const IntegralImage& integral,
                                       const SurfDetectorOptions& options, int threads);
+  /// Of the last image.
+  const ScaleSpace& scale_space() const { return space_; }
 
  private:
-  void ComputeLayer(const IntegralImage& integral, int octave, int layer, int initial_step,
-                    int threads);
+  /// Fills rows first .. end - 1 of a layer.
+  void ComputeRows(const IntegralImage& integral, int octave, int layer, int first, int end,
+                   int threads);
+  /// Appends the maxima in rows first .. end - 1 of a layer.
+  void FindInRows(const SurfDetectorOptions& options, const cv::Size& image, int octave, int layer,
+                  int first, int end, std::vector<ScaleSpaceMaximum>& maxima) const;
 
-  std::vector<std::vector<cv::Mat_<float>>> layers_;  ///< [octave][layer]
+  ScaleSpace space_;
 };
 
 /// The vectorised descriptor: fills descriptors and angles as the reference does.

@@ -10,19 +10,14 @@ namespace {
 
 using Neighbours = float[3][3][3];  ///< determinants by layer, row, column
 
-float DeterminantAt(const IntegralImage& integral, int x, int y, int size) {
-  return ComputeDeterminant(ComputeBoxHessian(integral, x, y, size),
-                            1.0f / static_cast<float>(size * size));
-}
-
-void ComputeNeighbours(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
-                       Neighbours& values) {
+void ReadNeighbours(const ScaleSpace& space, const ScaleSpaceMaximum& maximum, Neighbours& values) {
+  const int step = space.Step(maximum.octave);
   for (int layer = 0; layer < 3; ++layer) {
-    const int size = BoxFilterSize(maximum.octave, maximum.layer + layer - 1);
     for (int row = 0; row < 3; ++row) {
       for (int col = 0; col < 3; ++col) {
-        values[layer][row][col] = DeterminantAt(integral, maximum.x + (col - 1) * step,
-                                                maximum.y + (row - 1) * step, size);
+        values[layer][row][col] =
+            space.At(maximum.octave, maximum.layer + layer - 1, maximum.x + (col - 1) * step,
+                     maximum.y + (row - 1) * step);
       }
     }
   }
@@ -45,39 +40,38 @@ cv::Vec3d FindTop(const Neighbours& v) {
 
 }  // namespace
 
-std::optional<Keypoint> InterpolateMaximum(const IntegralImage& integral,
-                                           const ScaleSpaceMaximum& maximum, int step) {
+std::optional<Keypoint> InterpolateMaximum(const ScaleSpace& space,
+                                           const ScaleSpaceMaximum& maximum) {
   Neighbours values;
-  ComputeNeighbours(integral, maximum, step, values);
+  ReadNeighbours(space, maximum, values);
   const cv::Vec3d top = FindTop(values);
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(top[i]) <= 1)) return std::nullopt;
   }
+  const int step = space.Step(maximum.octave);
   const int size = BoxFilterSize(maximum.octave, maximum.layer);
   const int size_step = BoxFilterSize(maximum.octave, 1) - BoxFilterSize(maximum.octave, 0);
-  const BoxHessian sums = ComputeBoxHessian(integral, maximum.x, maximum.y, size);
   Keypoint keypoint;
   keypoint.x = static_cast<float>(maximum.x + top[0] * step);
   keypoint.y = static_cast<float>(maximum.y + top[1] * step);
   keypoint.scale = ScaleOfFilter(static_cast<float>(size + top[2] * size_step));
   keypoint.response = maximum.response;
-  keypoint.laplacian_sign = sums.xx + sums.yy >= 0 ? 1 : -1;
   return keypoint;
 }
 
-bool RepeatsFinerOctave(const IntegralImage& integral, const ScaleSpaceMaximum& maximum, int step,
-                        int layers) {
+bool RepeatsFinerOctave(const ScaleSpace& space, const ScaleSpaceMaximum& maximum) {
   constexpr int kRadius = 2;  // samples of the finer octave: the neighbours of this one's
   if (maximum.octave == 0) return false;
+  const int layers = static_cast<int>(space.layers[maximum.octave].size());
   const int same = 2 * maximum.layer + 1;  // layer of the finer octave with the same filter
   if (same < layers - 1) return true;      // a maximum there as well
-  for (const int finer : {same - 1, same + 1}) {
-    if (finer >= layers) continue;
-    const int size = BoxFilterSize(maximum.octave - 1, finer);
+  const int octave = maximum.octave - 1, step = space.Step(octave);
+  for (const int layer : {same - 1, same + 1}) {
+    if (layer >= layers) continue;
     for (int dy = -kRadius; dy <= kRadius; ++dy) {
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
-        const int x = maximum.x + dx * step / 2, y = maximum.y + dy * step / 2;
-        if (DeterminantAt(integral, x, y, size) > maximum.response) return true;
+        const int x = maximum.x + dx * step, y = maximum.y + dy * step;
+        if (space.At(octave, layer, x, y) > maximum.response) return true;
       }
     }
   }

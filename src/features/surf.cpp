@@ -41,12 +41,14 @@ Features Surf::Extract(const cv::Mat& grey) {
   Features features;
   const IntegralImage& integral = workspace_->integral;
   if (options_.use_fast_path) {
-    const auto maxima = workspace_->finder.Find(integral, options_.detector, options_.threads);
-    features.keypoints = SelectKeypoints(integral, maxima, options_.detector);
+    FastMaximumFinder& finder = workspace_->finder;
+    const auto maxima = finder.Find(integral, options_.detector, options_.threads);
+    features.keypoints = SelectKeypoints(integral, finder.scale_space(), maxima, options_.detector);
     DescribeFast(integral, options_.descriptor, options_.threads, features);
   } else {
-    features.keypoints =
-        SelectKeypoints(integral, FindMaxima(integral, options_.detector), options_.detector);
+    const ScaleSpace space = ComputeScaleSpace(integral, options_.detector);
+    const auto maxima = FindMaxima(space, grey.size(), options_.detector);
+    features.keypoints = SelectKeypoints(integral, space, maxima, options_.detector);
     SurfDescriptor(options_.descriptor).Describe(integral, features);
   }
   return features;

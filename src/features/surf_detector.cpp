@@ -63,25 +63,31 @@ void SurfDetectorOptions::Check() const {
   Require(bucket_px >= 0, "detector.bucket_px must not be negative");
 }
 
-std::vector<ScaleSpaceMaximum> FindMaxima(const IntegralImage& integral,
+ScaleSpace ComputeScaleSpace(const IntegralImage& integral, const SurfDetectorOptions& options) {
+  ScaleSpace space{options.initial_step, {}};
+  for (int octave = 0; octave < options.octaves; ++octave) {
+    auto& layers = space.layers.emplace_back();
+    for (int layer = 0; layer < options.layers; ++layer) {
+      layers.push_back(
+          ComputeResponses(integral, BoxFilterSize(octave, layer), space.Step(octave)));
+    }
+  }
+  return space;
+}
+
+std::vector<ScaleSpaceMaximum> FindMaxima(const ScaleSpace& space, const cv::Size& image,
                                           const SurfDetectorOptions& options) {
-  const cv::Size image(integral.cols(), integral.rows());
   std::vector<ScaleSpaceMaximum> maxima;
   for (int octave = 0; octave < options.octaves; ++octave) {
-    const int step = options.initial_step << octave;
-    std::vector<cv::Mat_<float>> layers;
-    for (int layer = 0; layer < options.layers; ++layer) {
-      layers.push_back(ComputeResponses(integral, BoxFilterSize(octave, layer), step));
-    }
     for (int layer = 1; layer + 1 < options.layers; ++layer) {
-      FindMaxima(&layers[layer - 1], octave, layer, step, image,
+      FindMaxima(&space.layers[octave][layer - 1], octave, layer, space.Step(octave), image,
                  static_cast<float>(options.hessian_threshold), maxima);
     }
   }
   return maxima;
 }
 
-std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral,
+std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral, const ScaleSpace& space,
                                       const std::vector<ScaleSpaceMaximum>& maxima,
                                       const SurfDetectorOptions& options) {
   const size_t target = options.target_keypoints > 0 ? options.target_keypoints : maxima.size();
@@ -89,12 +95,13 @@ std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral,
   for (const ScaleSpaceMaximum& maximum :
        RankSpread(maxima, integral.rows(), integral.cols(), options.bucket_px)) {
     if (selected.size() == target) break;
-    const int step = options.initial_step << maximum.octave;
-    if (options.merge_octaves && RepeatsFinerOctave(integral, maximum, step, options.layers)) {
-      continue;
-    }
-    const auto keypoint = InterpolateMaximum(integral, maximum, step);
-    if (keypoint) selected.emplace_back(maximum, *keypoint);
+    if (options.merge_octaves && RepeatsFinerOctave(space, maximum)) continue;
+    auto keypoint = InterpolateMaximum(space, maximum);
+    if (!keypoint) continue;
+    const BoxHessian sums = ComputeBoxHessian(integral, maximum.x, maximum.y,
+                                              BoxFilterSize(maximum.octave, maximum.layer));
+    keypoint->laplacian_sign = sums.xx + sums.yy >= 0 ? 1 : -1;
+    selected.emplace_back(maximum, *keypoint);
   }
   std::sort(selected.begin(), selected.end(),
             [](const auto& a, const auto& b) { return IsAbove(a.first, b.first); });

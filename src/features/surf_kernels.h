@@ -40,9 +40,10 @@ struct SurfKernels {
   /// rows, `out` one row, each with kKernelReadAhead values to spare.
   void (*compute_determinants)(const IntegralView& integral, int y, int size, uint32_t* scratch,
                                float* out);
-  /// Columns begin <= x < end where rows[1] is above `threshold` and not below its 8 neighbours;
-  /// returns their number. `columns` has room for end - begin + 8.
-  int (*find_peaks)(const float* const rows[3], int begin, int end, float threshold,
+  /// Columns begin <= x < end where rows[4] is above `threshold` and not below its 26 neighbours;
+  /// returns their number. `rows` are three rows of three layers, [3 layers][3]; `columns` has
+  /// room for end - begin + 8.
+  int (*find_peaks)(const float* const rows[9], int begin, int end, float threshold,
                     int32_t* columns);
   /// Offsets, from the origin of the sums, of the corner of pixels nearest to each of `num` samples
   /// (u, v), a multiple of 8.

@@ -81,17 +81,30 @@ void ComputeDeterminants(const IntegralView& integral, int y, int size, uint32_t
   for (int x = end; x < width - kLanes; ++x) out[x] = 0;
 }
 
-int FindPeaks(const float* const rows[3], int begin, int end, float threshold, int32_t* columns) {
+inline bool IsAny(const Ints& mask) {
+  const Longs pairs = (Longs)mask;
+  return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+}
+
+inline Ints IsNotBelow(const Floats& centre, const float* const rows[3], int x) {
+  Ints result = ~Ints{};
+  for (int row = 0; row < 3; ++row) {
+    for (int dx = -1; dx <= 1; ++dx) result &= centre >= Load<Floats>(rows[row] + x + dx);
+  }
+  return result;
+}
+
+int FindPeaks(const float* const rows[9], int begin, int end, float threshold, int32_t* columns) {
   int num = 0;
   const Floats least = Broadcast(threshold);
   for (int x = begin; x < end; x += kLanes) {
-    const Floats centre = Load<Floats>(rows[1] + x);
+    const Floats centre = Load<Floats>(rows[4] + x);
     Ints is_peak = centre > least;
-    for (int row = 0; row < 3; ++row) {
-      for (int dx = -1; dx <= 1; ++dx) is_peak &= centre >= Load<Floats>(rows[row] + x + dx);
-    }
-    const Longs pairs = (Longs)is_peak;
-    if ((pairs[0] | pairs[1] | pairs[2] | pairs[3]) == 0) continue;
+    if (!IsAny(is_peak)) continue;
+    is_peak &= IsNotBelow(centre, rows + 3, x);
+    if (!IsAny(is_peak)) continue;
+    is_peak &= IsNotBelow(centre, rows, x) & IsNotBelow(centre, rows + 6, x);
+    if (!IsAny(is_peak)) continue;
     for (int lane = 0; lane < kLanes; ++lane) {
       if (is_peak[lane] && x + lane < end) columns[num++] = x + lane;
     }

@@ -17,28 +17,54 @@ void FramePairer::DropOldest(int eye) {
 }
 
 void FramePairer::Clear() {
-  for (int eye : {0, 1})
+  for (int eye : {0, 1}) {
     while (!waiting_[eye].empty()) DropOldest(eye);
+    last_stamp_s_[eye].reset();
+  }
+}
+
+double FramePairer::rejected_skew_s() const {
+  const auto [last_s, before_s] = rejected_skew_s_;
+  return before_s != 0 && std::abs(before_s) < std::abs(last_s) ? before_s : last_s;
+}
+
+/// Whether the frame's moment can be told from that of the eye's frame before it; where not, that
+/// one does not wait any longer either.
+bool FramePairer::HasOwnMoment(int eye, double stamp_s) {
+  const std::optional<double> before_s = std::exchange(last_stamp_s_[eye], stamp_s);
+  if (!before_s) return false;
+  if (stamp_s - *before_s > 2 * max_skew_s_) return true;
+  ++num_ambiguous_;
+  ++num_unpaired_[eye];
+  std::deque<VideoFrame>& own = waiting_[eye];
+  if (!own.empty() && own.back().stamp_s == *before_s) {
+    own.pop_back();
+    ++num_unpaired_[eye];
+    ++num_ambiguous_;
+  }
+  return false;
 }
 
 std::optional<FramePair> FramePairer::Add(StereoEye eye, VideoFrame frame) {
-  std::deque<VideoFrame>& own = waiting_[Index(eye)];
-  if (!own.empty() && frame.stamp_s <= own.back().stamp_s) Clear();
-  own.push_back(std::move(frame));
-  if (own.size() > kMaxWaiting) DropOldest(Index(eye));
+  const int index = Index(eye);
+  if (last_stamp_s_[index] && frame.stamp_s <= *last_stamp_s_[index]) Clear();
+  if (!HasOwnMoment(index, frame.stamp_s)) return std::nullopt;
+  waiting_[index].push_back(std::move(frame));
+  if (waiting_[index].size() > kMaxWaiting) DropOldest(index);
+  return TakePair();
+}
+
+std::optional<FramePair> FramePairer::TakePair() {
   while (!waiting_[0].empty() && !waiting_[1].empty()) {
     const double skew_s = waiting_[1].front().stamp_s - waiting_[0].front().stamp_s;
-    if (std::abs(skew_s) > max_skew_s_) rejected_skew_s_ = skew_s;
-    if (skew_s > max_skew_s_) {
-      DropOldest(0);
-    } else if (skew_s < -max_skew_s_) {
-      DropOldest(1);
-    } else {
+    if (std::abs(skew_s) <= max_skew_s_) {
       FramePair pair{std::move(waiting_[0].front()), std::move(waiting_[1].front())};
       waiting_[0].pop_front();
       waiting_[1].pop_front();
       return pair;
     }
+    rejected_skew_s_[1] = std::exchange(rejected_skew_s_[0], skew_s);
+    DropOldest(skew_s > 0 ? 0 : 1);
   }
   return std::nullopt;
 }

@@ -60,8 +60,16 @@ const std::map<std::string, Conversion>& Conversions() {
 
 bool IsJpeg(const std::string& name) { return name == "MJPG" || name == "JPEG"; }
 
+/// Whether the picture has its end (bytes FF D9, which stand nowhere else; devices pad what
+/// follows). A decoder fills up one that was cut off, and says nothing.
+bool IsWholeJpeg(const uint8_t* data, size_t size) {
+  for (size_t i = size; i >= 4; --i)
+    if (data[i - 2] == 0xff && data[i - 1] == 0xd9) return true;
+  return false;
+}
+
 std::optional<cv::Mat> DecodeJpeg(const void* data, size_t size, const VideoFormat& format) {
-  if (size == 0) return std::nullopt;
+  if (!IsWholeJpeg(static_cast<const uint8_t*>(data), size)) return std::nullopt;
   const cv::Mat bytes(1, static_cast<int>(size), CV_8UC1, const_cast<void*>(data));
   cv::Mat grey;
   try {

@@ -28,8 +28,9 @@ void StereoCameraOptions::Check() const {
   Require(left_device != right_device, "left_device and right_device must differ");
   video.Check();
   Require(max_skew_s > 0, "max_skew_s must be positive");
-  Require(max_skew_s * video.rate_hz < 0.5,
-          "max_skew_s must be below half the time between frames (0.5 / video.rate_hz)");
+  Require(max_skew_s * video.rate_hz <= 0.25,
+          "max_skew_s must not be above a quarter of the time between frames (0.25 / "
+          "video.rate_hz)");
   Require(frame_timeout_s * video.rate_hz > 1,
           "frame_timeout_s must be above the time between frames (1 / video.rate_hz)");
   Require(exposure_copy_s > 0, "exposure_copy_s must be positive");
@@ -94,6 +95,7 @@ void StereoCameraDevice::Open() {
       status_.warning += (status_.warning.empty() ? "" : "; ") + Name(i) + ": " + warning;
   }
   status_.is_open = true;
+  if (status_.num_failures == 0) status_.problem = "no pairs yet";
   ++status_.num_opened;
 }
 
@@ -185,6 +187,7 @@ void StereoCameraDevice::UpdateCounts() {
   status_.num_stamped_late = counts.num_stamped_late;
   status_.num_unpaired_left = pairer_.num_unpaired(StereoEye::kLeft);
   status_.num_unpaired_right = pairer_.num_unpaired(StereoEye::kRight);
+  status_.num_ambiguous = pairer_.num_ambiguous();
   status_.rejected_skew_s = pairer_.rejected_skew_s();
   status_.rate_hz = rate_.Rate(environment_.now_s());
 }

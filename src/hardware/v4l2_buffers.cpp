@@ -1,6 +1,7 @@
 #include "arfm_vo/hardware/v4l2_buffers.h"
 
 #include <sys/mman.h>
+#include <sys/time.h>
 
 #include <cerrno>
 #include <system_error>
@@ -66,6 +67,18 @@ std::optional<v4l2_buffer> V4l2Buffers::Take() {
     throw std::system_error(EPROTO, std::generic_category(), path_ + ": gives an unknown buffer");
   if (buffer.bytesused > mapped_[buffer.index].length) buffer.flags |= V4L2_BUF_FLAG_ERROR;
   return buffer;
+}
+
+bool V4l2Buffers::MayBeRewritten(const v4l2_buffer& taken) const {
+  size_t num_newer = 0;
+  for (unsigned i = 0; i < mapped_.size(); ++i) {
+    v4l2_buffer buffer = MakeBuffer(i);
+    if (!TryV4l2(fd_, VIDIOC_QUERYBUF, &buffer)) return false;  // GiveBack will tell
+    if (!timercmp(&buffer.timestamp, &taken.timestamp, >)) continue;
+    if (i == taken.index) return true;
+    ++num_newer;
+  }
+  return num_newer + 1 == mapped_.size();
 }
 
 void V4l2Buffers::GiveBack(v4l2_buffer& buffer) {

@@ -19,6 +19,11 @@ constexpr double kMaxStampAge_s = 5;
 /// A larger gap in the numbering is a new start, not lost frames.
 constexpr uint32_t kMaxGap = 100000;
 
+double StampOf(const v4l2_buffer& buffer) {
+  return static_cast<double>(buffer.timestamp.tv_sec) +
+         1e-6 * static_cast<double>(buffer.timestamp.tv_usec);
+}
+
 bool SetControl(int fd, uint32_t id, int value) {
   v4l2_control control{id, value};
   return TryV4l2(fd, VIDIOC_S_CTRL, &control);
@@ -59,6 +64,7 @@ V4l2Device::V4l2Device(const std::string& path, const VideoOptions& options)
   SetRate(options.rate_hz);
   SetControls(options);
   buffers_.Start(fd_.Get(), path_, options.num_buffers);
+  started_s_ = MonotonicNow();
 }
 
 void V4l2Device::CheckCapabilities() const {
@@ -142,10 +148,16 @@ void V4l2Device::CountSequence(uint32_t sequence) {
   last_sequence_ = sequence;
 }
 
+/// Whether it is stamped before the stream was started: the stamp is not that of the picture, which
+/// can be much older (v4l2loopback keeps the last picture and stamps it when buffers are asked
+/// for).
+bool V4l2Device::IsFromBefore(const v4l2_buffer& buffer) const {
+  const double stamp_s = StampOf(buffer);
+  return stamp_s < started_s_ && started_s_ - stamp_s < kMaxStampAge_s;
+}
+
 VideoFrame V4l2Device::TakeStamp(const v4l2_buffer& buffer) {
-  const double now_s = MonotonicNow();
-  const double stamp_s = static_cast<double>(buffer.timestamp.tv_sec) +
-                         1e-6 * static_cast<double>(buffer.timestamp.tv_usec);
+  const double now_s = MonotonicNow(), stamp_s = StampOf(buffer);
   // Judged by its value: some drivers stamp by the monotonic clock without the flag that says so.
   if (stamp_s > last_stamp_s_ && stamp_s <= now_s && now_s - stamp_s < kMaxStampAge_s)
     return {{}, stamp_s, false};
@@ -155,18 +167,26 @@ VideoFrame V4l2Device::TakeStamp(const v4l2_buffer& buffer) {
 
 std::optional<VideoFrame> V4l2Device::Read() {
   while (std::optional<v4l2_buffer> buffer = buffers_.Take()) {
+    if (IsFromBefore(*buffer)) {
+      buffers_.GiveBack(*buffer);
+      continue;
+    }
     CountSequence(buffer->sequence);
     VideoFrame frame = TakeStamp(*buffer);
     if (!(buffer->flags & V4L2_BUF_FLAG_ERROR))
       if (auto grey = ToGrey(buffers_.Memory(*buffer), buffer->bytesused, format_))
         frame.grey = std::move(*grey);
+    const bool may_be_foreign = buffers_.MayBeRewritten(*buffer);  // asked after the copy
     buffers_.GiveBack(*buffer);
-    if (!frame.grey.empty()) {
+    if (may_be_foreign) {
+      ++counts_.num_dropped;
+    } else if (frame.grey.empty()) {
+      ++counts_.num_corrupted;
+    } else {
       ++counts_.num_frames;
       last_stamp_s_ = frame.stamp_s;
       return frame;
     }
-    ++counts_.num_corrupted;
   }
   return std::nullopt;
 }

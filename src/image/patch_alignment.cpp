@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
-#include "cubic_interpolation.h"
 #include "patch_window.h"
 #include "symmetric.h"
 
@@ -25,13 +24,7 @@ float Length(const cv::Point2f& vector) {
 }
 
 float WeightedVariance(const Patch::Samples& samples) {
-  const float mean = Dot(kPatchWindow.weights, samples);
-  Patch::Samples deviations, weighted;
-  for (int i = 0; i < Patch::kNumSamples; ++i) {
-    deviations[i] = samples[i] - mean;
-    weighted[i] = kPatchWindow.weights[i] * deviations[i];
-  }
-  return Dot(weighted, deviations);
+  return ChoosePatchKernels().weighted_variance(kPatchWindow.weights.data(), samples.data());
 }
 
 }  // namespace
@@ -101,16 +94,21 @@ PatchAlignment PatchAligner::Refine(const Patch& patch, const cv::Mat& grey,
   };
   if (!std::isfinite(inverse_hessian[0])) return stop(AlignmentStatus::kLowTexture);
   alignment.position = start;
+  const PatchKernels& kernels = ChoosePatchKernels();
+  const GreyView view = View(grey);
   Patch::Samples samples;
   while (alignment.num_iterations < options_.max_iterations) {
     ++alignment.num_iterations;
-    if (!Interpolate<kSize, kSize>(grey, alignment.position - kToCorner, samples.data())) {
+    const cv::Point2f corner = alignment.position - kToCorner;
+    if (!kernels.interpolate(view, corner.x, corner.y, samples.data())) {
       return stop(AlignmentStatus::kOutOfImage);
     }
-    const float gain = Dot(patch.values_, samples) / patch.squared_values_;
+    float sums[3];
+    kernels.dot_three(patch.values_.data(), patch.gradient_x_.data(), patch.gradient_y_.data(),
+                      samples.data(), sums);
+    const float gain = sums[0] / patch.squared_values_;
     if (!(gain > kMinGain)) return stop(AlignmentStatus::kLowCorrelation);
-    const float x = Dot(patch.gradient_x_, samples) / gain;
-    const float y = Dot(patch.gradient_y_, samples) / gain;
+    const float x = sums[1] / gain, y = sums[2] / gain;
     const cv::Point2f step(inverse_hessian[0] * x + inverse_hessian[1] * y,
                            inverse_hessian[1] * x + inverse_hessian[2] * y);
     alignment.position -= step;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include "arfm_vo/image/patch.h"
+#include "patch_kernels.h"
 
 namespace arfm_vo {
 
@@ -15,16 +14,13 @@ struct PatchWindow {
 };
 extern const PatchWindow kPatchWindow;
 
+inline GreyView View(const cv::Mat& grey) {
+  return {grey.data, static_cast<int64_t>(grey.step), grey.rows, grey.cols};
+}
+
 /// Sum of products.
 inline float Dot(const Patch::Samples& a, const Patch::Samples& b) {
-  cv::v_float32x4 sums[4];  // four sums hide the latency of the additions
-  for (auto& sum : sums) sum = cv::v_setzero_f32();
-  for (int i = 0; i < Patch::kNumSamples; i += 16) {
-    for (int k = 0; k < 4; ++k) {
-      sums[k] = cv::v_fma(cv::v_load(&a[i + 4 * k]), cv::v_load(&b[i + 4 * k]), sums[k]);
-    }
-  }
-  return cv::v_reduce_sum((sums[0] + sums[1]) + (sums[2] + sums[3]));
+  return ChoosePatchKernels().dot(a.data(), b.data());
 }
 
 }  // namespace arfm_vo

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "arfm_vo/base/check.h"
-#include "cubic_interpolation.h"
 #include "patch_window.h"
 
 namespace arfm_vo {
@@ -71,7 +71,9 @@ cv::Vec2f SlantAligner::MeasureShear(const Patch& patch, const cv::Mat& right,
                                      const cv::Point2f& position) const {
   Patch::Samples samples;
   const cv::Point2f corner = position - cv::Point2f(Patch::kHalfSpan, Patch::kHalfSpan);
-  if (!Interpolate<kSize, kSize>(right, corner, samples.data())) return {0, 0};
+  if (!ChoosePatchKernels().interpolate(View(right), corner.x, corner.y, samples.data())) {
+    return {0, 0};
+  }
   const float gain = Dot(patch.values_, samples) / patch.squared_values_;
   if (!(gain > 0)) return {0, 0};
   // right(x, y) = left(x + t + a x + b y): regressors g, g x, g y besides brightness and contrast.
@@ -103,8 +105,8 @@ cv::Vec2f SlantAligner::MeasureShear(const Patch& patch, const cv::Mat& right,
   const float samples_along_values = Dot(patch.values_, samples);
   for (int k = 0; k < 3; ++k) {
     const float share = along_values[k] / patch.squared_values_;
-    for (int l = 0; l < 3; ++l) {
-      normal(k, l) = Dot(weighted[k], *regressors[l]) - share * along_values[l];
+    for (int l = 0; l <= k; ++l) {
+      normal(k, l) = normal(l, k) = Dot(weighted[k], *regressors[l]) - share * along_values[l];
     }
     right_side[k] = (Dot(weighted[k], samples) - share * samples_along_values) / gain;
   }

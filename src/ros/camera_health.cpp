@@ -1,6 +1,8 @@
 #include "arfm_vo/ros/camera_health.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
 
 namespace arfm_vo {
 namespace {
@@ -24,19 +26,39 @@ double UnpairedShare(const StereoCameraStatus& status, const StereoCameraStatus&
   return num_unpaired == 0 ? 0 : static_cast<double>(num_unpaired) / (num_unpaired + num_pairs);
 }
 
+/// Why an open camera gave no pair since the last report; empty where that is not known.
+std::string WhyNoPairs(const StereoCameraStatus& status, const StereoCameraStatus& before,
+                       const StereoCameraOptions& camera) {
+  const bool has_left = status.num_unpaired_left > before.num_unpaired_left;
+  const bool has_right = status.num_unpaired_right > before.num_unpaired_right;
+  char text[200] = "";
+  if (status.num_ambiguous > before.num_ambiguous)
+    std::snprintf(text, sizeof(text),
+                  "frames of one eye come within %.1f ms, as two for one partner (max_skew_s is "
+                  "%.1f ms): its rate is higher than asked, or its stamps are wrong",
+                  2e3 * camera.max_skew_s, 1e3 * camera.max_skew_s);
+  else if (has_left && has_right)
+    std::snprintf(text, sizeof(text), "the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
+                  1e3 * status.rejected_skew_s, 1e3 * camera.max_skew_s);
+  return text;
+}
+
 void Summarize(const StereoCameraStatus& status, const StereoCameraStatus& before,
                const StereoCameraOptions& camera, const CameraHealthOptions& options,
                Diagnostics& diagnostics) {
   const double share = UnpairedShare(status, before);
-  if (!status.is_open || !status.problem.empty())
-    diagnostics.summary(DiagnosticStatus::ERROR,
-                        status.problem.empty() ? "no pairs yet" : status.problem);
-  else if (status.num_pairs == before.num_pairs && share > 0)
-    diagnostics.summaryf(DiagnosticStatus::ERROR,
-                         "no pairs: the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
-                         1e3 * status.rejected_skew_s, 1e3 * camera.max_skew_s);
-  else if (status.num_pairs == before.num_pairs)
-    diagnostics.summary(DiagnosticStatus::WARN, "no pairs since the last report");
+  const bool has_pairs = status.num_pairs > before.num_pairs;
+  const std::string why_none = has_pairs ? "" : WhyNoPairs(status, before, camera);
+  if (!status.is_open)
+    diagnostics.summary(DiagnosticStatus::ERROR, status.problem);
+  else if (!why_none.empty())
+    diagnostics.summary(DiagnosticStatus::ERROR, "no pairs: " + why_none);
+  else if (!status.problem.empty())
+    diagnostics.summary(DiagnosticStatus::ERROR, status.problem);
+  else if (!has_pairs)
+    diagnostics.summary(
+        share > 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+        share > 0 ? "no pairs: frames come from one eye alone" : "no pairs since the last report");
   else if (share > options.max_unpaired_share)
     diagnostics.summaryf(DiagnosticStatus::WARN, "%.0f %% of an eye's frames have no partner",
                          100 * share);
@@ -61,6 +83,7 @@ void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& be
   diagnostics.addf("skew, largest (ms)", "%.3f", 1e3 * status.max_skew_s);
   diagnostics.add("frames without partner, left", status.num_unpaired_left);
   diagnostics.add("frames without partner, right", status.num_unpaired_right);
+  diagnostics.add("frames too close to be told apart", status.num_ambiguous);
   diagnostics.add("frames dropped by the driver", status.num_dropped);
   diagnostics.add("frames corrupted", status.num_corrupted);
   diagnostics.add("frames without a usable stamp", status.num_stamped_late);

@@ -2,6 +2,8 @@
 
 #include <sensor_msgs/image_encodings.h>
 
+#include <utility>
+
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/ros/parameters.h"
@@ -63,11 +65,12 @@ void StereoCameraNode::Eye::Publish(const VideoFrame& frame, const std_msgs::Hea
   publisher_.publish(ToMessage(frame.grey, header), info);
 }
 
-StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node)
+StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
+                                   VideoEnvironment environment)
     : options_(ReadParameters<StereoCameraNodeOptions>(private_node)),
       left_(node, "left", options_.left_camera_info_url),
       right_(node, "right", options_.right_camera_info_url),
-      camera_(options_.camera, VideoEnvironment::Kernel()),
+      camera_(options_.camera, std::move(environment)),
       clock_(&MonotonicNow, [] { return ros::WallTime::now().toSec(); }),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID(options_.camera.left_device + " " + options_.camera.right_device);

@@ -77,8 +77,8 @@ void SurfDetector(benchmark::State& state) {
   FastMaximumFinder finder;
   std::vector<Keypoint> keypoints;
   for (auto _ : state) {
-    keypoints =
-        SelectKeypoints(integral, finder.Find(integral, options.detector, 1), options.detector);
+    const auto maxima = finder.Find(integral, options.detector, 1);
+    keypoints = SelectKeypoints(integral, finder.scale_space(), maxima, options.detector);
   }
   CountPoints(state, keypoints.size());
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -61,8 +62,43 @@ TEST(ToGrey, MotionJpegIsDecodedAndRubbishIsNot) {
   ASSERT_TRUE(grey);
   EXPECT_NEAR(grey->at<uint8_t>(8, 12), 77, 2);
   EXPECT_FALSE(Convert("MJPG", bytes, 16, 16));  // another size
+  bytes.insert(bytes.end(), 100, 0);             // as devices pad it
+  EXPECT_TRUE(Convert("MJPG", bytes, 24, 16));
   EXPECT_FALSE(Convert("MJPG", {1, 2, 3}, 24, 16));
   EXPECT_FALSE(Convert("MJPG", {}, 24, 16));
+}
+
+/// A picture of noise as JPEG.
+std::vector<uint8_t> NoiseJpeg(int width, int height) {
+  cv::Mat noise(height, width, CV_8UC1);
+  cv::randu(noise, 0, 256);
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", noise, bytes);
+  return bytes;
+}
+
+TEST(ToGrey, MotionJpegThatIsCutOffIsNoFrame) {
+  const std::vector<uint8_t> whole = NoiseJpeg(64, 48);
+  ASSERT_TRUE(Convert("MJPG", whole, 64, 48));
+  for (size_t size = 0; size < whole.size(); size += 7)
+    EXPECT_FALSE(Convert("MJPG", {whole.begin(), whole.begin() + size}, 64, 48)) << size;
+}
+
+// Many cameras leave out the Huffman tables (segment DHT): those of the standard are meant.
+TEST(ToGrey, MotionJpegWithoutHuffmanTablesIsDecodedByTheStandardOnes) {
+  const std::vector<uint8_t> whole = NoiseJpeg(64, 48);
+  std::vector<uint8_t> bare(whole.begin(), whole.begin() + 2);
+  size_t i = 2;
+  while (whole[i + 1] != 0xda) {  // up to the start of the scan
+    const size_t size = 2 + (whole[i + 2] << 8 | whole[i + 3]);
+    if (whole[i + 1] != 0xc4) bare.insert(bare.end(), &whole[i], &whole[i] + size);
+    i += size;
+  }
+  bare.insert(bare.end(), whole.begin() + i, whole.end());
+  ASSERT_LT(bare.size(), whole.size());
+  const auto expected = Convert("MJPG", whole, 64, 48), grey = Convert("MJPG", bare, 64, 48);
+  ASSERT_TRUE(expected && grey);
+  EXPECT_EQ(cv::norm(*expected, *grey, cv::NORM_INF), 0);
 }
 
 TEST(ToGrey, AShortBufferIsNoFrame) {

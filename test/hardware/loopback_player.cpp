@@ -1,7 +1,9 @@
-#include <chrono>
-#include <cmath>
+#include <nav_msgs/Odometry.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
 #include <sstream>
-#include <thread>
+#include <stdexcept>
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/calibration/camera_info_file.h"
@@ -15,9 +17,9 @@ using namespace arfm_vo;
 
 struct Playing {
   std::string bag, folder, left = "/dev/video10", right = "/dev/video11";
-  double rate_hz = 0.5;
-  int num_pairs = 12, num_repeats = 4;
-  double wait_s = 60;
+  double rate_hz = 1;
+  int num_pairs = 12;
+  double timeout_s = 300;
 };
 
 /// The calibration as camera_info_manager reads it: the pictures are rectified already.
@@ -42,33 +44,54 @@ std::string FormatPose(const Rigid3& pose) {
   return text.str();
 }
 
-/// Shows the first picture until all listen, then the others, and the last a few times.
+/// Two cameras that go on to the next pair when the odometry has answered to the last.
+class Player {
+ public:
+  Player(const Playing& playing, const StereoCamera& camera)
+      : playing_(playing),
+        left_(playing.left, camera.width, camera.height),
+        right_(playing.right, camera.width, camera.height),
+        odometry_(ros::NodeHandle().subscribe("odom", 10, &Player::TakeOdometry, this)) {}
+
+  /// Shows the pair again and again until there is an odometry of it.
+  void Show(const StereoImages& images) {
+    const ros::WallTime start = ros::WallTime::now();
+    for (ros::WallTime next = start; answered_.toSec() < start.toSec();) {
+      if (!ros::ok() || (ros::WallTime::now() - start).toSec() > playing_.timeout_s)
+        throw std::runtime_error("no odometry of the pair shown " +
+                                 std::to_string(playing_.timeout_s) + " s ago");
+      if (ros::WallTime::now() >= next) {
+        left_.Write(images.left);
+        right_.Write(images.right);
+        next = ros::WallTime::now() + ros::WallDuration(1 / playing_.rate_hz);
+      }
+      ros::getGlobalCallbackQueue()->callAvailable(next - ros::WallTime::now());
+    }
+  }
+
+ private:
+  void TakeOdometry(const nav_msgs::Odometry& odometry) { answered_ = odometry.header.stamp; }
+
+  const Playing playing_;
+  LoopbackWriter left_, right_;
+  ros::Time answered_;
+  ros::Subscriber odometry_;
+};
+
 void Play(const Playing& playing) {
   PairSelection selection;
   selection.max_pairs = playing.num_pairs;
   BagSequence sequence(playing.bag, {}, selection);
-  const StereoCamera& camera = sequence.camera();
-  LoopbackWriter left(playing.left, camera.width, camera.height);
-  LoopbackWriter right(playing.right, camera.width, camera.height);
-  WriteCalibration(playing.folder, camera);
-  const std::chrono::duration<double> interval(1 / playing.rate_hz);
+  Player player(playing, sequence.camera());
+  WriteCalibration(playing.folder, sequence.camera());
   Rigid3 first, last;
-  const auto show = [&](const SequencePair& pair, int times) {
-    for (int i = 0; i < times; ++i) {
-      left.Write(pair.images.left);
-      right.Write(pair.images.right);
-      std::this_thread::sleep_for(interval);
-    }
-  };
-  std::optional<SequencePair> shown;
-  while (std::optional<SequencePair> pair = sequence.Next()) {
+  for (int number = 0; auto pair = sequence.Next(); ++number) {
     if (!pair->true_world_from_camera) throw std::invalid_argument(playing.bag + ": has no truth");
     last = *pair->true_world_from_camera;
-    if (!shown) first = last;
-    show(*pair, shown ? 1 : static_cast<int>(std::ceil(playing.wait_s * playing.rate_hz)));
-    shown = std::move(pair);
+    if (number == 0) first = last;
+    player.Show(pair->images);
+    ROS_INFO("pair %d has its pose", number);
   }
-  if (shown) show(*shown, playing.num_repeats);
   WriteWholeFile(playing.folder + "/truth.txt", FormatPose(first.Inverse() * last));
 }
 
@@ -80,12 +103,17 @@ int main(int argc, char** argv) {
   Program program;
   program.name = "loopback_player";
   program.description =
-      "Shows the pairs of a bag with ground truth on two v4l2loopback cameras. FOLDER takes the\n"
-      "calibration (left.yaml, right.yaml) at the start and truth.txt at the end.";
+      "Shows the pairs of a bag with ground truth on two v4l2loopback cameras, each until there "
+      "is\n"
+      "an odometry of it (topic odom). FOLDER takes the calibration (left.yaml, right.yaml) at "
+      "the\n"
+      "start and truth.txt at the end.";
   program.inputs = {{"BAG", &playing.bag}, {"FOLDER", &playing.folder}};
-  program.options.add_options()("rate", po::value(&playing.rate_hz)->value_name("HZ"), "of pairs")(
+  program.options.add_options()("rate", po::value(&playing.rate_hz)->value_name("HZ"),
+                                "how often a pair is shown")(
       "pairs", po::value(&playing.num_pairs)->value_name("N"), "at most")(
-      "wait", po::value(&playing.wait_s)->value_name("S"), "how long the first is shown");
+      "timeout", po::value(&playing.timeout_s)->value_name("S"), "for one pair");
   program.run = [&] { Play(playing); };
+  ros::init(argc, argv, "loopback_player");
   return RunProgram(argc, argv, program);
 }

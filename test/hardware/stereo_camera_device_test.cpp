@@ -63,6 +63,7 @@ TEST_F(StereoCameraTest, EyesOutOfStepGiveNoPairAndSayByHowMuch) {
   world_.faults[1].phase_s = 0.012;
   EXPECT_EQ(Run(5), 0);
   EXPECT_NEAR(camera_.status().rejected_skew_s, 0.012, 1e-9);
+  EXPECT_EQ(camera_.status().problem, "no pairs yet");
   EXPECT_GT(camera_.status().num_unpaired_left, 40);
   EXPECT_TRUE(camera_.status().is_open);
 }
@@ -161,7 +162,7 @@ TEST(StereoCameraOptions, BadValuesAreNamed) {
   };
   StereoCameraOptions options = Options();
   EXPECT_EQ(message_of(options), "");
-  options.max_skew_s = 0.05;  // at 10 Hz a frame could have two partners
+  options.max_skew_s = 0.026;  // over a quarter of the time between frames
   EXPECT_THAT(message_of(options), testing::HasSubstr("max_skew_s"));
   options = Options();
   options.right_device = "left";

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 [[ -e /dev/video0 && -e /dev/video10 && -e /dev/video11 ]] || { echo "no test cameras here" >&2; exit 1; }
 status=0
 output=$(mktemp)
-"${BUILD_DIR:-_b}/devel/lib/arfm_vo/test_hardware" --gtest_filter='V4l2CameraTest.*' > "$output" 2>&1 || status=1
+"${BUILD_DIR:-_b}/devel/lib/arfm_vo/test_hardware" --gtest_filter='V4l2*Test.*' > "$output" 2>&1 || status=1
 grep -E '^\[ .*(OK|FAILED|SKIPPED)|^\||Failure|Which|actual|Value|Expected|what\(\)|C\+\+ exception' "$output" || true
 # A test that is skipped here has not shown anything.
 if grep -q '^\[  SKIPPED' "$output"; then status=1; fi

@@ -3,17 +3,16 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
-#include <ros/network.h>
 #include <ros/ros.h>
 #include <signal.h>
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <xmlrpcpp/XmlRpc.h>
 
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "nodes/node_process.h"
 
 // chassis_node in a world of its own: a simulated chassis at the other end of the bus, and a
 // perfect sight in tf. Wall time.
@@ -190,22 +189,6 @@ class ChassisNodeTest : public ::testing::Test {
 };
 
 World* ChassisNodeTest::world_ = nullptr;
-
-/// The process of a node, as the node itself tells it.
-pid_t PidOf(const std::string& node) {
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = node;
-  EXPECT_TRUE(ros::master::execute("lookupNode", request, response, payload, false));
-  std::string host;
-  uint32_t port = 0;
-  EXPECT_TRUE(ros::network::splitURI(payload, host, port));
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller, answer;
-  caller[0] = ros::this_node::getName();
-  EXPECT_TRUE(client.execute("getPid", caller, answer));
-  return static_cast<int>(answer[2]);
-}
 
 // A loaded machine delays test and node alike; the fault table measures without it.
 constexpr double kPatience_s = 0.6;

@@ -51,8 +51,27 @@ TEST(CameraHealth, EyesThatNeverMatchAreAnErrorThatTellsTheSkew) {
   status.num_pairs = 100;
   status.num_unpaired_left = status.num_unpaired_right = 10;
   status.rejected_skew_s = 0.02;
+  status.problem = "no pairs yet";  // as before the first pair
   EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
   EXPECT_THAT(Camera(status).message, HasSubstr("20.0 ms apart"));
+}
+
+TEST(CameraHealth, AnEyeThatIsAloneIsAnError) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = 10;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("from one eye alone"));
+  status.problem = "right eye gives no frames";
+  EXPECT_THAT(Camera(status).message, HasSubstr("right eye gives no frames"));
+}
+
+TEST(CameraHealth, FramesTooCloseToBeToldApartAreAnErrorThatTellsWhy) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = status.num_unpaired_right = status.num_ambiguous = 10;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("within 8.0 ms"));
 }
 
 TEST(CameraHealth, SeldomPairsAndLonelyFramesAreWarnings) {

@@ -18,7 +18,7 @@ struct StereoCameraOptions {
   std::string left_device = "/dev/video0";
   std::string right_device = "/dev/video1";  ///< empty: left_device shows both side by side
   VideoOptions video;
-  double max_skew_s = 0.004;   ///< between the stamps of a pair
+  double max_skew_s = 0.004;   ///< between the stamps of a pair: see FramePairer
   double frame_timeout_s = 1;  ///< an eye that is silent for longer is opened anew
   double exposure_copy_s = 1;  ///< how often the left's automatic exposure goes to the right
   BackoffOptions reopen;
@@ -40,13 +40,14 @@ struct StereoCameraOptions {
 /// How the camera does, for diagnostics. Counts go on over reopenings.
 struct StereoCameraStatus {
   bool is_open = false;
-  std::string problem;         ///< of the last failure; empty while all is well
+  std::string problem;         ///< of the last failure; empty once pairs come
   std::string warning;         ///< what the devices do not do as asked
   double rate_hz = 0;          ///< of pairs
   double skew_s = 0;           ///< right stamp - left stamp of the last pair
   double max_skew_s = 0;       ///< largest absolute one so far
   double rejected_skew_s = 0;  ///< of the last frames that were too far apart to be a pair
   int num_pairs = 0, num_unpaired_left = 0, num_unpaired_right = 0;
+  int num_ambiguous = 0;  ///< of the unpaired: too close after another frame of the same eye
   int num_dropped = 0, num_corrupted = 0, num_stamped_late = 0;
   int num_failures = 0, num_opened = 0;
   std::optional<Exposure> exposure;  ///< of the left eye

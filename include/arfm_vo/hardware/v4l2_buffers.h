@@ -20,6 +20,9 @@ class V4l2Buffers {
 
   /// A filled buffer, which must be given back; nothing where none is ready.
   std::optional<v4l2_buffer> Take();
+  /// Whether all other buffers were filled since `taken` was. A device that does not wait for its
+  /// buffers (v4l2loopback) may then be writing a later picture into `taken`, under the old stamp.
+  bool MayBeRewritten(const v4l2_buffer& taken) const;
   void GiveBack(v4l2_buffer& buffer);
   const void* Memory(const v4l2_buffer& buffer) const { return mapped_[buffer.index].start; }
 

@@ -34,6 +34,7 @@ class V4l2Device : public VideoDevice {
   void SetControls(const VideoOptions& options);
   void Warn(const std::string& text);
   void CountSequence(uint32_t sequence);
+  bool IsFromBefore(const v4l2_buffer& buffer) const;
   VideoFrame TakeStamp(const v4l2_buffer& buffer);
 
   const std::string path_;
@@ -43,6 +44,7 @@ class V4l2Device : public VideoDevice {
   VideoCounts counts_;
   std::string warning_;
   std::optional<uint32_t> last_sequence_;
+  double started_s_ = 0;  ///< when the stream was
   double last_stamp_s_ = 0;
 };
 

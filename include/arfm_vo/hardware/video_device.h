@@ -17,7 +17,7 @@ struct VideoFrame {
 
 struct VideoCounts {
   int num_frames = 0;
-  int num_dropped = 0;    ///< gaps in the device's numbering
+  int num_dropped = 0;    ///< gaps in the device's numbering; read too late to be trusted
   int num_corrupted = 0;  ///< marked bad, too short or not decodable; not handed out
   int num_stamped_late = 0;
 };

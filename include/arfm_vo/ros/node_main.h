@@ -13,6 +13,7 @@ namespace arfm_vo {
 template <class Node>
 int RunNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
+  const ros::NodeHandle keeper;  // the last handle that goes takes the log with it
   try {
     Node node{ros::NodeHandle(), ros::NodeHandle("~")};
     ros::spin();

@@ -38,7 +38,8 @@ class StereoCameraNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter. A camera that is not there is no error:
   /// the node waits for it and says so in its diagnostics.
-  StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
+                   VideoEnvironment environment = VideoEnvironment::Kernel());
   ~StereoCameraNode();
 
  private:

@@ -1,0 +1,173 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <atomic>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/simulated_ptu_port.h"
+#include "arfm_vo/simulation/simulated_chassis.h"
+#include "nodes/inbox.h"
+#include "nodes/node_process.h"
+
+// rover.launch without cameras, with a simulated pan-tilt unit and a simulated chassis.
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+/// A topic's way from one node to another, "NODE TOPIC NODE".
+std::set<std::string> ReadWays() {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  std::set<std::string> ways;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return ways;
+  for (int i = 0; i < state[0].size(); ++i)
+    for (int k = 0; k < state[1].size(); ++k) {
+      XmlRpc::XmlRpcValue &from = state[0][i], &to = state[1][k];
+      if (std::string(from[0]) != std::string(to[0])) continue;
+      for (int a = 0; a < from[1].size(); ++a)
+        for (int b = 0; b < to[1].size(); ++b)
+          ways.insert(std::string(from[1][a]) + " " + std::string(from[0]) + " " +
+                      std::string(to[1][b]));
+    }
+  return ways;
+}
+
+const std::set<std::string> kWays = {
+    "/stereo/stereo_camera_node /stereo/left/image_raw /stereo/stereo_image_proc",
+    "/stereo/stereo_camera_node /stereo/right/image_raw /stereo/stereo_image_proc",
+    "/stereo/stereo_camera_node /stereo/left/camera_info /stereo/stereo_image_proc",
+    "/stereo/stereo_camera_node /stereo/right/camera_info /stereo/stereo_image_proc",
+    "/stereo/stereo_image_proc /stereo/left/image_rect /arfm_node",
+    "/stereo/stereo_image_proc /stereo/right/image_rect /arfm_node",
+    "/stereo/stereo_camera_node /stereo/left/camera_info /arfm_node",
+    "/stereo/stereo_camera_node /stereo/right/camera_info /arfm_node",
+    "/arfm_node /features /pose_node",
+    "/stereo/stereo_image_proc /stereo/left/image_rect /pose_node",
+    "/pose_node /keyframe /ba_node",
+    "/ba_node /map_update /pose_node",
+    "/pose_node /odom /chassis_node",
+    "/chassis_node /track_odom /pose_node",
+    "/head/pan_tilt_node /joint_states /robot_state_publisher",
+    "/robot_state_publisher /tf /pose_node",
+    "/robot_state_publisher /tf_static /pose_node",
+    "/pose_node /tf /chassis_node",
+    "/ba_node /tf /chassis_node"};
+
+class RoverTest : public testing::Test {
+ protected:
+  /// The newest diagnosis whose name has `part`, as "LEVEL MESSAGE".
+  std::string Diagnosis(const std::string& part) const {
+    for (auto array = diagnostics_.all().rbegin(); array != diagnostics_.all().rend(); ++array)
+      for (const auto& status : array->status)
+        if (status.name.find(part) != std::string::npos)
+          return std::to_string(status.level) + " " + status.message;
+    return "";
+  }
+  void AwaitDiagnosis(const std::string& part, uint8_t level, const std::string& text) {
+    WaitUntil(
+        [&] {
+          const std::string said = Diagnosis(part);
+          return said.rfind(std::to_string(level), 0) == 0 && said.find(text) != std::string::npos;
+        },
+        part + " to say \"" + text + "\"");
+  }
+
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+};
+
+TEST_F(RoverTest, AllNodesAreUpAndTheirTopicsConnected) {
+  const auto missing = [] {
+    const std::set<std::string> ways = ReadWays();
+    std::string text;
+    for (const std::string& way : kWays)
+      if (!ways.count(way)) text += way + "\n";
+    return text;
+  };
+  WaitUntil([&] { return missing().empty(); }, "all topics");
+  EXPECT_EQ(missing(), "");
+}
+
+TEST_F(RoverTest, DiagnosticsSayWhatIsMissing) {
+  AwaitDiagnosis("stereo_camera_node: camera", DiagnosticStatus::ERROR, "/dev/no_left_eye");
+  AwaitDiagnosis("stereo_camera_node: calibration", DiagnosticStatus::WARN, "calibrat");
+  AwaitDiagnosis("arfm_node", DiagnosticStatus::WARN, "no pairs");
+  AwaitDiagnosis("pose_node: odometry", DiagnosticStatus::WARN, "no pairs");
+  AwaitDiagnosis("pan_tilt_node: pan-tilt", DiagnosticStatus::OK, "settled");
+  AwaitDiagnosis("chassis_node: driving", DiagnosticStatus::WARN, "standby");
+}
+
+TEST_F(RoverTest, TheHeadAndTheTracksAreThere) {
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener(buffer);
+  WaitUntil([&] { return buffer.canTransform("base_link", "left_camera_optical", ros::Time(0)); },
+            "tf to the camera");
+  const Inbox<nav_msgs::Odometry> tracks("/track_odom");
+  EXPECT_EQ(tracks.last().twist.twist.linear.x, 0);
+}
+
+TEST_F(RoverTest, WithoutCamerasNoNodeIsBusy) {
+  const std::string nodes[] = {"/stereo/stereo_camera_node",
+                               "/stereo/stereo_image_proc",
+                               "/head/pan_tilt_node",
+                               "/robot_state_publisher",
+                               "/arfm_node",
+                               "/pose_node",
+                               "/ba_node",
+                               "/chassis_node"};
+  std::map<std::string, double> cpu_s;
+  for (const std::string& node : nodes) cpu_s[node] = CpuSeconds(PidOf(node));
+  const double start_s = MonotonicNow();
+  const int num_before = diagnostics_.size();
+  // Some seconds: each node says how it is once in one.
+  WaitUntil([&] { return diagnostics_.size() > num_before + 25; }, "diagnostics");
+  const double passed_s = MonotonicNow() - start_s;
+  for (const std::string& node : nodes)
+    EXPECT_LT(CpuSeconds(PidOf(node)) - cpu_s[node], 0.3 * passed_s) << node;
+}
+
+/// The chassis at the other end of the bus while it lives.
+class ChassisThread {
+ public:
+  explicit ChassisThread(const std::string& can)
+      : chassis_(OpenCanBus(can), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
+        thread_([this] {
+          while (!is_stopping_) {
+            chassis_.Tick(MonotonicNow());
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+        }) {}
+  ~ChassisThread() {
+    is_stopping_ = true;
+    thread_.join();
+  }
+
+ private:
+  SimulatedChassis chassis_;
+  std::atomic<bool> is_stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_rover");
+  const ros::NodeHandle keeper;  // between tests too
+  std::string port, can;
+  if (!ros::param::get("~port", port) || !ros::param::get("~can", can)) return 1;
+  arfm_vo::SimulatedPtuOptions options;
+  options.reset_time_s = 0.5;
+  const arfm_vo::SimulatedPtuPort ptu(port, options);
+  const arfm_vo::ChassisThread chassis(can);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,198 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/SetCameraInfo.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/ros/stereo_camera_node.h"
+#include "hardware/simulated_cameras.h"
+#include "nodes/inbox.h"
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr int kWidth = 8, kHeight = 4;
+
+/// Simulated cameras on the machine's clock.
+VideoEnvironment InRealTime(SimulatedCameras& world) {
+  VideoEnvironment environment = world.Environment();
+  environment.now_s = [&world] { return world.now_s = MonotonicNow(); };
+  environment.wait = [&world](const std::vector<int>& descriptors, double timeout_s) {
+    const double arrival_s = descriptors.empty() ? 1e300 : world.NextArrival() - world.now_s;
+    const double wait_s = std::min(std::max(timeout_s, 0.0), arrival_s);
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+    world.now_s = MonotonicNow();
+  };
+  return environment;
+}
+
+sensor_msgs::CameraInfo Calibration(bool is_right, int width = kWidth) {
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<uint32_t>(width);
+  info.height = kHeight;
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0);
+  info.K = {500, 0, 4, 0, 500, 2, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {500, 0, 4, is_right ? -60.0 : 0.0, 0, 500, 2, 0, 0, 0, 1, 0};
+  return info;
+}
+
+std::string folder;  ///< of the calibration
+
+class StereoCameraNodeTest : public testing::Test {
+ protected:
+  StereoCameraNodeTest() {
+    std::filesystem::remove_all(folder);
+    ros::NodeHandle options("/stereo/camera");
+    options.setParam("left_device", "left");
+    options.setParam("right_device", "right");
+    options.setParam("video/width", kWidth);
+    options.setParam("video/height", kHeight);
+    options.setParam("left_camera_info_url", "file://" + folder + "/left.yaml");
+    options.setParam("right_camera_info_url", "file://" + folder + "/right.yaml");
+    Start();
+  }
+  ~StereoCameraNodeTest() override { std::filesystem::remove_all(folder); }
+
+  void Start() {
+    node_.reset();
+    node_ = std::make_unique<StereoCameraNode>(
+        ros::NodeHandle("/stereo"), ros::NodeHandle("/stereo/camera"), InRealTime(world_));
+  }
+  /// What set_camera_info of an eye answers.
+  static std::string Set(const std::string& eye, const sensor_msgs::CameraInfo& info) {
+    const std::string name = "/stereo/" + eye + "/set_camera_info";
+    sensor_msgs::SetCameraInfo call;
+    call.request.camera_info = info;
+    // The service is of this process: somebody must spin while it is called.
+    ros::AsyncSpinner spinner(1);
+    spinner.start();
+    if (!ros::service::waitForService(name, ros::Duration(30))) return "no " + name;
+    if (!ros::service::call(name, call)) return "no answer";
+    return call.response.success ? "" : "refused: " + call.response.status_message;
+  }
+  /// Waits until the diagnostics of "camera" or "calibration" have a level and a text.
+  void AwaitDiagnosis(const std::string& part, uint8_t level, const std::string& text) {
+    const auto is_said = [&] {
+      const auto& all = diagnostics_.all();
+      return std::any_of(all.begin() + num_old_, all.end(), [&](const auto& array) {
+        return std::any_of(array.status.begin(), array.status.end(), [&](const auto& status) {
+          return status.name.find(": " + part) != std::string::npos && status.level == level &&
+                 status.message.find(text) != std::string::npos;
+        });
+      });
+    };
+    WaitUntil(is_said, part + " to say \"" + text + "\"");
+    num_old_ = diagnostics_.size();
+  }
+  /// Waits until a camera_info with this P[3] comes, or one more where there is none.
+  void AwaitBaseline(double p3) {
+    WaitUntil([&] { return right_info_.size() > 0 && right_info_.all().back().P[3] == p3; },
+              "P[3] of " + std::to_string(p3));
+  }
+
+  SimulatedCameras world_;
+  std::unique_ptr<StereoCameraNode> node_;
+  Inbox<sensor_msgs::Image> left_{"/stereo/left/image_raw"}, right_{"/stereo/right/image_raw"};
+  Inbox<sensor_msgs::CameraInfo> left_info_{"/stereo/left/camera_info"},
+      right_info_{"/stereo/right/camera_info"};
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+  int num_old_ = 0;
+};
+
+TEST_F(StereoCameraNodeTest, BothEyesOfAPairHaveOneStampOfRosTime) {
+  const ros::Time start = ros::Time::now();
+  WaitUntil([&] { return left_.size() >= 5 && right_.size() >= 5 && right_info_.size() >= 5; },
+            "pairs");
+  for (const auto& right : right_.all()) {
+    EXPECT_EQ(right.encoding, "mono8");
+    EXPECT_EQ(right.header.frame_id, "left_camera_optical");
+    EXPECT_GT(right.header.stamp, start - ros::Duration(1));
+    EXPECT_LT(right.header.stamp, ros::Time::now());
+    // The pictures show the number of their moment: the same in both eyes of one stamp.
+    for (const auto& left : left_.all())
+      EXPECT_EQ(left.header.stamp == right.header.stamp,
+                std::equal(left.data.begin(), left.data.begin() + 4, right.data.begin()));
+  }
+}
+
+TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
+  AwaitDiagnosis("calibration", DiagnosticStatus::WARN, "not calibrated");
+  WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");
+  EXPECT_EQ(right_info_.last().K[0], 0);
+  EXPECT_EQ(Set("left", Calibration(false)), "");
+  AwaitDiagnosis("calibration", DiagnosticStatus::WARN, "right eye is not calibrated");
+  EXPECT_EQ(Set("right", Calibration(true)), "");
+  AwaitBaseline(-60);
+  AwaitDiagnosis("calibration", DiagnosticStatus::OK, "calibrated");
+  EXPECT_EQ(right_info_.last().K[0], 500);
+  EXPECT_TRUE(std::filesystem::exists(folder + "/left.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/right.yaml"));
+  Start();
+  AwaitDiagnosis("calibration", DiagnosticStatus::OK, "calibrated");
+  const int num_before = right_info_.size();
+  WaitUntil([&] { return right_info_.size() > num_before; }, "camera_info after the start");
+  EXPECT_EQ(right_info_.last().P[3], -60);
+}
+
+TEST_F(StereoCameraNodeTest, ACalibrationForAnotherSizeIsAnErrorAndNotPublished) {
+  EXPECT_EQ(Set("left", Calibration(false, 640)), "");
+  EXPECT_EQ(Set("right", Calibration(true, 640)), "");
+  AwaitDiagnosis("calibration", DiagnosticStatus::ERROR, "640x4, pictures are 8x4");
+  WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");
+  EXPECT_EQ(right_info_.last().K[0], 0);
+  EXPECT_EQ(right_info_.last().width, 8u);
+}
+
+TEST_F(StereoCameraNodeTest, AnUnpluggedEyeIsAnErrorAndSurvived) {
+  AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
+  world_.faults[1].is_unplugged = true;
+  AwaitDiagnosis("camera", DiagnosticStatus::ERROR, "device");
+  world_.faults[1].is_unplugged = false;
+  AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
+}
+
+/// What the program prints, and how it ends.
+std::pair<std::string, int> RunProgram(const std::string& arguments) {
+  const std::string command = ARFM_VO_PROGRAM_DIR "/stereo_camera_node " + arguments + " 2>&1";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::string output;
+  char buffer[256];
+  while (const size_t count = std::fread(buffer, 1, sizeof(buffer), pipe))
+    output.append(buffer, count);
+  return {output, ::pclose(pipe)};
+}
+
+TEST(StereoCameraProgram, AWrongParameterEndsItWithItsName) {
+  const auto [output, status] = RunProgram("__name:=wrong _video/width:=-1");
+  EXPECT_NE(status, 0);
+  EXPECT_THAT(output, testing::HasSubstr("video.width"));
+}
+
+TEST(StereoCameraProgram, ListSaysWhatThereIsOrThatThereIsNone) {
+  EXPECT_THAT(RunProgram("--list").first, testing::HasSubstr("/dev/video"));
+  const auto [output, status] = RunProgram("--list /dev/no_such_camera");
+  EXPECT_NE(status, 0);
+  EXPECT_THAT(output, testing::HasSubstr("/dev/no_such_camera: No such file"));
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_stereo_camera");
+  const ros::NodeHandle keeper;  // between tests too
+  if (!ros::param::get("~folder", arfm_vo::folder)) return 1;
+  return RUN_ALL_TESTS();
+}
