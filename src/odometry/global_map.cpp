@@ -175,8 +175,9 @@ void GlobalMap::RememberCorrection(const BundleProblem& problem, const BundleRes
   const Information prior =
       problem.correction_prior.information +
       Information::Identity() / (problem.correction_sigma_px * problem.correction_sigma_px);
-  const Eigen::SelfAdjointEigenSolver<Information> told(
-      Information(result.correction_covariance.inverse() - prior));
+  const Information difference = result.correction_covariance.inverse() - prior;
+  if (!difference.allFinite()) return;
+  const Eigen::SelfAdjointEigenSolver<Information> told(difference);
   told_.mean_px = result.correction.coefficients_px;
   told_.information = told.eigenvectors() * told.eigenvalues().cwiseMax(0).asDiagonal() *
                       told.eigenvectors().transpose();
