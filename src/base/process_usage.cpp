@@ -1,5 +1,6 @@
 #include "arfm_vo/base/process_usage.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -25,6 +26,12 @@ double GetMemoryMb() {
   double all = 0, resident = 0;
   if (!(pages >> all >> resident)) return 0;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+void ReturnFreeMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 double GetPeakMemoryMb() {

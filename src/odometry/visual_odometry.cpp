@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/base/stopwatch.h"
 
 namespace arfm_vo {
@@ -71,6 +72,7 @@ void VisualOdometry::AdjustIfDue() {
 
 void VisualOdometry::TakeAdjustment() {
   const auto update = adjustment_.get();
+  ReturnFreeMemory();
   if (update && is_calibration_) local_.Apply(*update);
   for (const KeyframeRecord& keyframe : std::exchange(waiting_, {})) global_.Add(keyframe);
 }

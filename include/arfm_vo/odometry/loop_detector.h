@@ -22,7 +22,7 @@ inline PoseEstimatorOptions LoopPose() {
 
 struct LoopOptions {
   bool enabled = false;
-  int max_keyframes = 2000;           ///< global.max_keyframes where loops are looked for
+  int max_keyframes = 5000;           ///< global.max_keyframes where loops are looked for
   int min_gap_keyframes = 30;         ///< newer keyframes are no loop
   int search_interval_keyframes = 3;  ///< each so manyth keyframe is looked at
   double max_distance = 0.6;          ///< of descriptors
