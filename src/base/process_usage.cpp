@@ -1,8 +1,11 @@
 #include "arfm_vo/base/process_usage.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <fstream>
 
 namespace arfm_vo {
 namespace {
@@ -17,6 +20,19 @@ double ReadSeconds(clockid_t clock) {
 
 double GetProcessCpuSeconds() { return ReadSeconds(CLOCK_PROCESS_CPUTIME_ID); }
 double GetThreadCpuSeconds() { return ReadSeconds(CLOCK_THREAD_CPUTIME_ID); }
+
+double GetMemoryMb() {
+  std::ifstream pages("/proc/self/statm");
+  double all = 0, resident = 0;
+  if (!(pages >> all >> resident)) return 0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+void ReturnFreeMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 double GetPeakMemoryMb() {
   rusage usage;

@@ -65,6 +65,8 @@ void BundleProblem::Check() const {
   Require(correction.coefficients_px.allFinite(), "bundle: the stereo correction is not finite");
   Require(std::isfinite(correction_sigma_px) && correction_sigma_px >= 0,
           "bundle: correction_sigma_px must not be negative");
+  Require(correction_prior.mean_px.allFinite() && correction_prior.information.allFinite(),
+          "bundle: the prior of the stereo correction is not finite");
 }
 
 }  // namespace arfm_vo

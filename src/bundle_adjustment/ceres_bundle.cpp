@@ -143,23 +143,35 @@ class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> 
   const Matrix6d root_;
 };
 
-/// k / sigma of the correction's coefficients k.
-class CorrectionPriorCost : public ceres::SizedCostFunction<kMaxCoefficients, kMaxCoefficients> {
+/// Of the correction's coefficients k: k / sigma, and the root of the earlier information times
+/// what k is off the earlier mean.
+class CorrectionPriorCost
+    : public ceres::SizedCostFunction<2 * kMaxCoefficients, kMaxCoefficients> {
  public:
-  explicit CorrectionPriorCost(double sigma) : inverse_sigma_(1 / sigma) {}
+  CorrectionPriorCost(double sigma, const CorrectionPrior& earlier) : mean_(earlier.mean_px) {
+    const Eigen::SelfAdjointEigenSolver<CorrectionPrior::Information> eigen(earlier.information);
+    roots_.topRows<kMaxCoefficients>().setIdentity();
+    roots_.topRows<kMaxCoefficients>() /= sigma;
+    roots_.bottomRows<kMaxCoefficients>() =
+        eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  }
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    for (int i = 0; i < kMaxCoefficients; ++i) residuals[i] = inverse_sigma_ * parameters[0][i];
+    const Eigen::Map<const Coefficients> k(parameters[0]);
+    Eigen::Map<Eigen::Matrix<double, 2 * kMaxCoefficients, 1>> residual(residuals);
+    residual = roots_ * k;
+    residual.tail<kMaxCoefficients>() -= roots_.bottomRows<kMaxCoefficients>() * mean_;
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients>>(jacobians[0] + 0) =
-          inverse_sigma_ * Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients>::Identity();
+      Eigen::Map<Roots>(jacobians[0] + 0) = roots_;
     }
     return true;
   }
 
  private:
-  const double inverse_sigma_;
+  using Roots = Eigen::Matrix<double, 2 * kMaxCoefficients, kMaxCoefficients, Eigen::RowMajor>;
+  Roots roots_;
+  const Coefficients mean_;
 };
 
 class CeresLoss : public ceres::LossFunction {
@@ -284,8 +296,9 @@ class CeresBundle {
       ceres_problem_.SetParameterBlockConstant(correction_.data());
       return;
     }
-    ceres_problem_.AddResidualBlock(new CorrectionPriorCost(problem_.correction_sigma_px), nullptr,
-                                    correction_.data());
+    ceres_problem_.AddResidualBlock(
+        new CorrectionPriorCost(problem_.correction_sigma_px, problem_.correction_prior), nullptr,
+        correction_.data());
     ordering_->AddElementToGroup(correction_.data(), 1);
   }
 

@@ -175,7 +175,11 @@ double NormalEquations::AddPrior(const BundleState& state) {
   const double information = 1 / (problem_.correction_sigma_px * problem_.correction_sigma_px);
   held_.corner.diagonal().array() += information;
   held_.corner_right -= information * state.correction.coefficients_px;
-  return information * state.correction.coefficients_px.squaredNorm();
+  const auto& [mean, earlier] = problem_.correction_prior;
+  const StereoCorrection::Coefficients off = state.correction.coefficients_px - mean;
+  held_.corner += earlier;
+  held_.corner_right -= earlier * off;
+  return information * state.correction.coefficients_px.squaredNorm() + off.dot(earlier * off);
 }
 
 bool NormalEquations::Solve(double damping, BundleStep& step) {

@@ -1,6 +1,9 @@
 #include "arfm_vo/odometry/global_map.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
@@ -36,8 +39,8 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
   const int newest = num_keyframes();
-  store_.keyframes.push_back(
-      {keyframe.id, keyframe.camera_from_world * map_from_odom_.Inverse(), keyframe.observations});
+  store_.keyframes.push_back({keyframe.id, keyframe.camera_from_world * map_from_odom_.Inverse(),
+                              keyframe.observations, FirstLandmark(keyframe)});
   for (const LandmarkRecord& landmark : keyframe.landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];
     point.x_in_map = map_from_odom_ * landmark.x_in_world;
@@ -52,8 +55,22 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
     ++landmark->second.num_observations;
     landmark->second.last_keyframe = newest;
   }
-  if (!options_.loops.enabled) return;
-  if (const auto loop = detector_.Detect(store_)) Close(*loop);
+  if (options_.loops.enabled) {
+    if (const auto loop = detector_.Detect(store_)) Close(*loop);
+  }
+  if (num_keyframes() <= options_.NumMoving()) return;
+  SettleCorrection();
+  const int first_moving = FirstMoving();
+  store_.Forget(first_moving, first_moving - options_.NumMoving(), options_.loops.enabled);
+}
+
+int GlobalMap::FirstMoving() const {
+  return std::max(1, num_keyframes() - options_.NumMoving());  // the first of all never moves
+}
+
+LandmarkId GlobalMap::FirstLandmark(const KeyframeRecord& keyframe) const {
+  if (!keyframe.landmarks.empty()) return keyframe.landmarks.front().id;
+  return store_.landmarks.empty() ? 0 : store_.landmarks.rbegin()->first + 1;
 }
 
 /// What was seen before and again becomes one landmark, the older one.
@@ -95,35 +112,52 @@ void GlobalMap::BendOntoLoops() {
   has_new_loops_ = false;
 }
 
+/// Poses are those of the keyframes from store_.first_seeing on, then those that loops lead back
+/// to.
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
   problem.correction_sigma_px = options_.stereo_correction_sigma_px;
+  problem.correction_prior = correction_prior_;
+  const int first_moving = FirstMoving();
   for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
-    if (point.num_observations < options_.min_observations) continue;
+    const bool is_seen = point.last_keyframe >= first_moving;
+    if (!is_seen || point.num_observations < options_.min_observations) continue;
     point.row = static_cast<int>(problem.points.size());
     problem.points.push_back(point.x_in_map);
   }
-  const int first_moving = std::max(1, num_keyframes() - options_.max_keyframes);
-  for (int k = 0; k < num_keyframes(); ++k) {
+  for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
+    const int pose = k - store_.first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_map);
-    problem.pose_is_fixed.push_back(k < first_moving);
+    bool is_tied = false;  // to older ones: not where the odometry was lost in between
     for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
       const auto landmark = store_.Find(observation.landmark);
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
-      problem.observations.push_back({k, landmark->second.row, observation.pixels,
+      is_tied |= landmark->second.first_keyframe < k;
+      problem.observations.push_back({pose, landmark->second.row, observation.pixels,
                                       observation.has_right, observation.sigma_px});
     }
+    problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
+  }
+  for (const PoseConstraint& loop : loops_) {
+    if (loop.first >= store_.first_seeing || loop.second < first_moving) continue;
+    PoseConstraint constraint = loop;
+    constraint.first = static_cast<int>(problem.camera_from_world.size());
+    constraint.second -= store_.first_seeing;
+    problem.camera_from_world.push_back(store_.keyframes[loop.first].camera_from_map);
+    problem.pose_is_fixed.push_back(true);
+    problem.constraints.push_back(constraint);
   }
   return problem;
 }
 
-BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progress) const {
+BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progress) {
   BundleResult result = AdjustBundle(problem, options_.solver, progress);
   const bool is_whole =
       result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
   if (problem.correction_sigma_px == 0 || !is_whole) return result;
+  RememberCorrection(problem, result);
   const auto& coefficients = result.correction.coefficients_px;
   const double squared_significance =
       coefficients.dot(result.correction_covariance.ldlt().solve(coefficients));
@@ -133,6 +167,32 @@ BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progr
   }
   problem.correction_sigma_px = 0;
   return AdjustBundle(problem, options_.solver, progress);
+}
+
+/// What the adjusted keyframes say of the correction; they take it along when they move no more.
+void GlobalMap::RememberCorrection(const BundleProblem& problem, const BundleResult& result) {
+  using Information = CorrectionPrior::Information;
+  const Information prior =
+      problem.correction_prior.information +
+      Information::Identity() / (problem.correction_sigma_px * problem.correction_sigma_px);
+  const Information difference = result.correction_covariance.inverse() - prior;
+  if (!difference.allFinite()) return;
+  const Eigen::SelfAdjointEigenSolver<Information> told(difference);
+  told_.mean_px = result.correction.coefficients_px;
+  told_.information = told.eigenvectors() * told.eigenvalues().cwiseMax(0).asDiagonal() *
+                      told.eigenvectors().transpose();
+  num_telling_ = num_keyframes() - FirstMoving();
+}
+
+/// A keyframe moves no more: its share of what the last adjustment told joins the prior.
+void GlobalMap::SettleCorrection() {
+  if (num_telling_ == 0) return;
+  CorrectionPrior& prior = correction_prior_;
+  const CorrectionPrior::Information share = told_.information / num_telling_;
+  const CorrectionPrior::Information sum = prior.information + share;
+  prior.mean_px = sum.completeOrthogonalDecomposition().solve(prior.information * prior.mean_px +
+                                                              share * told_.mean_px);
+  prior.information = sum;
 }
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
@@ -146,27 +206,25 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
 
   MapUpdate update;
   for (int k = 0; k < num_keyframes(); ++k) {
-    store_.keyframes[k].camera_from_map = result.camera_from_world[k];
-    update.keyframes.push_back({store_.keyframes[k].id, result.camera_from_world[k]});
+    MapStore::Keyframe& keyframe = store_.keyframes[k];
+    if (k >= store_.first_seeing) {
+      keyframe.camera_from_map = result.camera_from_world[k - store_.first_seeing];
+    }
+    update.keyframes.push_back({keyframe.id, keyframe.camera_from_map});
   }
   map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
   for (auto& [id, point] : store_.landmarks) {
-    if (point.row < 0 || !result.point_is_used[point.row]) continue;
-    point.x_in_map = result.points[point.row];
+    if (point.row >= 0) {
+      if (!result.point_is_used[point.row]) continue;
+      point.x_in_map = result.points[point.row];
+    } else if (point.num_observations < options_.min_observations) {
+      continue;
+    }
     update.landmarks.push_back({id, point.x_in_map});
   }
   update.stereo_correction = result.correction;
   update.stereo_correction_sigma_px = result.correction_covariance.diagonal().cwiseSqrt();
   return update;
-}
-
-void GlobalMap::Clear() {
-  store_.keyframes.clear();
-  store_.landmarks.clear();
-  map_from_odom_ = Rigid3();
-  detector_.Clear();
-  loops_.clear();
-  has_new_loops_ = false;
 }
 
 }  // namespace arfm_vo

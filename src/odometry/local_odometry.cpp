@@ -7,6 +7,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/odometry/motion_model.h"
 
 namespace arfm_vo {
 
@@ -16,6 +17,7 @@ void LocalOdometryOptions::Check() const {
   map.Check();
   bundle.Check();
   standstill.Check();
+  archive.Check();
   Require(bundle.num_keyframes <= map.max_keyframes,
           "odometry.bundle.num_keyframes must not exceed odometry.map.max_keyframes");
   Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
@@ -28,7 +30,8 @@ class LocalOdometry::Implementation {
         options_(options),
         tracker_(camera, options.tracker),
         map_(camera, options.map),
-        standstill_(options.standstill) {
+        standstill_(options.standstill),
+        archive_(camera, options.archive) {
     options.Check();
   }
 
@@ -41,12 +44,11 @@ class LocalOdometry::Implementation {
     FinishBundle();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
-      Start(frame, images, update);
+      Start(frame, update);
     } else {
       Continue(frame, images, update);
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
-    if (update.pose.IsTracked()) AddDrift(update);
     if (update.is_keyframe) AddKeyframe(frame, images, update);
     update.stage_ms.emplace_back("map", stopwatch.LapMs());
     return update;
@@ -85,7 +87,8 @@ class LocalOdometry::Implementation {
     map_.Clear();
     standstill_.Reset();
     drift_.Clear();
-    last_.reset();
+    archive_.Clear();
+    motion_.Reset();
     record_.reset();
   }
 
@@ -97,13 +100,6 @@ class LocalOdometry::Implementation {
     BundleResult result;
     Eigen::MatrixXd information;  ///< FindPoseInformation
   };
-  struct Motion {
-    double stamp_s;
-    Rigid3 camera_from_world;
-    std::optional<Rigid3> velocity;  ///< camera_from_camera a second ago: (rotation, translation)
-    double interval_s;
-  };
-
   /// The frame with its points where they are when the right image is displaced as we know.
   StereoFrame Corrected(StereoFrame frame) const {
     if (correction_.IsZero()) return frame;
@@ -131,7 +127,7 @@ class LocalOdometry::Implementation {
     return *middle;
   }
 
-  void Start(const StereoFrame& frame, const StereoImages&, OdometryUpdate& update) {
+  void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
     if (update.pose.num_matches < options_.min_points_to_start) {
       update.pose.status = PoseStatus::kTooFewFeatures;
@@ -141,16 +137,20 @@ class LocalOdometry::Implementation {
     update.pose.num_inliers = update.pose.num_matches;
     update.pose.covariance.setIdentity();
     update.pose.covariance *= 1e-12;  // the world is this camera
+    update.covariance_from_start = update.pose.covariance;
     update.is_keyframe = true;
-    last_ = Motion{frame.stamp_s, update.pose.camera_from_world, std::nullopt, 0};
+    motion_.Reset();
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
 
   void Continue(const StereoFrame& frame, const StereoImages& images, OdometryUpdate& update) {
-    TrackedFrame tracked = tracker_.Track(frame, images, map_, Predict(frame.stamp_s));
+    const auto predicted = options_.predict_motion ? motion_.Predict(frame.stamp_s) : std::nullopt;
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted);
     update.pose = tracked.pose;
     if (!tracked.pose.IsTracked()) {
-      last_.reset();
+      motion_.Reset();
       standstill_.Reset();
+      Recover(frame, update);
       return;
     }
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
@@ -163,30 +163,32 @@ class LocalOdometry::Implementation {
         !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
                                   tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
-    Remember(frame.stamp_s, update.pose.camera_from_world);
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
+    AddDrift(update);
   }
 
-  std::optional<Rigid3> Predict(double stamp_s) const {
-    if (!options_.predict_motion || !last_) return std::nullopt;
-    if (!last_->velocity || last_->interval_s <= 0) return last_->camera_from_world;
-    const double ratio = (stamp_s - last_->stamp_s) / last_->interval_s;
-    const Rigid3 motion(ExpSO3(ratio * LogSO3(last_->velocity->rotation)),
-                        Eigen::Vector3d(ratio * last_->velocity->translation));
-    return motion * last_->camera_from_world;
+  /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
+  void Recover(const StereoFrame& frame, OdometryUpdate& update) {
+    if (static_cast<int>(frame.points.size()) < options_.min_points_to_start) return;
+    const auto place = archive_.Find(frame);
+    if (!place) return;
+    for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
+    map_.Clear();
+    update.pose = place->pose;
+    update.covariance_from_start = place->covariance_from_start;
+    update.is_keyframe = true;
+    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
 
-  void Remember(double stamp_s, const Rigid3& camera_from_world) {
-    Motion now{stamp_s, camera_from_world, std::nullopt, 0};
-    if (last_) {
-      now.velocity = camera_from_world * last_->camera_from_world.Inverse();
-      now.interval_s = stamp_s - last_->stamp_s;
-    }
-    last_ = now;
+  void Retire(const Keyframe& keyframe) {
+    archive_.Add(keyframe, map_, drift_.Covariance(keyframe.id));
   }
 
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update) {
     const LandmarkId first_new = map_.next_landmark();
+    const bool is_full = static_cast<int>(map_.keyframes().size()) == options_.map.max_keyframes;
+    if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe =
         map_.AddKeyframe(frame, images.left, update.pose.camera_from_world, update.observations);
     record_ = KeyframeRecord{
@@ -214,10 +216,9 @@ class LocalOdometry::Implementation {
   }
 
   void AddDrift(OdometryUpdate& update) const {
-    update.covariance_from_start = update.pose.covariance;
-    if (map_.keyframes().empty()) return;
     const Keyframe& newest = map_.keyframes().back();
-    update.covariance_from_start +=
+    update.covariance_from_start =
+        update.pose.covariance +
         CarryCovariance(update.pose.camera_from_world * newest.camera_from_world.Inverse(),
                         drift_.Covariance(newest.id));
   }
@@ -237,7 +238,8 @@ class LocalOdometry::Implementation {
   FrameTracker tracker_;
   LocalMap map_;
   StandstillLock standstill_;
-  std::optional<Motion> last_;
+  KeyframeArchive archive_;
+  MotionModel motion_;
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
   std::future<AdjustedWindow> pending_;

@@ -26,6 +26,7 @@ bool LookAlike(const MapStore::Point& a, const MapStore::Point& b) {
 }  // namespace
 
 void LoopOptions::Check() const {
+  Require(max_keyframes >= 2, "loops.max_keyframes must be at least 2");
   Require(min_gap_keyframes >= 1, "loops.min_gap_keyframes must be at least 1");
   Require(search_interval_keyframes >= 1, "loops.search_interval_keyframes must be at least 1");
   Require(max_distance > 0 && max_distance <= 2, "loops.max_distance must be in (0, 2]");
@@ -57,17 +58,14 @@ LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& option
   options.Check();
 }
 
-void LoopDetector::Clear() { index_ = DescriptorIndex(options_.index); }
-
 std::optional<Loop> LoopDetector::Detect(const MapStore& map) {
   Index(map);
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
   if (!index_.is_trained() || newest < next_search_) return std::nullopt;
+  next_search_ = newest + options_.search_interval_keyframes;
   const View view(map);
   const auto place = Recognise(map, view);
-  if (!place) return std::nullopt;
-  next_search_ = newest + options_.search_interval_keyframes;
-  return Verify(map, view, *place);
+  return place ? Verify(map, view, *place) : std::nullopt;
 }
 
 /// Takes up the landmarks of the keyframe that is now old enough, if others saw them too.
@@ -76,12 +74,11 @@ void LoopDetector::Index(const MapStore& map) {
   if (keyframe < 0) return;
   std::vector<Landmarks::const_iterator> fresh;
   std::vector<float> descriptors;
-  for (const LandmarkObservation& observation : map.keyframes[keyframe].observations) {
-    const auto landmark = map.landmarks.find(observation.landmark);
-    if (landmark == map.landmarks.end()) continue;
+  const auto end = map.landmarks.lower_bound(map.keyframes[keyframe + 1].first_landmark);
+  auto landmark = map.landmarks.lower_bound(map.keyframes[keyframe].first_landmark);
+  for (; landmark != end; ++landmark) {
     const MapStore::Point& point = landmark->second;
-    const bool is_fresh = point.first_keyframe == keyframe && point.num_observations >= 2;
-    if (!is_fresh || point.descriptor.empty() || point.same_as >= 0) continue;
+    if (point.num_observations < 2 || point.descriptor.empty() || point.same_as >= 0) continue;
     fresh.push_back(landmark);
     descriptors.insert(descriptors.end(), point.descriptor.begin(), point.descriptor.end());
   }
@@ -96,23 +93,20 @@ void LoopDetector::Index(const MapStore& map) {
 
 /// The keyframe in the middle of the place that the view looks most like.
 std::optional<int> LoopDetector::Recognise(const MapStore& map, const View& view) const {
-  const auto max_squared = static_cast<float>(options_.max_distance * options_.max_distance);
   std::vector<int> votes(map.keyframes.size(), 0);
   for (const auto& seen : view.landmarks) {
-    float least = max_squared;
     int voted = -1;
-    for (const LandmarkId id : index_.FindCandidates(seen->second.descriptor.data())) {
+    const auto accept = [&](LandmarkId id) {
       const auto old = map.Find(id);
       const bool is_old = old != map.landmarks.end() &&
                           old->second.last_keyframe + options_.min_gap_keyframes <= view.keyframe;
-      if (!is_old || !LookAlike(seen->second, old->second)) continue;
-      const float squared =
-          SquaredDescriptorDistance(seen->second.descriptor.data(), old->second.descriptor.data());
-      if (squared >= least) continue;
-      least = squared;
+      if (!is_old || !LookAlike(seen->second, old->second)) return false;
       voted = old->second.first_keyframe;
+      return true;
+    };
+    if (index_.FindNearest(seen->second.descriptor.data(), options_.max_distance, accept)) {
+      ++votes[voted];
     }
-    if (voted >= 0) ++votes[voted];
   }
   const int reach = options_.place_keyframes, count = static_cast<int>(votes.size());
   int sum = 0, best_sum = options_.min_votes - 1, best = -1;
@@ -127,17 +121,18 @@ std::optional<int> LoopDetector::Recognise(const MapStore& map, const View& view
   return best;
 }
 
+/// The landmarks that the keyframes of a place saw first, and what they turned out to be.
 std::vector<LoopDetector::Known> LoopDetector::KnownAround(const MapStore& map, int place,
                                                            int newest) const {
   const int first = std::max(0, place - options_.place_keyframes);
   const int last = std::min(place + options_.place_keyframes, newest - options_.min_gap_keyframes);
+  const auto end = map.landmarks.lower_bound(map.keyframes[last + 1].first_landmark);
   std::map<LandmarkId, const MapStore::Point*> known;
-  for (int k = first; k <= last; ++k) {
-    for (const LandmarkObservation& observation : map.keyframes[k].observations) {
-      const auto landmark = map.Find(observation.landmark);
-      if (landmark == map.landmarks.end() || landmark->second.num_observations < 2) continue;
-      if (!landmark->second.descriptor.empty()) known[landmark->first] = &landmark->second;
-    }
+  auto of_place = map.landmarks.lower_bound(map.keyframes[first].first_landmark);
+  for (; of_place != end; ++of_place) {
+    const auto landmark = map.Find(of_place->first);
+    if (landmark == map.landmarks.end() || landmark->second.num_observations < 2) continue;
+    if (!landmark->second.descriptor.empty()) known[landmark->first] = &landmark->second;
   }
   return {known.begin(), known.end()};
 }

@@ -1,14 +1,17 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 
+#include <utility>
+
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/base/stopwatch.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr int kFirstCalibration = 10;  ///< keyframes
-/// A calibration has as long: a fixed number, so that the result does not depend on its speed.
-constexpr int kCalibrationFrames = 10;
+/// An adjustment has as long: a fixed number, so that the result does not depend on its speed.
+constexpr int kAdjustmentFrames = 10;
 
 }  // namespace
 
@@ -24,7 +27,8 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
       frontend_(camera, options.frontend),
       local_(camera, options.odometry),
       global_(camera, options.global),
-      next_calibration_(kFirstCalibration) {
+      next_calibration_(kFirstCalibration),
+      next_adjustment_(options.global.NumMoving()) {
   options.Check();
 }
 
@@ -37,27 +41,40 @@ OdometryUpdate VisualOdometry::Process(const StereoImages& images) {
 }
 
 OdometryUpdate VisualOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
-  if (calibration_.valid() && frames_.size() == calibrated_at_) {
-    if (const auto calibration = calibration_.get()) local_.Apply(*calibration);
-  }
+  if (adjustment_.valid() && frames_.size() == adjusted_at_) TakeAdjustment();
   OdometryUpdate update = local_.Process(frame, images);
-  if (const auto keyframe = local_.TakeKeyframe()) {
-    global_.Add(*keyframe);
-    Calibrate();
-  }
+  if (auto keyframe = local_.TakeKeyframe()) Add(std::move(*keyframe));
   Remember(update);
   return update;
 }
 
-void VisualOdometry::Calibrate() {
-  if (options_.global.stereo_correction_sigma_px == 0 || calibration_.valid() ||
-      global_.num_keyframes() < next_calibration_ ||
-      next_calibration_ > options_.max_calibration_keyframes) {
-    return;
+void VisualOdometry::Add(KeyframeRecord keyframe) {
+  if (adjustment_.valid()) {
+    waiting_.push_back(std::move(keyframe));
+  } else {
+    global_.Add(keyframe);
+    AdjustIfDue();
   }
-  next_calibration_ *= 2;
-  calibrated_at_ = frames_.size() + kCalibrationFrames;
-  calibration_ = std::async(std::launch::async, [map = global_]() mutable { return map.Adjust(); });
+}
+
+/// Calibrates at 10, 20, 40.. keyframes; adjusts whenever half of those that move are new.
+void VisualOdometry::AdjustIfDue() {
+  const int count = global_.num_keyframes();
+  is_calibration_ = options_.global.stereo_correction_sigma_px > 0 && count >= next_calibration_ &&
+                    next_calibration_ <= options_.max_calibration_keyframes;
+  const bool is_due = options_.adjust_globally && count >= next_adjustment_;
+  if (!is_calibration_ && !is_due) return;
+  if (is_calibration_) next_calibration_ *= 2;
+  if (is_due) next_adjustment_ = count + options_.global.NumMoving() / 2;
+  adjusted_at_ = frames_.size() + kAdjustmentFrames;
+  adjustment_ = std::async(std::launch::async, [this] { return global_.Adjust(); });
+}
+
+void VisualOdometry::TakeAdjustment() {
+  const auto update = adjustment_.get();
+  ReturnFreeMemory();
+  if (update && is_calibration_) local_.Apply(*update);
+  for (const KeyframeRecord& keyframe : std::exchange(waiting_, {})) global_.Add(keyframe);
 }
 
 void VisualOdometry::Remember(const OdometryUpdate& update) {
@@ -75,6 +92,7 @@ void VisualOdometry::Remember(const OdometryUpdate& update) {
 }
 
 Trajectory VisualOdometry::Finish() {
+  if (adjustment_.valid()) TakeAdjustment();
   if (options_.adjust_globally) {
     if (const auto update = global_.Adjust()) {
       for (const auto& keyframe : update->keyframes) {

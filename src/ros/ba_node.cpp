@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
+#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/trigger_service.h"
 
@@ -100,6 +101,7 @@ void BaNode::AdjustIfDue() {
     told_.Set(figures_);
     return !worker_.is_stopping();
   });
+  ReturnFreeMemory();
   const double seconds = (ros::WallTime::now() - start).toSec();
   next_adjustment_ = start + ros::WallDuration(seconds / options_.max_time_share);
   figures_.is_adjusting = false;

@@ -1,6 +1,13 @@
 #include "arfm_vo/ros/placed_map.h"
 
+#include <iterator>
+
 namespace arfm_vo {
+namespace {
+
+constexpr int kMaxSettledLandmarks = 20000;  ///< for display
+
+}  // namespace
 
 bool PlacedMap::IsRestarted(const PlacedKeyframe& keyframe) const {
   if (places_.empty()) return false;
@@ -43,10 +50,30 @@ std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
     place.camera_from_world = keyframe.camera_from_world;
     place.is_adjusted = true;
   }
-  adjusted_.clear();
-  for (const MapUpdate::LandmarkPosition& landmark : update->landmarks)
-    adjusted_[landmark.id] = landmark.x_in_world;
+  TakeLandmarks(*update);
   return update;
+}
+
+/// Landmarks that the global map has forgotten stay where it left them; too many, and every second
+/// one goes.
+void PlacedMap::TakeLandmarks(const MapUpdate& update) {
+  int num_settled = 0;
+  for (auto landmark = adjusted_.begin(); landmark != adjusted_.end();) {
+    const bool is_known = global_->Knows(landmark->first);
+    num_settled += !is_known;
+    landmark = is_known ? adjusted_.erase(landmark) : std::next(landmark);
+  }
+  if (num_settled > kMaxSettledLandmarks) {
+    bool is_second = false;
+    for (auto landmark = adjusted_.begin(); landmark != adjusted_.end(); is_second = !is_second)
+      landmark = is_second ? adjusted_.erase(landmark) : std::next(landmark);
+  }
+  for (const MapUpdate::LandmarkPosition& landmark : update.landmarks)
+    adjusted_[landmark.id] = landmark.x_in_world;
+  for (auto depth = first_depths_m_.begin(); depth != first_depths_m_.end();) {
+    const bool is_needed = global_->Knows(depth->first) || adjusted_.count(depth->first) > 0;
+    depth = is_needed ? std::next(depth) : first_depths_m_.erase(depth);
+  }
 }
 
 std::vector<PlacedMap::ClosedPlace> PlacedMap::Places() const {

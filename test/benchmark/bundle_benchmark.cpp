@@ -91,8 +91,8 @@ void RunGlobal(int num_poses, const BundleOptions& options) {
   std::fflush(stdout);
 }
 
-/// Each size in a process of its own, so that its peak of memory is its own.
-void RunGlobals(const BundleOptions& options) {
+/// Each size in a process of its own, so that its peak of memory is its own. False where one fails.
+bool RunGlobals(const BundleOptions& options) {
   std::printf("%9s %8s %12s %10s %10s %8s %8s %9s %9s %9s %10s\n", "keyframes", "points",
               "observations", "converged", "iterations", "wall s", "cpu s", "extra MB",
               "cost/coord", "sigma px", "end err m");
@@ -103,8 +103,10 @@ void RunGlobals(const BundleOptions& options) {
       RunGlobal(num_poses, options);
       _exit(0);
     }
-    waitpid(child, nullptr, 0);
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child || status != 0) return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -124,5 +126,5 @@ int main(int argc, char** argv) {
     }
   }
   if (what != "global") arfm_vo::RunWindows();
-  if (what != "window") arfm_vo::RunGlobals(options);
+  return what == "window" || arfm_vo::RunGlobals(options) ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/pose/chi_square.h"
@@ -34,7 +35,7 @@ CorridorOptions MakeOptions(const Coefficients& displacement) {
   corridor.num_poses = 12;
   corridor.num_points = 800;
   corridor.noise_px = 0.2;  // what aligned patches have
-  corridor.num_fixed = 1;  // two would tell the scale
+  corridor.num_fixed = 1;   // two would tell the scale
   corridor.correction.coefficients_px = displacement;
   return corridor;
 }
@@ -112,6 +113,26 @@ TEST(SelfCalibration, ATightPriorHoldsTheCorrection) {
   BundleProblem problem = MakeCorridor(MakeOptions(MakeDisplacement())).problem;
   problem.correction_sigma_px = 1e-6;
   EXPECT_LT(AdjustBundle(problem, {}).correction.coefficients_px.norm(), 1e-5);
+}
+
+/// Half of the information at one value and half at another: between them, with all the certainty.
+TEST(SelfCalibration, EarlierInformationCountsAsMuchAsTheObservations) {
+  const Coefficients truth = MakeDisplacement();
+  BundleProblem problem = MakeCorridor(MakeOptions(truth)).problem;
+  problem.correction_sigma_px = 5;
+  const BundleResult alone = AdjustBundle(problem, {});
+  const Coefficients shift = 0.01 * Coefficients::Ones();
+  problem.correction_prior.information = alone.correction_covariance.inverse();
+  problem.correction_prior.mean_px = alone.correction.coefficients_px + shift;
+  for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
+    BundleOptions options;
+    options.solver = solver;
+    const BundleResult both = AdjustBundle(problem, options);
+    const Coefficients moved = both.correction.coefficients_px - alone.correction.coefficients_px;
+    for (int i = 0; i < StereoCorrection::kSize; ++i) EXPECT_NEAR(moved[i], 0.005, 0.001) << i;
+    const double ratio = both.correction_covariance.trace() / alone.correction_covariance.trace();
+    EXPECT_NEAR(ratio, 0.5, 0.1);
+  }
 }
 
 }  // namespace

@@ -118,9 +118,12 @@ TEST(FormatRun, LeavesFramesWithoutTruthOut) {
 TEST(FormatTiming, HasAColumnAStage) {
   OdometryRun run = RunFakes(2);
   run.pair_ms = {7.5, 8};
+  ASSERT_EQ(run.memory_mb.size(), 2u);
+  for (const double megabytes : run.memory_mb) EXPECT_GT(megabytes, 1);
+  run.memory_mb = {90, 91.25};
   EXPECT_EQ(FormatTiming(run),
-            "frame,stamp_s,total_ms,features,adjustment\n"
-            "0,0,7.500,2.000,\n1,0.5,8.000,2.000,5.250\n");
+            "frame,stamp_s,total_ms,memory_mb,features,adjustment\n"
+            "0,0,7.500,90.00,2.000,\n1,0.5,8.000,91.25,2.000,5.250\n");
 }
 
 class RunFilesTest : public testing::Test {

@@ -64,9 +64,37 @@ TEST_F(DescriptorIndexTest, FindsMostOfWhatIsNearAndLittleElse) {
   EXPECT_LT(num_candidates, 200u * 200u);  // a tenth of all
 }
 
-TEST_F(DescriptorIndexTest, HoldsNothingAfterClear) {
-  index_.Clear();
-  EXPECT_TRUE(index_.FindCandidates(known_[0].data()).empty());
+TEST_F(DescriptorIndexTest, FindsTheNearestThatIsAccepted) {
+  const auto any = [](int64_t) { return true; };
+  EXPECT_EQ(index_.FindNearest(known_[7].data(), 0.5, any), 70);
+  const auto other = [](int64_t id) { return id != 70; };
+  EXPECT_NE(index_.FindNearest(known_[7].data(), 2, other), 70);
+  EXPECT_EQ(index_.FindNearest(known_[7].data(), 0.1, other), std::nullopt);
+}
+
+TEST_F(DescriptorIndexTest, FindsNothingAcrossTheSphere) {
+  Descriptor opposite = known_[7];
+  for (float& x : opposite) x = -x;
+  EXPECT_EQ(index_.FindNearest(opposite.data(), 0.6, [](int64_t) { return true; }), std::nullopt);
+}
+
+/// Were all landmarks alike, a search would still look at tables * max_per_key of them at most,
+/// from early and late alike.
+TEST(CrowdedDescriptorIndex, BoundsASearchAndKeepsOldAndNew) {
+  DescriptorIndexOptions options;
+  options.max_per_key = 50;
+  DescriptorIndex index(options);
+  const Descriptor one(64, 0.125f);
+  index.Train(one);
+  constexpr int kCount = 20000;
+  for (int i = 0; i < kCount; ++i) index.Add(i, one.data());
+  EXPECT_EQ(index.size(), kCount);
+  const auto ids = index.FindCandidates(one.data());
+  EXPECT_LE(ids.size(), 400u);
+  EXPECT_GT(ids.size(), 300u);  // the tables draw apart from each other
+  const auto middle = std::lower_bound(ids.begin(), ids.end(), kCount / 2);
+  EXPECT_GT(middle - ids.begin(), 100);
+  EXPECT_GT(ids.end() - middle, 100);
 }
 
 TEST_F(DescriptorIndexTest, RefusesToBeTrainedTwiceOrOnNothing) {

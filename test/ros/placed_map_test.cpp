@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace arfm_vo {
 namespace {
 
@@ -61,6 +63,45 @@ TEST(PlacedMap, ShowsLandmarksInTheMapWithTheDepthOfTheFirstSight) {
   EXPECT_NEAR(points[0].x_in_map.y(), 4.5, 1e-2);      // to the left
   EXPECT_NEAR(points[0].x_in_map.z(), 1 + 2.5, 1e-2);  // up
   EXPECT_NEAR(points[0].depth_m, 10, 1e-6);
+}
+
+/// As MakeKeyframe, but each keyframe sees points of its own and those of the one before.
+PlacedKeyframe MakeStep(int id) {
+  PlacedKeyframe keyframe = MakeKeyframe(id, id, 1, 0.5 * id, 0.5 * id);
+  keyframe.record.observations.clear();
+  keyframe.record.landmarks.clear();
+  for (int i = 60 * std::max(0, id - 1); i < 60 * (id + 1); ++i) {
+    const Eigen::Vector3d x((i % 10) - 4.5, (i % 60 / 10) - 2.5, 10 + (i % 7) + 0.5 * (i / 60));
+    const Eigen::Vector3d seen = kCamera.ProjectStereo(x - Eigen::Vector3d(0, 0, 0.5 * id));
+    keyframe.record.observations.push_back({i, {seen.x(), seen.y(), seen.z(), seen.y()}, true, 1});
+    if (i >= 60 * id) keyframe.record.landmarks.push_back({i, x, 1, {}});
+  }
+  return keyframe;
+}
+
+TEST(PlacedMap, ShowsALongDriveWithABoundedNumberOfLandmarks) {
+  GlobalMapOptions options;
+  options.max_keyframes = 8;
+  options.stereo_correction_sigma_px = 0;
+  PlacedMap map{options};
+  constexpr int kLong = 400;  // 24,000 landmarks
+  size_t most = 0;
+  for (int id = 0; id < kLong; ++id) {
+    ASSERT_TRUE(map.Add(MakeStep(id)));
+    if (id % 4 != 3) continue;
+    ASSERT_TRUE(map.Adjust({}));
+    most = std::max(most, map.Landmarks().size());
+    EXPECT_LE(map.num_landmarks(), 600);
+  }
+  EXPECT_GT(most, 19000u);
+  EXPECT_LT(most, 21500u);
+  const std::vector<MapPose> poses = map.BasePoses();
+  ASSERT_EQ(poses.size(), static_cast<size_t>(kLong));
+  for (int id = 0; id < kLong; id += 100) {
+    EXPECT_NEAR(poses[id].map_from_base.translation.x(), 0.5 * id, 1e-3);
+  }
+  const std::vector<LandmarkPoint> points = map.Landmarks();
+  EXPECT_LT(points.front().x_in_map.x(), 30);  // from the start on, thinned
 }
 
 TEST(PlacedMap, ANewWorldContinuesFromWhereOdomLiesInTheMap) {

@@ -60,6 +60,40 @@ TEST(SimulatedRun, NeesOfThePoseInOdomIsWithinItsBounds) {
   }
 }
 
+/// A drive of 110 frames; then the camera is back where it was at frame 10, far out of the local
+/// map.
+SimulatedRun DriveAndBeCarriedBack(const OdometryOptions& options) {
+  std::vector<Rigid3> path = BentPath(110);
+  for (int i = 10; i < 30; ++i) path.push_back(path[i]);
+  SimulatedRunOptions simulation;
+  simulation.simulator.rest_frames = 0;  // the old landmarks are seen at once
+  return RunSimulated(kCamera, path, simulation, options);
+}
+
+TEST(Recovery, FindsAPlaceAgainThatLeftTheLocalMap) {
+  const SimulatedRun run = DriveAndBeCarriedBack({});
+  EXPECT_EQ(run.num_lost, 0);
+  for (size_t i = 110; i < 130; ++i) {
+    EXPECT_LT((run.online[i].translation - run.truth[i].translation).norm(), 0.1) << i;
+    EXPECT_LT((run.final[i].translation - run.truth[i].translation).norm(), 0.1) << i;
+    EXPECT_LT(ComputeNees(run, i), ChiSquareQuantile(6, 0.9999)) << i;
+  }
+}
+
+TEST(Recovery, WithoutTheArchiveSuchAPlaceStaysUnknown) {
+  OdometryOptions options;
+  options.odometry.archive.max_keyframes = 0;
+  EXPECT_GE(DriveAndBeCarriedBack(options).num_lost, 15);
+}
+
+/// What has never been seen is not mistaken for what has.
+TEST(Recovery, DoesNotRecogniseANewPlace) {
+  std::vector<Rigid3> path = BentPath(40);
+  const Rigid3 away(ExpSO3({0, M_PI, 0}), Eigen::Vector3d(500, 0, 0));
+  for (int i = 0; i < 5; ++i) path.push_back(away * path[i]);
+  EXPECT_EQ(RunSimulated(kCamera, path, {}, OnlineOnly()).num_lost, 5);
+}
+
 /// Two rounds of 60 frames each, one metre a frame.
 std::vector<Rigid3> TwoRounds() {
   std::vector<Rigid3> path(120);

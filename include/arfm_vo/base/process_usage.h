@@ -7,6 +7,10 @@ double GetProcessCpuSeconds();
 /// CPU time of the calling thread so far, s.
 double GetThreadCpuSeconds();
 
+/// Resident memory of this process now, MB (10^6 bytes); 0 where the system does not tell.
+double GetMemoryMb();
+/// Gives memory that was freed back to the system. What a thread has freed stays with it otherwise.
+void ReturnFreeMemory();
 /// The most memory that this process has held so far, MB (10^6 bytes).
 double GetPeakMemoryMb();
 

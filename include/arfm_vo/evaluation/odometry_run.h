@@ -19,6 +19,7 @@ struct OdometryRun {
   std::vector<std::optional<Rigid3>> truth;  ///< [pairs], world_from_camera
   std::vector<double> pair_ms;               ///< [pairs], wall time without loading
   std::vector<StageTimes> stage_ms;          ///< [pairs]
+  std::vector<double> memory_mb;             ///< [pairs], resident after each
   double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
   double cpu_s = 0;  ///< all threads, from first pair to end, without loading
 
@@ -44,6 +45,7 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
     const auto update = odometry.Process(pair->images);
     run.pair_ms.push_back(to_ms(Clock::now() - start));
     run.stage_ms.push_back(update.stage_ms);
+    run.memory_mb.push_back(GetMemoryMb());
     const bool is_tracked = update.pose.IsTracked();
     run.online.push_back({pair->images.stamp_s,
                           is_tracked ? update.pose.camera_from_world.Inverse() : Rigid3(),

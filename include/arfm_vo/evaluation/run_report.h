@@ -16,8 +16,8 @@ PathComparison CompareWithTruth(const OdometryRun& run);
 /// without truth are left out of the comparison.
 std::string FormatRun(const OdometryRun& run);
 
-/// ms of each stage for each pair as CSV: frame, stamp_s, total_ms, then a column a stage in order
-/// of appearance (empty where a pair did not go through it).
+/// ms of each stage for each pair as CSV: frame, stamp_s, total_ms, memory_mb (resident), then a
+/// column a stage in order of appearance (empty where a pair did not go through it).
 std::string FormatTiming(const OdometryRun& run);
 
 }  // namespace arfm_vo

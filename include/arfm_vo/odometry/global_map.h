@@ -14,7 +14,9 @@ namespace arfm_vo {
 struct GlobalMapOptions {
   BundleOptions solver = DefaultSolver();
   int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
-  int max_keyframes = 2000;  ///< the newest so many move; older ones are held where they are
+  /// The newest so many move. Older ones are held where they are, poses alone but for what they saw
+  /// of the same landmarks: this bounds the memory and the time that an adjustment takes.
+  int max_keyframes = 150;
   /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
   double stereo_correction_sigma_px = 1;
   double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
@@ -26,6 +28,8 @@ struct GlobalMapOptions {
     options.loss = LossKind::kCauchy;
     return options;
   }
+  /// Keyframes that move in an adjustment.
+  int NumMoving() const { return loops.enabled ? loops.max_keyframes : max_keyframes; }
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
@@ -38,7 +42,8 @@ struct GlobalMapOptions {
   }
 };
 
-/// All keyframes and points, for the global bundle adjustment (Fig. 4). What ba_node runs.
+/// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
+/// What ba_node runs. To be adjusted at least each NumMoving() / 2 keyframes.
 class GlobalMap {
  public:
   GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options);
@@ -58,13 +63,18 @@ class GlobalMap {
   int num_keyframes() const { return static_cast<int>(store_.keyframes.size()); }
   int num_landmarks() const { return static_cast<int>(store_.landmarks.size()); }
   int num_loops() const { return static_cast<int>(loops_.size()); }
-  void Clear();
+  /// False also of one that is forgotten.
+  bool Knows(LandmarkId landmark) const { return store_.landmarks.count(landmark) > 0; }
 
  private:
+  LandmarkId FirstLandmark(const KeyframeRecord& keyframe) const;
+  int FirstMoving() const;
   void Close(const Loop& loop);
   void BendOntoLoops();
   BundleProblem MakeProblem();
-  BundleResult Solve(BundleProblem problem, const BundleCallback& progress) const;
+  BundleResult Solve(BundleProblem problem, const BundleCallback& progress);
+  void RememberCorrection(const BundleProblem& problem, const BundleResult& result);
+  void SettleCorrection();
 
   StereoCamera camera_;
   GlobalMapOptions options_;
@@ -73,6 +83,9 @@ class GlobalMap {
   LoopDetector detector_;
   std::vector<PoseConstraint> loops_;
   bool has_new_loops_ = false;
+  CorrectionPrior correction_prior_;  ///< from keyframes that move no more
+  CorrectionPrior told_;              ///< by the keyframes that moved in the last adjustment
+  int num_telling_ = 0;               ///< those keyframes
 };
 
 }  // namespace arfm_vo

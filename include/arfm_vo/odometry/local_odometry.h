@@ -8,6 +8,7 @@
 #include "arfm_vo/mapping/keyframe_record.h"
 #include "arfm_vo/mapping/local_map.h"
 #include "arfm_vo/odometry/frame_tracker.h"
+#include "arfm_vo/odometry/keyframe_archive.h"
 #include "arfm_vo/odometry/keyframe_policy.h"
 #include "arfm_vo/odometry/local_bundle.h"
 #include "arfm_vo/odometry/odometry_update.h"
@@ -22,6 +23,7 @@ struct LocalOdometryOptions {
   LocalMapOptions map;
   LocalBundleOptions bundle;
   StandstillOptions standstill;
+  KeyframeArchiveOptions archive;
   bool predict_motion = true;    ///< constant velocity; never required
   int min_points_to_start = 30;  ///< stereo points of the first frame
 
@@ -33,13 +35,16 @@ struct LocalOdometryOptions {
     visit("map", map);
     visit("bundle", bundle);
     visit("standstill", standstill);
+    visit("archive", archive);
     visit("predict_motion", predict_motion);
     visit("min_points_to_start", min_points_to_start);
   }
 };
 
 /// The pose of each frame against the local map, which it keeps up and refines by windowed bundle
-/// adjustment on a thread of its own (floors pose to bundle_adjustment). What pose_node runs.
+/// adjustment on a thread of its own (floors pose to bundle_adjustment). A frame that the map does
+/// not know is looked for in the keyframes that left it; where it is found the map begins anew.
+/// What pose_node runs.
 /// The world is the left camera of the first frame after construction or Reset.
 class LocalOdometry {
  public:

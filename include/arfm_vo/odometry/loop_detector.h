@@ -22,8 +22,9 @@ inline PoseEstimatorOptions LoopPose() {
 
 struct LoopOptions {
   bool enabled = false;
+  int max_keyframes = 5000;           ///< global.max_keyframes where loops are looked for
   int min_gap_keyframes = 30;         ///< newer keyframes are no loop
-  int search_interval_keyframes = 5;  ///< after a place that looks known
+  int search_interval_keyframes = 3;  ///< each so manyth keyframe is looked at
   double max_distance = 0.6;          ///< of descriptors
   double max_ratio = 0.85;            ///< nearest over second-nearest distance, another place's
   int min_votes = 12;                 ///< landmarks that look like those of a place
@@ -35,6 +36,7 @@ struct LoopOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("enabled", enabled);
+    visit("max_keyframes", max_keyframes);
     visit("min_gap_keyframes", min_gap_keyframes);
     visit("search_interval_keyframes", search_interval_keyframes);
     visit("max_distance", max_distance);
@@ -61,7 +63,6 @@ class LoopDetector {
 
   /// Looks whether the newest keyframe of `map` closes a loop. Call it after each keyframe.
   std::optional<Loop> Detect(const MapStore& map);
-  void Clear();
 
  private:
   struct View;

@@ -8,7 +8,7 @@
 
 namespace arfm_vo {
 
-/// All keyframes and points of a world, as the global map keeps them.
+/// The keyframes and points of a world, as the global map keeps them.
 struct MapStore {
   struct Point {
     Eigen::Vector3d x_in_map;
@@ -24,21 +24,20 @@ struct MapStore {
     KeyframeId id;
     Rigid3 camera_from_map;
     LandmarkObservations observations;
+    LandmarkId first_landmark;  ///< those that it saw first have this id and those that follow
   };
   std::vector<Keyframe> keyframes;
   std::map<LandmarkId, Point> landmarks;
+  int first_seeing = 0;  ///< keyframes before it are poses alone: what they saw is forgotten
 
   /// The landmark that `id` is known to be; nothing where it is not known.
-  std::map<LandmarkId, Point>::iterator Find(LandmarkId id) {
-    auto found = landmarks.find(id);
-    while (found != landmarks.end() && found->second.same_as >= 0) {
-      found = landmarks.find(found->second.same_as);
-    }
-    return found;
-  }
-  std::map<LandmarkId, Point>::const_iterator Find(LandmarkId id) const {
-    return const_cast<MapStore*>(this)->Find(id);
-  }
+  std::map<LandmarkId, Point>::iterator Find(LandmarkId id);
+  std::map<LandmarkId, Point>::const_iterator Find(LandmarkId id) const;
+
+  /// Forgets what says nothing of the keyframes from `first_moving` on: observations by older ones
+  /// of landmarks that those do not see, all by the keyframes before `oldest`, and, unless
+  /// `keep_landmarks`, those landmarks. To be called for each keyframe that is added.
+  void Forget(int first_moving, int oldest, bool keep_landmarks);
 };
 
 }  // namespace arfm_vo

@@ -15,7 +15,7 @@ namespace arfm_vo {
 struct OdometryOptions {
   FrontendOptions frontend;
   LocalOdometryOptions odometry;
-  bool adjust_globally = true;  ///< at the end
+  bool adjust_globally = true;  ///< at the end, and on long drives on the way
   /// What the first 10, 20, 40.. keyframes, up to this many, say of the stereo correction is taken
   /// over on the way: better poses as they come, at the cost of these adjustments. 0: never; the
   /// adjustment at the end finds the correction anyhow.
@@ -39,6 +39,7 @@ class VisualOdometry {
  public:
   /// Throws std::invalid_argument where the camera or an option is wrong.
   VisualOdometry(const StereoCamera& camera, const OdometryOptions& options);
+  VisualOdometry(VisualOdometry&&) = delete;  // a thread works on its map
 
   /// Takes the next pair, later than the one before. Throws std::invalid_argument where the images
   /// do not fit the camera.
@@ -60,16 +61,21 @@ class VisualOdometry {
     Rigid3 camera_from_keyframe;
   };
 
-  void Calibrate();
+  void Add(KeyframeRecord keyframe);
+  void AdjustIfDue();
+  void TakeAdjustment();
   void Remember(const OdometryUpdate& update);
 
   OdometryOptions options_;
   StereoFrontend frontend_;
   LocalOdometry local_;
   GlobalMap global_;
-  int next_calibration_;  ///< number of keyframes
-  std::future<std::optional<MapUpdate>> calibration_;
-  size_t calibrated_at_ = 0;  ///< the frame before which `calibration_` is taken over
+  int next_calibration_;                 ///< at this number of keyframes
+  int next_adjustment_;                  ///< the same, of the global map for its own sake
+  std::vector<KeyframeRecord> waiting_;  ///< for the end of the adjustment, to join the map
+  std::future<std::optional<MapUpdate>> adjustment_;  ///< of global_; what else uses it must wait
+  bool is_calibration_ = false;  ///< then the local map takes what the adjustment finds
+  size_t adjusted_at_ = 0;       ///< the frame before which the adjustment is taken over
   std::vector<Frame> frames_;
   std::map<KeyframeId, Rigid3> keyframe_from_world_;
 };

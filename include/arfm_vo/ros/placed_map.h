@@ -36,12 +36,11 @@ class PlacedMap {
   uint32_t world() const { return world_; }
   int num_keyframes() const { return global_ ? global_->num_keyframes() : 0; }  ///< of this world
   int num_landmarks() const { return global_ ? global_->num_landmarks() : 0; }  ///< of this world
-
   int num_loops() const { return global_ ? global_->num_loops() : 0; }          ///< of this world
 
   /// All keyframes' bases, of all worlds.
   std::vector<MapPose> BasePoses() const;
-  /// All adjusted landmarks, of all worlds.
+  /// The adjusted landmarks of all worlds; of those that are adjusted no more, a bounded number.
   std::vector<LandmarkPoint> Landmarks() const;
   /// All keyframes' left cameras, in the first one's.
   Trajectory MakeTrajectory() const;
@@ -61,6 +60,7 @@ class PlacedMap {
 
   bool IsRestarted(const PlacedKeyframe& keyframe) const;
   void StartWorld(const PlacedKeyframe& keyframe);
+  void TakeLandmarks(const MapUpdate& update);
   std::vector<ClosedPlace> Places() const;
   Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
 

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/pose/pose_estimator.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
+namespace arfm_vo {
+
+/// A view is not known again by a few points that fit by chance.
+inline PoseEstimatorOptions ArchivePose() {
+  PoseEstimatorOptions options;
+  options.min_inliers = 25;
+  options.min_inlier_share = 0.25;
+  return options;
+}
+
+struct KeyframeArchiveOptions {
+  int max_keyframes = 32;  ///< 0: none, and no recovery beyond the local map
+  int max_tries = 3;       ///< keyframes, those most alike first, in which a frame is looked for
+  double ratio = 0.8;      ///< nearest / second-nearest distance
+  double keypoint_sigma = 0.4;  ///< of a keypoint's position, in units of its scale
+  PoseEstimatorOptions pose = ArchivePose();
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_keyframes", max_keyframes);
+    visit("max_tries", max_tries);
+    visit("ratio", ratio);
+    visit("keypoint_sigma", keypoint_sigma);
+    visit("pose", pose);
+  }
+};
+
+/// Where a frame was taken that the archive knows.
+struct ArchivedPlace {
+  PoseEstimate pose;
+  /// As pose.covariance, but against the first camera of all.
+  Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// Keyframes that left the local map, as a place to look for a frame that the map does not know:
+/// what they saw, without pictures. A bounded number, spread over different views, denser in the
+/// recent past.
+class KeyframeArchive {
+ public:
+  KeyframeArchive(const StereoCamera& camera, const KeyframeArchiveOptions& options);
+
+  /// Takes up a keyframe of `map`, newer than all before, with the landmarks that others see too.
+  /// `covariance` is the keyframe's against the first camera of all.
+  void Add(const Keyframe& keyframe, const LocalMap& map,
+           const Eigen::Matrix<double, 6, 6>& covariance);
+  /// Nothing where no keyframe shows the frame's view.
+  std::optional<ArchivedPlace> Find(const StereoFrame& frame) const;
+
+  int size() const { return static_cast<int>(views_.size()); }
+  void Clear() { views_.clear(); }
+
+ private:
+  struct View {
+    KeyframeId keyframe = 0;
+    Rigid3 camera_from_world;
+    Eigen::Matrix<double, 6, 6> covariance;
+    double distance_m = 1;                    ///< of the landmarks, the median
+    std::vector<Eigen::Vector3d> x_in_world;  ///< [N]
+    Features looks;                           ///< [N]
+  };
+  static double Difference(const View& a, const View& b);
+  void DropLeastMissed();
+  std::vector<PointObservation> Match(const StereoFrame& frame, const View& view) const;
+
+  StereoCamera camera_;
+  KeyframeArchiveOptions options_;
+  std::vector<View> views_;  ///< by keyframe
+};
+
+}  // namespace arfm_vo

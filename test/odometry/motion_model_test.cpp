@@ -1,0 +1,30 @@
+#include "arfm_vo/odometry/motion_model.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+/// A camera at z m that looks along +z.
+Rigid3 At(double z) { return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -z)}; }
+
+TEST(MotionModel, GoesOnAsBetweenTheLastTwoPoses) {
+  MotionModel model;
+  EXPECT_FALSE(model.Predict(0));
+  model.Add(1, At(2));
+  EXPECT_EQ(model.Predict(5)->translation.z(), -2);
+  model.Add(1.1, At(2.5));
+  EXPECT_NEAR(model.Predict(1.3)->translation.z(), -3.5, 1e-12);  // twice as long, twice as far
+  model.Reset();
+  EXPECT_FALSE(model.Predict(2));
+}
+
+TEST(MotionModel, TurnsOn) {
+  MotionModel model;
+  model.Add(0, At(0));
+  model.Add(0.1, {ExpSO3({0, 0.2, 0}), Eigen::Vector3d(0, 0, 0)});
+  EXPECT_NEAR(LogSO3(model.Predict(0.15)->rotation).y(), 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace arfm_vo
