@@ -23,11 +23,16 @@ struct ClosedLoop {
 };
 
 /// A goal near by, for what does not depend on the distance.
-ClosedLoop ShortDrive(int seed) {
-  ClosedLoop loop(seed);
+ClosedLoop ShortDrive() {
+  ClosedLoop loop(4);
   loop.scene.min_distance_m = 0.4;
   loop.scene.max_distance_m = 0.6;
   return loop;
+}
+
+const GoalScene& NearScene() {
+  static const GoalScene scene(ShortDrive().scene, ShortDrive().options.shape);
+  return scene;
 }
 
 class ClosedLoopTest : public ::testing::TestWithParam<int> {};
@@ -49,9 +54,8 @@ TEST_P(ClosedLoopTest, ReachesTheGoalBySightAlone) {
 INSTANTIATE_TEST_SUITE_P(Goals, ClosedLoopTest, ::testing::Values(7, 9, 12));
 
 TEST(Rehearsal, TheSameSeedsGiveTheSameDrive) {
-  const ClosedLoop loop = ShortDrive(4);
-  const GoalScene scene(loop.scene, loop.options.shape);
-  const Drive first = Rehearse(scene, loop.options), second = Rehearse(scene, loop.options);
+  const RehearsalOptions options = ShortDrive().options;
+  const Drive first = Rehearse(NearScene(), options), second = Rehearse(NearScene(), options);
   ASSERT_GT(first.num_pairs, 10);
   EXPECT_EQ(first.final_error_m, second.final_error_m);
   EXPECT_EQ(first.num_frames, second.num_frames);
@@ -60,11 +64,10 @@ TEST(Rehearsal, TheSameSeedsGiveTheSameDrive) {
 }
 
 TEST(Rehearsal, ABlindRoverStaysWhereItIs) {
-  ClosedLoop loop = ShortDrive(4);
-  loop.options.sight.render.sensor.gain = 0.01;  // night
-  loop.options.pilot.max_pause_s = 3;
-  const GoalScene scene(loop.scene, loop.options.shape);
-  const Drive drive = Rehearse(scene, loop.options);
+  RehearsalOptions options = ShortDrive().options;
+  options.sight.render.sensor.gain = 0.01;  // night
+  options.pilot.max_pause_s = 3;
+  const Drive drive = Rehearse(NearScene(), options);
   EXPECT_FALSE(drive.has_arrived);
   EXPECT_EQ(drive.driven_m, 0);
   EXPECT_EQ(drive.fastest_command_mps, 0);
@@ -95,8 +98,7 @@ TEST(GoalScene, WrongOptionsAreNamed) {
 }
 
 TEST(DrawDrive, ShowsBothWays) {
-  const ClosedLoop loop = ShortDrive(4);
-  const GoalScene scene(loop.scene, loop.options.shape);
+  const GoalScene& scene = NearScene();
   Drive drive;
   drive.goal = scene.GoalInMap();
   for (int i = 0; i < 20; ++i) {
