@@ -24,7 +24,7 @@ done
                                      $4 ? "yes" : "no", $5, $6, $7, $8}' "$work/$threads"
   done
   echo
-  echo "The nodes and \`kitti_odometry\` bound it: \`global.max_keyframes\` (150) move, whatever the drive's length."
+  echo "The nodes and \`kitti_odometry\` bound it: \`global.max_keyframes\` (110) move, whatever the drive's length."
 } > "$work/table"
 mv "$work/table" docs/global_adjustment.md
 cat docs/global_adjustment.md

@@ -31,7 +31,7 @@ run rest "$programs/simulate_rest"
   echo
   echo "Written by \`scripts/simulated_kitti.sh\`: KITTI's true paths, random landmarks (300 in view, 12 frames a track),"
   echo "0.5 px noise on every coordinate, 20 % outliers; the odometry without its front end. ATE in m. Adjusted: by the"
-  echo "global adjustment, in which the newest 150 keyframes move. NEES of one run: 6 is honest, less is too careful."
+  echo "global adjustment, in which the newest 110 keyframes move. NEES of one run: 6 is honest, less is too careful."
   echo
   echo "## Without loop closing"
   echo
@@ -44,7 +44,7 @@ run rest "$programs/simulate_rest"
   echo
   echo "## With loop closing"
   echo
-  echo "Of 2,000 keyframes that move. Falls: from the ATE without loop closing, as known at once and adjusted."
+  echo "Of 5,000 keyframes that move at most. Falls: from the ATE without loop closing, as known at once and adjusted."
   echo
   echo "| sequence | keyframes | loops | ATE | falls by | and by | ms a frame | without loops | at the end s |"
   echo "|---|---|---|---|---|---|---|---|---|"

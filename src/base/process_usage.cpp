@@ -28,6 +28,14 @@ double GetMemoryMb() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
+void KeepMemoryFlat() {
+#ifdef __GLIBC__
+  constexpr int kLarge = 256 * 1024;  // bytes; set once, or glibc raises it to what was freed
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_ARENA_MAX, 2);
+#endif
+}
+
 void ReturnFreeMemory() {
 #ifdef __GLIBC__
   malloc_trim(0);

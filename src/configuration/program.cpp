@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "arfm_vo/base/process_usage.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -40,6 +42,7 @@ void RequireInputs(const Program& program) {
 }  // namespace
 
 int RunProgram(int argc, const char* const* argv, Program program) {
+  KeepMemoryFlat();
   program.options.add_options()("help,h", "show this and leave");
   try {
     if (Parse(argc, argv, program)) {

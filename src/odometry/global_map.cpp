@@ -13,6 +13,9 @@
 namespace arfm_vo {
 namespace {
 
+/// One held keyframe for so many that move keeps what it saw of the same landmarks.
+constexpr int kHeldShare = 5;
+
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
 
@@ -61,7 +64,8 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
   if (num_keyframes() <= options_.NumMoving()) return;
   SettleCorrection();
   const int first_moving = FirstMoving();
-  store_.Forget(first_moving, first_moving - options_.NumMoving(), options_.loops.enabled);
+  store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
+                options_.loops.enabled);
 }
 
 int GlobalMap::FirstMoving() const {

@@ -16,7 +16,7 @@ struct GlobalMapOptions {
   int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
   /// The newest so many move. Older ones are held where they are, poses alone but for what they saw
   /// of the same landmarks: this bounds the memory and the time that an adjustment takes.
-  int max_keyframes = 150;
+  int max_keyframes = 110;
   /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
   double stereo_correction_sigma_px = 1;
   double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain

@@ -6,12 +6,15 @@
 #include <exception>
 #include <memory>
 
+#include "arfm_vo/base/process_usage.h"
+
 namespace arfm_vo {
 
 /// The main of a node: constructs Node(public, private node handle) and spins. Wrong use and
 /// configuration end it with a clear error and exit status 1.
 template <class Node>
 int RunNode(int argc, char** argv, const char* name) {
+  KeepMemoryFlat();
   ros::init(argc, argv, name);
   const ros::NodeHandle keeper;  // the last handle that goes takes the log with it
   try {
