@@ -37,6 +37,7 @@ if [ ${#missing[@]} -gt 0 ]; then
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 fi
-# roslaunch and rostest need localhost to resolve; a bare chroot has no such line.
+# roslaunch and rostest need localhost and the machine's own name to resolve; a bare chroot has no such lines.
 grep -qw localhost /etc/hosts 2>/dev/null || echo '127.0.0.1 localhost' | as_root tee -a /etc/hosts >/dev/null
+getent hosts "$(hostname)" >/dev/null || echo "127.0.1.1 $(hostname)" | as_root tee -a /etc/hosts >/dev/null
 echo "install_dependencies: ${#packages[@]} packages present, ${#missing[@]} newly installed"
