@@ -39,5 +39,6 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 # roslaunch and rostest need localhost and the machine's own name to resolve; a bare chroot has no such lines.
 grep -qw localhost /etc/hosts 2>/dev/null || echo '127.0.0.1 localhost' | as_root tee -a /etc/hosts >/dev/null
-getent hosts "$(hostname)" >/dev/null || echo "127.0.1.1 $(hostname)" | as_root tee -a /etc/hosts >/dev/null
+getent hosts "$(hostname)" >/dev/null || echo "127.0.1.1 $(hostname)" | as_root tee -a /etc/hosts >/dev/null ||
+  echo "install_dependencies: the name $(hostname) does not resolve and /etc/hosts cannot be written: roslaunch may stop" >&2
 echo "install_dependencies: ${#packages[@]} packages present, ${#missing[@]} newly installed"
