@@ -24,12 +24,7 @@ class FastMaximumFinder {
   const ScaleSpace& scale_space() const { return space_; }
 
  private:
-  /// Fills rows first .. end - 1 of a layer.
-  void ComputeRows(const IntegralImage& integral, int octave, int layer, int first, int end,
-                   int threads);
-  /// Appends the maxima in rows first .. end - 1 of a layer.
-  void FindInRows(const SurfDetectorOptions& options, const cv::Size& image, int octave, int layer,
-                  int first, int end, std::vector<ScaleSpaceMaximum>& maxima) const;
+  void ComputeLayer(const IntegralImage& integral, int octave, int layer, int threads);
 
   ScaleSpace space_;
 };
