@@ -4,14 +4,7 @@
 # Usage: scripts/ablation.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
 cd "$(dirname "$0")/.."
-data=${ARFM_VO_SHARED:-../shared}/data/kitti
-folders=("$@")
-if [ ${#folders[@]} -eq 0 ]; then
-  for folder in "$data/odometry_06_000-050" "$data/raw_2011_09_26_drive_0001"; do
-    if [ -d "$folder" ]; then folders+=("$folder"); fi
-  done
-fi
-[ ${#folders[@]} -gt 0 ] || { echo "ablation: no KITTI folder given or found" >&2; exit 1; }
+. scripts/kitti_folders.sh ablation "$@"
 scripts/build.sh kitti_odometry simulate_kitti
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo
 work=$(mktemp -d)

@@ -4,14 +4,7 @@
 # PAIRS=N: so many pairs. Takes some minutes a folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-data=${ARFM_VO_SHARED:-../shared}/data/kitti
-folders=("$@")
-if [ ${#folders[@]} -eq 0 ]; then
-  for folder in "$data/odometry_06_000-050" "$data/raw_2011_09_26_drive_0001"; do
-    if [ -d "$folder" ]; then folders+=("$folder"); fi
-  done
-fi
-[ ${#folders[@]} -gt 0 ] || { echo "benchmark_memory: no KITTI folder given or found" >&2; exit 1; }
+. scripts/kitti_folders.sh benchmark_memory "$@"
 pairs=${PAIRS:-2000}
 program=${BUILD_DIR:-_b}/devel/lib/arfm_vo/kitti_odometry
 work=$(mktemp -d)

@@ -3,13 +3,7 @@
 # Usage: scripts/results.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
 cd "$(dirname "$0")/.."
-folders=("$@")
-if [ ${#folders[@]} -eq 0 ]; then
-  for folder in ../shared/data/kitti/odometry_06_000-050 ../shared/data/kitti/raw_2011_09_26_drive_0001; do
-    if [ -d "$folder" ]; then folders+=("$folder"); fi
-  done
-fi
-[ ${#folders[@]} -gt 0 ] || { echo "results: no KITTI folder given or found" >&2; exit 1; }
+. scripts/kitti_folders.sh results "$@"
 program=${BUILD_DIR:-_b}/devel/lib/arfm_vo/kitti_odometry
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
