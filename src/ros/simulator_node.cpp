@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "arfm_vo/rehearsal/drive_picture.h"
 #include "arfm_vo/ros/conversions.h"
@@ -62,9 +63,11 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
 void SimulatorNode::Run() {
   if (!head_) PublishFixedMount();
   WaitForSubscribers();
-  const ros::WallDuration step(1e-9 * kStep_ns / options_.max_speed_up);
   while (ros::ok()) {
-    const ros::WallTime due = ros::WallTime::now() + step;
+    // A reading of the head takes some ms of wall time on its line, in which it must not go far.
+    const double speed_up =
+        HasHeadMoved() ? std::min(1.0, options_.max_speed_up) : options_.max_speed_up;
+    const ros::WallTime due = ros::WallTime::now() + ros::WallDuration(1e-9 * kStep_ns / speed_up);
     Step();
     ros::spinOnce();
     ros::WallTime::sleepUntil(due);
@@ -100,6 +103,12 @@ void SimulatorNode::Step() {
   if (now_ns_ < pair_due_ns_) return;
   pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));
   TakePair();
+}
+
+bool SimulatorNode::HasHeadMoved() {
+  if (!head_) return false;
+  const std::array<double, 2> angles = {head_->Angle(PtuAxis::kPan), head_->Angle(PtuAxis::kTilt)};
+  return std::exchange(head_angles_, angles) != angles;
 }
 
 Rigid3 SimulatorNode::BaseFromCamera() {

@@ -7,6 +7,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -25,7 +26,7 @@ struct SimulatorNodeOptions {
   std::string map_frame = "map";
   std::string base_frame = "base_link";
   std::string camera_frame = "left_camera_optical";
-  double max_speed_up = 1;     ///< simulated time over wall time, at most
+  double max_speed_up = 1;     ///< simulated time over wall time, at most; 1 while the head moves
   double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
   double max_wait_s = 10;      ///< ..for so much wall time at most
   double pair_period_s = 0.5;
@@ -74,6 +75,8 @@ class SimulatorNode {
   bool HasOdometry() const { return odometry_done_ >= pair_stamp_; }
   void WaitForOdometry();
   void Step();
+  /// Since it was asked last.
+  bool HasHeadMoved();
   Rigid3 BaseFromCamera();
   void TakePair();
   void PublishClock() const;
@@ -97,6 +100,7 @@ class SimulatorNode {
   double driven_before_m_ = 0;
   std::atomic<uint64_t> now_ns_;  ///< read by the head's thread
   std::unique_ptr<SimulatedPtuPort> head_;
+  std::array<double, 2> head_angles_{};  ///< rad; pan, tilt
   uint64_t pair_due_ns_;
   uint32_t num_pairs_ = 0;
   ros::Time odometry_done_, pair_stamp_;
