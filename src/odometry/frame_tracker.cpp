@@ -143,8 +143,7 @@ FrameTracker::Correspondences FrameTracker::MatchAll(const StereoFrame& frame,
 FrameTracker::Correspondences FrameTracker::Correspond(
     const StereoFrame& frame, const std::vector<const Landmark*>& landmarks,
     const Matches& matches) const {
-  std::vector<const StereoPoint*> stereo(frame.features.size(), nullptr);
-  for (const StereoPoint& point : frame.points) stereo[point.keypoint] = &point;
+  const std::vector<const StereoPoint*> stereo = frame.PointsByKeypoint();
   Correspondences correspondences;
   for (const Match& match : matches) {
     const Keypoint& keypoint = frame.features.keypoints[match.second];

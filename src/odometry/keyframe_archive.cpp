@@ -78,8 +78,7 @@ void KeyframeArchive::DropLeastMissed() {
 
 std::vector<PointObservation> KeyframeArchive::Match(const StereoFrame& frame,
                                                      const View& view) const {
-  std::vector<const StereoPoint*> stereo(frame.features.size(), nullptr);
-  for (const StereoPoint& point : frame.points) stereo[point.keypoint] = &point;
+  const std::vector<const StereoPoint*> stereo = frame.PointsByKeypoint();
   std::vector<PointObservation> observations;
   const TwoWayNeighbours neighbours = FindNeighboursExactly(view.looks, frame.features);
   for (const auto& match : SelectMatches(neighbours, options_.ratio, MatchSelectionOptions{})) {

@@ -5,25 +5,17 @@
 
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/local_map.h"
-#include "arfm_vo/pose/pose_estimator.h"
+#include "arfm_vo/odometry/recognition_pose.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
-
-/// A view is not known again by a few points that fit by chance.
-inline PoseEstimatorOptions ArchivePose() {
-  PoseEstimatorOptions options;
-  options.min_inliers = 25;
-  options.min_inlier_share = 0.25;
-  return options;
-}
 
 struct KeyframeArchiveOptions {
   int max_keyframes = 32;  ///< 0: none, and no recovery beyond the local map
   int max_tries = 3;       ///< keyframes, those most alike first, in which a frame is looked for
   double ratio = 0.8;      ///< nearest / second-nearest distance
   double keypoint_sigma = 0.4;  ///< of a keypoint's position, in units of its scale
-  PoseEstimatorOptions pose = ArchivePose();
+  PoseEstimatorOptions pose = RecognitionPose();
 
   void Check() const;
   template <class Visitor>

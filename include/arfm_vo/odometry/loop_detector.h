@@ -8,17 +8,9 @@
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/matching/descriptor_index.h"
 #include "arfm_vo/odometry/map_store.h"
-#include "arfm_vo/pose/pose_estimator.h"
+#include "arfm_vo/odometry/recognition_pose.h"
 
 namespace arfm_vo {
-
-/// A place is not known again by a few points that fit by chance.
-inline PoseEstimatorOptions LoopPose() {
-  PoseEstimatorOptions options;
-  options.min_inliers = 25;
-  options.min_inlier_share = 0.25;
-  return options;
-}
 
 struct LoopOptions {
   bool enabled = false;
@@ -30,7 +22,7 @@ struct LoopOptions {
   int min_votes = 12;                 ///< landmarks that look like those of a place
   int place_keyframes = 10;           ///< so many before and after a keyframe make up its place
   DescriptorIndexOptions index;
-  PoseEstimatorOptions pose = LoopPose();
+  PoseEstimatorOptions pose = RecognitionPose();
 
   void Check() const;
   template <class Visitor>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/image/grey_statistics.h"
 #include "arfm_vo/reconstruction/stereo_point.h"
@@ -15,6 +17,13 @@ struct StereoFrame {
   int num_right_keypoints = 0;
   GreyStatistics grey;         ///< of the left image, eqs 4, 5
   double ratio_threshold = 0;  ///< nearest / second-nearest distance that was allowed
+
+  /// [features] the point of each keypoint, null where one eye alone sees it.
+  std::vector<const StereoPoint*> PointsByKeypoint() const {
+    std::vector<const StereoPoint*> by_keypoint(features.size(), nullptr);
+    for (const StereoPoint& point : points) by_keypoint[point.keypoint] = &point;
+    return by_keypoint;
+  }
 };
 
 }  // namespace arfm_vo
