@@ -82,6 +82,16 @@ double CovarianceFactor(const BundleProblem& problem, const BundleSelection& sel
   return weights * squares / (slopes * slopes);
 }
 
+/// A point too far away to be placed can make the matrix singular to rounding; then with damping
+/// that is too little to change what the other observations tell.
+bool FactorizeHardlyDamped(NormalEquations& equations) {
+  BundleStep step;
+  for (const double damping : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
+    if (equations.Solve(damping, step)) return true;
+  }
+  return false;
+}
+
 void FindCovariances(const BundleProblem& problem, const BundleSelection& selection,
                      const BundleStructure& structure, const BundleOptions& options,
                      BundleResult& result) {
@@ -98,8 +108,7 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
   const bool with_pose = options.with_newest_pose_covariance && structure.num_free_poses() > 0;
   const int num_coefficients = selection.num_free_coefficients();
   if (num_coefficients == 0 && !with_pose) return;
-  BundleStep step;
-  if (!equations.Solve(0, step)) return;
+  if (!FactorizeHardlyDamped(equations)) return;
   const int size = equations.reduced_size();
   if (with_pose) {
     const int first = size - num_coefficients - 6;

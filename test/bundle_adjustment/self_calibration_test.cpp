@@ -115,6 +115,26 @@ TEST(SelfCalibration, ATightPriorHoldsTheCorrection) {
   EXPECT_LT(AdjustBundle(problem, {}).correction.coefficients_px.norm(), 1e-5);
 }
 
+TEST(SelfCalibration, PointsTooFarToBePlacedDoNotTakeTheCovarianceAway) {
+  CorridorScene scene = MakeCorridor(MakeOptions(MakeDisplacement()));
+  BundleProblem& problem = scene.problem;
+  problem.correction_sigma_px = 5;
+  for (int i = 0; i < 40; ++i) {
+    const int point = static_cast<int>(problem.points.size());
+    const Eigen::Vector3d star(1e9 * (i - 20), -3e9, 1e11);
+    problem.points.push_back(star);
+    for (const int pose : {0, 1, 2}) {
+      const Eigen::Vector3d x = scene.camera_from_world[pose].rotation * star;
+      BundleObservation seen{pose, point, ProjectStereo4(kBundleCamera, {}, x), false, 0.2};
+      problem.observations.push_back(seen);
+    }
+  }
+  const BundleResult result = AdjustBundle(problem, {});
+  EXPECT_GT(result.correction_covariance.diagonal().minCoeff(), 0);
+  EXPECT_LT(SquaredDistance(result, MakeDisplacement()),
+            ChiSquareQuantile(StereoCorrection::kSize, 0.99));
+}
+
 /// Half of the information at one value and half at another: between them, with all the certainty.
 TEST(SelfCalibration, EarlierInformationCountsAsMuchAsTheObservations) {
   const Coefficients truth = MakeDisplacement();
