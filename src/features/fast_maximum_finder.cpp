@@ -41,14 +41,14 @@ void FastMaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, 
   }
   const IntegralView view = View(integral);
   const SurfKernels& kernels = ChooseSurfKernels();
+  const int kernel_step = step % 2 == 0 ? 2 : 1;
   ForBands(rows, threads, [&](int first, int last) {
-    const int width = integral.cols() + 1 + kKernelReadAhead;
-    std::vector<uint32_t> scratch(3 * width + kKernelReadAhead);
-    std::vector<float> full(width);
+    std::vector<uint32_t> scratch(3 * (integral.cols() + 1 + 2 * kKernelReadAhead));
+    std::vector<float> finer(integral.cols() + kKernelReadAhead);
     for (int row = first; row < last; ++row) {
-      float* out = step == 1 ? responses[row] : full.data();
-      kernels.compute_determinants(view, row * step, size, scratch.data(), out);
-      if (step > 1) TakeEvery(step, out, cols, responses[row]);
+      float* out = step == kernel_step ? responses[row] : finer.data();
+      kernels.compute_determinants(view, row * step, size, kernel_step, scratch.data(), out);
+      if (step > kernel_step) TakeEvery(step / kernel_step, out, cols, responses[row]);
     }
   });
 }

@@ -36,10 +36,11 @@ struct SampleGrid {
 /// The loops over pixels and samples of the fast path, for one instruction set. All sets give the
 /// same bits.
 struct SurfKernels {
-  /// Determinants (eq 3) of row y, one a pixel, 0 where the filter does not fit. `scratch` holds 3
-  /// rows, `out` one row, each with kKernelReadAhead values to spare.
-  void (*compute_determinants)(const IntegralView& integral, int y, int size, uint32_t* scratch,
-                               float* out);
+  /// Determinants (eq 3) of row y at every `step`-th pixel, 1 or 2, 0 where the filter does not
+  /// fit. `scratch` holds 3 rows with twice kKernelReadAhead values to spare, `out` one value a
+  /// step and kKernelReadAhead more.
+  void (*compute_determinants)(const IntegralView& integral, int y, int size, int step,
+                               uint32_t* scratch, float* out);
   /// Columns begin <= x < end where rows[4] is above `threshold` and not below its 26 neighbours;
   /// returns their number. `rows` are three rows of three layers, [3 layers][3]; `columns` has
   /// room for end - begin + 8.

@@ -25,13 +25,27 @@ inline Floats Broadcast(float value) { return value - Floats{}; }
 inline Floats ToFloats(const Words& words) { return __builtin_convertvector((Ints)words, Floats); }
 
 /// Differences of rows that the three second derivatives share along a row: what is left to do for
-/// a pixel is a few sums along it.
+/// a pixel is a few sums along it. Where every second pixel is wanted, first the values of even
+/// columns, then those of odd ones, so that neighbours in memory are wanted together.
 struct RowDifferences {
   uint32_t* xx;
   uint32_t* yy;
   uint32_t* xy;
+  int half;  ///< values from the even columns to the odd ones
 };
 
+template <int kStep>
+inline void StoreColumns(const Words (&columns)[kStep], int half, int x, uint32_t* row) {
+  if constexpr (kStep == 1) {
+    Store(columns[0], row + x);
+  } else {
+    const Words even = {0, 2, 4, 6, 8, 10, 12, 14}, odd = {1, 3, 5, 7, 9, 11, 13, 15};
+    Store(__builtin_shuffle(columns[0], columns[1], even), row + x / 2);
+    Store(__builtin_shuffle(columns[0], columns[1], odd), row + half + x / 2);
+  }
+}
+
+template <int kStep>
 inline void SubtractRows(const IntegralView& integral, int y, int size, const RowDifferences& out) {
   const int lobe = size / 3, half = size / 2, side = lobe - 1, middle = lobe / 2;
   const auto row = [&](int at) {
@@ -41,44 +55,67 @@ inline void SubtractRows(const IntegralView& integral, int y, int size, const Ro
   const uint32_t *y_0 = row(y - half), *y_1 = row(y - middle), *y_2 = row(y + middle + 1),
                  *y_3 = row(y + half + 1);
   const uint32_t *d_0 = row(y - lobe), *d_1 = row(y), *d_2 = row(y + 1), *d_3 = row(y + lobe + 1);
-  for (int x = 0; x <= integral.cols; x += kLanes) {
-    const auto at = [x](const uint32_t* from) { return Load<Words>(from + x); };
-    Store(at(x_bottom) - at(x_top), out.xx + x);
-    const Words inner = at(y_2) - at(y_1);
-    Store(at(y_3) - at(y_0) - (inner + inner + inner), out.yy + x);
-    Store(at(d_1) - at(d_0) - (at(d_3) - at(d_2)), out.xy + x);
+  for (int x = 0; x <= integral.cols; x += kStep * kLanes) {
+    Words xx[kStep], yy[kStep], xy[kStep];
+    for (int i = 0; i < kStep; ++i) {
+      const auto at = [&](const uint32_t* from) { return Load<Words>(from + x + i * kLanes); };
+      xx[i] = at(x_bottom) - at(x_top);
+      const Words inner = at(y_2) - at(y_1);
+      yy[i] = at(y_3) - at(y_0) - (inner + inner + inner);
+      xy[i] = at(d_1) - at(d_0) - (at(d_3) - at(d_2));
+    }
+    StoreColumns<kStep>(xx, out.half, x, out.xx);
+    StoreColumns<kStep>(yy, out.half, x, out.yy);
+    StoreColumns<kStep>(xy, out.half, x, out.xy);
   }
 }
 
-void ComputeDeterminants(const IntegralView& integral, int y, int size, uint32_t* scratch,
-                         float* out) {
+template <int kStep>
+void ComputeDeterminantsEvery(const IntegralView& integral, int y, int size, uint32_t* scratch,
+                              float* out) {
   const int lobe = size / 3, half = size / 2, side = lobe - 1, middle = lobe / 2;
-  const int begin = half, end = integral.cols - half;
-  const int width = integral.cols + kKernelReadAhead;
+  const int num = (integral.cols + kStep - 1) / kStep;
+  const int begin = (half + kStep - 1) / kStep, end = (integral.cols - half + kStep - 1) / kStep;
   if (y < half || y + half >= integral.rows || begin >= end) {
-    for (int x = 0; x < integral.cols; ++x) out[x] = 0;
+    for (int i = 0; i < num; ++i) out[i] = 0;
     return;
   }
-  const int scratch_stride = integral.cols + 1 + kKernelReadAhead;
-  const RowDifferences rows = {scratch, scratch + scratch_stride, scratch + 2 * scratch_stride};
-  SubtractRows(integral, y, size, rows);
+  const int scratch_stride = integral.cols + 1 + 2 * kKernelReadAhead;
+  const RowDifferences rows = {scratch, scratch + scratch_stride, scratch + 2 * scratch_stride,
+                               scratch_stride / 2};
+  SubtractRows<kStep>(integral, y, size, rows);
+  const auto column = [&](const uint32_t* row, int offset) {
+    return kStep == 1 ? row + offset : row + (offset & 1) * rows.half + (offset >> 1);
+  };
+  const uint32_t *xx_0 = column(rows.xx, -half), *xx_1 = column(rows.xx, -middle),
+                 *xx_2 = column(rows.xx, middle + 1), *xx_3 = column(rows.xx, half + 1);
+  const uint32_t *yy_0 = column(rows.yy, -side), *yy_1 = column(rows.yy, side + 1);
+  const uint32_t *xy_0 = column(rows.xy, -lobe), *xy_1 = column(rows.xy, 0),
+                 *xy_2 = column(rows.xy, 1), *xy_3 = column(rows.xy, lobe + 1);
   const Floats inverse_area = Broadcast(1.0f / static_cast<float>(size * size));
   const Floats share = Broadcast(0.81f);
-  for (int x = begin; x < end; x += kLanes) {
-    const auto xx_at = [&](int offset) { return Load<Words>(rows.xx + x + offset); };
-    const auto yy_at = [&](int offset) { return Load<Words>(rows.yy + x + offset); };
-    const auto xy_at = [&](int offset) { return Load<Words>(rows.xy + x + offset); };
-    const Words inner = xx_at(middle + 1) - xx_at(-middle);
-    const Words sum_xx = xx_at(half + 1) - xx_at(-half) - (inner + inner + inner);
-    const Words sum_yy = yy_at(side + 1) - yy_at(-side);
-    const Words sum_xy = xy_at(0) - xy_at(-lobe) - (xy_at(lobe + 1) - xy_at(1));
+  for (int i = begin; i < end; i += kLanes) {
+    const auto at = [i](const uint32_t* from) { return Load<Words>(from + i); };
+    const Words inner = at(xx_2) - at(xx_1);
+    const Words sum_xx = at(xx_3) - at(xx_0) - (inner + inner + inner);
+    const Words sum_yy = at(yy_1) - at(yy_0);
+    const Words sum_xy = at(xy_1) - at(xy_0) - (at(xy_3) - at(xy_2));
     const Floats xx = ToFloats(sum_xx) * inverse_area;
     const Floats yy = ToFloats(sum_yy) * inverse_area;
     const Floats xy = ToFloats(sum_xy) * inverse_area;
-    Store(xx * yy - (share * xy) * xy, out + x);
+    Store(xx * yy - (share * xy) * xy, out + i);
   }
-  for (int x = 0; x < begin; ++x) out[x] = 0;
-  for (int x = end; x < width - kLanes; ++x) out[x] = 0;
+  for (int i = 0; i < begin; ++i) out[i] = 0;
+  for (int i = end; i < num + kKernelReadAhead - kLanes; ++i) out[i] = 0;
+}
+
+void ComputeDeterminants(const IntegralView& integral, int y, int size, int step, uint32_t* scratch,
+                         float* out) {
+  if (step == 1) {
+    ComputeDeterminantsEvery<1>(integral, y, size, scratch, out);
+  } else {
+    ComputeDeterminantsEvery<2>(integral, y, size, scratch, out);
+  }
 }
 
 inline bool IsAny(const Ints& mask) {
@@ -98,12 +135,15 @@ int FindPeaks(const float* const rows[9], int begin, int end, float threshold, i
   int num = 0;
   const Floats least = Broadcast(threshold);
   for (int x = begin; x < end; x += kLanes) {
-    const Floats centre = Load<Floats>(rows[4] + x);
-    Ints is_peak = centre > least;
+    const auto at = [x](const float* row) { return Load<Floats>(row + x); };
+    const Floats centre = at(rows[4]);
+    // Few get past the next neighbours, so that the branch is foreseen.
+    Ints is_peak = (centre > least) & (centre >= at(rows[4] - 1)) & (centre >= at(rows[4] + 1)) &
+                   (centre >= at(rows[3])) & (centre >= at(rows[5])) & (centre >= at(rows[1])) &
+                   (centre >= at(rows[7]));
     if (!IsAny(is_peak)) continue;
-    is_peak &= IsNotBelow(centre, rows + 3, x);
-    if (!IsAny(is_peak)) continue;
-    is_peak &= IsNotBelow(centre, rows, x) & IsNotBelow(centre, rows + 6, x);
+    is_peak &= IsNotBelow(centre, rows, x) & IsNotBelow(centre, rows + 3, x) &
+               IsNotBelow(centre, rows + 6, x);
     if (!IsAny(is_peak)) continue;
     for (int lane = 0; lane < kLanes; ++lane) {
       if (is_peak[lane] && x + lane < end) columns[num++] = x + lane;

@@ -17,6 +17,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kBehindCamera = 1e12;  ///< squared error of a point that cannot be seen
+/// Expected fall of the cost at which the search ends: a thousandth of the pose's standard deviation.
+constexpr double kEnough = 1e-6;
 
 /// What the loss needs to know for residuals of one number of coordinates.
 struct ResidualModel {
@@ -197,7 +199,7 @@ class Refiner {
       } else {
         break;
       }
-      if (expected < 1e-10) break;
+      if (expected < kEnough) break;
     }
     return true;
   }

@@ -56,6 +56,14 @@ void ExpectPathsAgree(const cv::Mat& grey) {
   for (const bool upright : {false, true}) {
     ExpectSame(ExtractWith(grey, false, upright, 1), ExtractWith(grey, true, upright, 1));
   }
+  for (const int initial_step : {2, 3, 4}) {
+    SCOPED_TRACE(initial_step);
+    SurfOptions fast;
+    fast.detector.initial_step = initial_step;
+    SurfOptions plain = fast;
+    plain.use_fast_path = false;
+    ExpectSame(Surf(plain).Extract(grey), Surf(fast).Extract(grey));
+  }
   SurfOptions bay;  // as published
   bay.smooth = bay.detector.merge_octaves = bay.descriptor.overlapping_regions = false;
   SurfOptions plain_bay = bay;

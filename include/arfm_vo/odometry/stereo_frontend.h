@@ -10,8 +10,15 @@
 namespace arfm_vo {
 
 struct FrontendOptions {
-  SurfOptions surf;
+  SurfOptions surf = SurfAtEverySecondPixel();
   StereoReconstructionOptions stereo;
+
+  /// As Bay et al. look for blobs: aligned patches make up for their coarser places.
+  static SurfOptions SurfAtEverySecondPixel() {
+    SurfOptions options;
+    options.detector.initial_step = 2;
+    return options;
+  }
 
   void Check() const {
     surf.Check();
