@@ -92,6 +92,38 @@ class Consensus {
   std::vector<PointSpread> spreads_;
 };
 
+/// The refined pose on which most agree.
+PoseRefinement Agree(const Consensus& consensus, const StereoCamera& camera,
+                     const std::vector<PointObservation>& observations,
+                     const std::optional<Rigid3>& predicted, const PoseEstimatorOptions& options) {
+  const int num_observations = static_cast<int>(observations.size());
+  std::vector<Rigid3> near;  // hypotheses that are tried before those of samples
+  if (predicted && predicted->IsFinite()) {
+    near.push_back(*predicted);
+    const PoseRefinement refined = RefinePose(camera, observations, *predicted, options.refinement);
+    if (refined.status == RefinementStatus::kConverged) {
+      near.push_back(refined.camera_from_world);
+      std::vector<char> agrees(observations.size());
+      consensus.Classify(near.back(), agrees);
+      // No other pose can have more than the rest.
+      if (2 * std::count(agrees.begin(), agrees.end(), 1) > num_observations) return refined;
+    }
+  }
+  const auto consent = Ransac<Rigid3>(
+      num_observations, options.sample_size, options.ransac,
+      [&](const std::vector<int>& sample) -> std::optional<Rigid3> {
+        if (near.empty()) return consensus.Hypothesis(sample);
+        const Rigid3 hypothesis = near.back();
+        near.pop_back();
+        return hypothesis;
+      },
+      [&](const Rigid3& model, std::vector<char>& flags) {
+        return consensus.Classify(model, flags);
+      });
+  if (!consent) return {};
+  return RefinePose(camera, observations, consent->model, options.refinement, consent->is_inlier);
+}
+
 }  // namespace
 
 void PoseEstimatorOptions::Check() const {
@@ -121,21 +153,8 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
 
   estimate.status = PoseStatus::kNoConsensus;
   const Consensus consensus(camera, observations, options);
-  bool is_prediction_due =
-      predicted_camera_from_world.has_value() && predicted_camera_from_world->IsFinite();
-  const auto consent = Ransac<Rigid3>(
-      num_observations, options.sample_size, options.ransac,
-      [&](const std::vector<int>& sample) {
-        if (!is_prediction_due) return consensus.Hypothesis(sample);
-        is_prediction_due = false;
-        return predicted_camera_from_world;
-      },
-      [&](const Rigid3& model, std::vector<char>& flags) {
-        return consensus.Classify(model, flags);
-      });
-  if (!consent) return estimate;
   const PoseRefinement refinement =
-      RefinePose(camera, observations, consent->model, options.refinement, consent->is_inlier);
+      Agree(consensus, camera, observations, predicted_camera_from_world, options);
   if (refinement.status != RefinementStatus::kConverged) return estimate;
   const double min_inliers =
       std::max<double>(options.min_inliers, options.min_inlier_share * num_observations);
