@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "arfm_vo/base/check.h"
 
@@ -21,10 +21,13 @@ namespace {
 
 std::string ReadWholeFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  Require(file.is_open() && (file.peek() == EOF || content << file.rdbuf()) && !file.bad(),
-          path + ": cannot be read");
-  return content.str();
+  std::string content;
+  std::vector<char> part(1 << 18);
+  while (file.read(part.data(), part.size()), file.gcount() > 0) {
+    content.append(part.data(), file.gcount());
+  }
+  Require(file.eof() && !file.bad(), path + ": cannot be read");
+  return content;
 }
 
 void WriteWholeFile(const std::string& path, const std::string& content) {

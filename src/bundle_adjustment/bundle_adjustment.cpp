@@ -8,6 +8,7 @@
 #include "schur_bundle.h"
 
 namespace arfm_vo {
+
 void BundleOptions::Check() const {
   Require(solver == BundleSolver::kCeres || strategy == StepStrategy::kLevenbergMarquardt,
           "bundle.strategy dogleg needs bundle.solver ceres");
@@ -28,10 +29,15 @@ BundleResult AdjustBundle(BundleProblem problem, const BundleOptions& options,
   const Clock::time_point start = Clock::now();
   const BundleSelection selection(problem);
   const BundleStructure structure(problem, selection);
-  BundleResult result = options.solver == BundleSolver::kOwn
-                            ? AdjustWithSchur(problem, selection, structure, options, callback)
-                            : AdjustWithCeres(problem, selection, options, callback);
-  AssessBundle(problem, selection, structure, options, result);
+  NormalEquations equations(problem, selection, structure, options);
+  BundleResult result;
+  if (options.solver == BundleSolver::kOwn) {
+    result = AdjustWithSchur(problem, options, callback, equations);
+  } else {
+    result = AdjustWithCeres(problem, selection, options, callback);
+    equations.Linearize({result.camera_from_world, result.points, result.correction});
+  }
+  AssessBundle(problem, selection, structure, options, equations, result);
   result.time_s = std::chrono::duration<double>(Clock::now() - start).count();
   return result;
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "normal_equations.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -94,10 +92,8 @@ bool FactorizeHardlyDamped(NormalEquations& equations) {
 
 void FindCovariances(const BundleProblem& problem, const BundleSelection& selection,
                      const BundleStructure& structure, const BundleOptions& options,
-                     BundleResult& result) {
+                     NormalEquations& equations, BundleResult& result) {
   const double factor = result.covariance_factor;
-  NormalEquations equations(problem, selection, structure, options);
-  equations.Linearize({result.camera_from_world, result.points, result.correction});
   if (options.with_point_covariance) {
     result.point_covariances.assign(problem.points.size(), Eigen::Matrix3d::Zero());
     for (size_t track = 0; track < structure.tracks.size(); ++track) {
@@ -125,7 +121,7 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
 
 void AssessBundle(const BundleProblem& problem, const BundleSelection& selection,
                   const BundleStructure& structure, const BundleOptions& options,
-                  BundleResult& result) {
+                  NormalEquations& equations, BundleResult& result) {
   const std::vector<double> squared = SquaredErrors(problem, result);
   const Freedom freedom(structure);
   result.point_is_used = selection.point_is_used;
@@ -141,9 +137,8 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
   }
   if (options.with_point_covariance || options.with_newest_pose_covariance ||
       selection.correction_is_free) {
-    result.covariance_factor =
-        CovarianceFactor(problem, selection, options, freedom, squared);
-    FindCovariances(problem, selection, structure, options, result);
+    result.covariance_factor = CovarianceFactor(problem, selection, options, freedom, squared);
+    FindCovariances(problem, selection, structure, options, equations, result);
   }
 }
 

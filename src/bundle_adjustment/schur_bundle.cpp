@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "normal_equations.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -36,13 +34,12 @@ class Damping {
 
 class SchurBundle {
  public:
-  SchurBundle(const BundleProblem& problem, const BundleSelection& selection,
-              const BundleStructure& structure, const BundleOptions& options,
-              const BundleCallback& callback)
+  SchurBundle(const BundleProblem& problem, const BundleOptions& options,
+              const BundleCallback& callback, NormalEquations& equations)
       : options_(options),
         callback_(callback),
         start_(Clock::now()),
-        equations_(problem, selection, structure, options),
+        equations_(equations),
         state_{problem.camera_from_world, problem.points, problem.correction} {}
 
   BundleResult Run() {
@@ -111,7 +108,7 @@ class SchurBundle {
   const BundleOptions& options_;
   const BundleCallback& callback_;
   const Clock::time_point start_;
-  NormalEquations equations_;
+  NormalEquations& equations_;  ///< at state_ between the iterations
   BundleState state_;
   BundleStep step_;
   Damping damping_;
@@ -122,10 +119,9 @@ class SchurBundle {
 
 }  // namespace
 
-BundleResult AdjustWithSchur(const BundleProblem& problem, const BundleSelection& selection,
-                             const BundleStructure& structure, const BundleOptions& options,
-                             const BundleCallback& callback) {
-  return SchurBundle(problem, selection, structure, options, callback).Run();
+BundleResult AdjustWithSchur(const BundleProblem& problem, const BundleOptions& options,
+                             const BundleCallback& callback, NormalEquations& equations) {
+  return SchurBundle(problem, options, callback, equations).Run();
 }
 
 }  // namespace arfm_vo
