@@ -30,8 +30,9 @@ double GetMemoryMb() {
 
 void KeepMemoryFlat() {
 #ifdef __GLIBC__
-  constexpr int kLarge = 256 * 1024;  // bytes; set once, or glibc raises it to what was freed
+  constexpr int kLarge = 2048 * 1024;  // bytes; set once, or glibc raises it to what was freed
   mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, 16 << 20);
   mallopt(M_ARENA_MAX, 2);
 #endif
 }

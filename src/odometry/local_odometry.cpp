@@ -202,10 +202,11 @@ class LocalOdometry::Implementation {
     drift_.Add(keyframe.id, update.covariance_from_start);
     drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
-    pending_ =
-        std::async(std::launch::async, Adjust,
-                   MakeLocalBundle(camera_, correction_, map_, options_.bundle.num_keyframes),
-                   options_.bundle.solver);
+    // The map stays as it is until FinishBundle.
+    pending_ = std::async(std::launch::async, [this] {
+      return Adjust(MakeLocalBundle(camera_, correction_, map_, options_.bundle.num_keyframes),
+                    options_.bundle.solver);
+    });
   }
 
   static AdjustedWindow Adjust(LocalBundle bundle, const BundleOptions& solver) {

@@ -17,8 +17,9 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kBehindCamera = 1e12;  ///< squared error of a point that cannot be seen
-/// Expected fall of the cost at which the search ends: a thousandth of the pose's standard deviation.
-constexpr double kEnough = 1e-6;
+/// Expected fall of the cost at which a search ends: a tenth of the pose's standard deviation while
+/// the inliers may change, a thousandth at the end.
+constexpr double kRoughly = 1e-2, kEnough = 1e-6;
 
 /// What the loss needs to know for residuals of one number of coordinates.
 struct ResidualModel {
@@ -71,14 +72,16 @@ class Refiner {
     UpdateInformation();
     MeasureScale(std::numeric_limits<double>::infinity());  // the first pose may be far off
     for (int round = 0; round < options_.max_rounds; ++round) {
-      if (!HasEnoughInliers() || !Iterate()) return result_;
+      if (!HasEnoughInliers() || !Iterate(kRoughly)) return result_;
       const double last_scale = result_.scale;
       UpdateInformation();
       MeasureScale(options_.max_scale);
       const bool is_same = Classify();
       if (is_same && std::abs(result_.scale - last_scale) < 0.01 * last_scale) break;
     }
-    if (HasEnoughInliers() && FindCovariance()) result_.status = RefinementStatus::kConverged;
+    if (!HasEnoughInliers() || !Iterate(kEnough)) return result_;
+    UpdateInformation();
+    if (FindCovariance()) result_.status = RefinementStatus::kConverged;
     return result_;
   }
 
@@ -177,7 +180,7 @@ class Refiner {
 
   /// Iterates to the minimum for fixed inliers, scale and information. Returns false, with the
   /// status, where the points do not fix the pose.
-  bool Iterate() {
+  bool Iterate(double enough) {
     NormalEquations equations = Linearize(result_.camera_from_world);
     double damping = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -199,7 +202,7 @@ class Refiner {
       } else {
         break;
       }
-      if (expected < kEnough) break;
+      if (expected < enough) break;
     }
     return true;
   }
