@@ -30,9 +30,10 @@ double GetMemoryMb() {
 
 void KeepMemoryFlat() {
 #ifdef __GLIBC__
-  constexpr int kLarge = 2048 * 1024;  // bytes; set once, or glibc raises it to what was freed
+  constexpr int kLarge = 2 << 20;  // bytes; set once, or glibc raises it to what was freed
+  constexpr int kKept = 16 << 20;
   mallopt(M_MMAP_THRESHOLD, kLarge);
-  mallopt(M_TRIM_THRESHOLD, 16 << 20);
+  mallopt(M_TRIM_THRESHOLD, kKept);
   mallopt(M_ARENA_MAX, 2);
 #endif
 }

@@ -13,7 +13,7 @@ namespace arfm_vo {
 struct LocalMapOptions {
   int max_keyframes = 16;           ///< older ones leave the map with the points only they see
   int max_missed_frames = 8;        ///< in view, in a row: then a point is looked for no more
-  int max_landmarks_in_view = 700;  ///< new points are added up to this number
+  int max_landmarks_in_view = 600;  ///< new points are added up to this number
   int grid_cell_px = 40;            ///< new points are spread over cells of this size
   double min_separation_px = 6;     ///< a new point keeps this distance from the known ones
 
