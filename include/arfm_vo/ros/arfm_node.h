@@ -16,7 +16,7 @@ namespace arfm_vo {
 
 struct ArfmNodeOptions {
   OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
-  int max_waiting_pairs = 2;  ///< older ones are dropped
+  int max_waiting_pairs = 4;  ///< older ones are dropped
 
   void Check() const;
   template <class Visitor>

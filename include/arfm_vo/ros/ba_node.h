@@ -21,8 +21,8 @@ struct BaNodeOptions {
   bool publish_tf = true;  ///< map_frame -> odom_frame
   double tf_rate_hz = 20;
   double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
-  double max_time_share = 0.25;  ///< of the wall time that adjusting may take
-  int niceness = 10;             ///< of the adjusting thread, so that no pose waits for it
+  double max_time_share = 0.15;  ///< of the wall time that adjusting may take
+  int niceness = 19;             ///< of the adjusting thread, so that no pose waits for it
   int max_path_poses = 1000;
   std::string trajectory_dir;  ///< the keyframes are saved here at the end; empty: nowhere
 

@@ -28,7 +28,7 @@ struct PoseNodeOptions {
   CameraMountOptions mount;   ///< its keys stand beside those of the node
   PoseOutputOptions output;   ///< its keys stand beside those of the node
   OdometryHealthOptions health;
-  int max_waiting_pairs = 2;        ///< older ones are dropped
+  int max_waiting_pairs = 4;        ///< older ones are dropped
   double restart_after_lost_s = 3;  ///< without a pose: then the map is given up; 0: never
   std::string trajectory_dir;       ///< the trajectory is saved here at the end; empty: nowhere
 
