@@ -19,6 +19,8 @@ link_back_and_forth() {  # IMAGES NEW_IMAGES
            printf "%s\n%s/%06d.png\n", name[at], to, i}}' | xargs -d '\n' -n 2 ln -s
 }
 
+echo "Resident memory, median over the 100 pairs about each: an adjustment that runs just then counts for little."
+echo
 echo "| sequence | pairs | lost | MB after 200 | 500 | 1000 | end | end / 200 | peak |"
 echo "|---|---|---|---|---|---|---|---|---|"
 for folder in "${folders[@]}"; do
@@ -32,9 +34,11 @@ for folder in "${folders[@]}"; do
   done
   "$program" "$work/folder" --output "$work/out" > "$work/lines" 2> "$work/errors" || { cat "$work/errors" >&2; exit 1; }
   value() { awk -F': ' -v key="$1" '$1 == key {print $2}' "$work/lines"; }
-  awk -F, -v name="$(basename "$folder")" -v lost="$(value lost)" -v peak="$(value peak_rss_mb)" '
-    NR > 1 {memory[NR - 1] = $4}
-    END {n = NR - 1
-         printf "| %s | %d | %s | %s | %s | %s | %s | %.3f | %s |\n", name, n, lost, memory[200], memory[500],
-                memory[1000], memory[n], (memory[200] > 0 ? memory[n] / memory[200] : 0), peak}' "$work/out/timing.csv"
+  around() {  # PAIR -> median over the 100 pairs about it
+    awk -F, -v at="$1" 'NR - 1 > at - 50 && NR - 1 <= at + 50 {print $4}' "$work/out/timing.csv" | sort -g |
+      awk '{memory[NR] = $1} END {print NR ? memory[int((NR + 1) / 2)] : "-"}'
+  }
+  early=$(around 200) end=$(around $((pairs - 50)))
+  echo "| $(basename "$folder") | $pairs | $(value lost) | $early | $(around 500) | $(around 1000) | $end" \
+    "| $(awk -v a="$early" -v b="$end" 'BEGIN {printf "%.3f", a > 0 ? b / a : 0}') | $(value peak_rss_mb) |"
 done

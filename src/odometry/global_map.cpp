@@ -131,6 +131,11 @@ BundleProblem GlobalMap::MakeProblem() {
     point.row = static_cast<int>(problem.points.size());
     problem.points.push_back(point.x_in_map);
   }
+  size_t most = 0;
+  for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
+    most += store_.keyframes[k].observations.size();
+  }
+  problem.observations.reserve(most);
   for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
     const int pose = k - store_.first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_map);
