@@ -37,6 +37,8 @@ def list_features(all_of):
             row("SURF, orientation and descriptor", all_of["SurfDescriptorOnly"]),
             row("**SURF, whole**, 1 thread", surf, surf),
             row("SURF, whole, 2 threads", all_of[SURF.format(1000, 2, 100)]),
+            row("SURF, whole, at every second pixel (as in the odometry, and as dlib), 1 thread",
+                all_of["SurfWhole/every_second_pixel/1000/1/100"], surf),
             row("SURF upright, whole, 1 thread", all_of["SurfWhole/upright/1000/1/100"], surf),
             row("`dlib::get_surf_points`, 1 thread", all_of["DlibSurf"], surf),
             row("`cv::SIFT`, 1 thread", all_of["OpenCv<cv::SIFT>/1"], surf),

@@ -21,10 +21,12 @@ run() {  # NAME COMMAND...
   [ -f "$work/$name.csv" ] || { "$@" > "$work/$name.unfinished" && mv "$work/$name.unfinished" "$work/$name.csv"; }
 }
 simulate=("$programs/simulate_kitti" "$poses")
+run all "${simulate[@]}" --config "$work/global.yaml" &
+all=$!
 run loops "${simulate[@]}" --config "$work/global.yaml" --sequences 00,06 --loop-closing
-run all "${simulate[@]}" --config "$work/global.yaml"
 run nees "${simulate[@]}" --config "$work/online.yaml" --runs 20 --frames 200
 run rest "$programs/simulate_rest"
+wait "$all"
 
 {
   echo "# Simulated drives"

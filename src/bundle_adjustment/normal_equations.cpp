@@ -1,9 +1,5 @@
 #include "normal_equations.h"
 
-#include <Eigen/LU>
-#include <algorithm>
-#include <thread>
-
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
@@ -20,10 +16,6 @@ Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& x, const Eigen::Matrix3d& m)
   product.row(1) = x.z() * m.row(0) - x.x() * m.row(2);
   product.row(2) = x.x() * m.row(1) - x.y() * m.row(0);
   return product;
-}
-
-double DampedDiagonal(double value, double damping) {
-  return value + damping * std::clamp(value, 1e-6, 1e32);
 }
 
 }  // namespace
@@ -50,19 +42,6 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
     pieces_[i].first_track = static_cast<int>(i * num_tracks / count);
     pieces_[i].last_track = static_cast<int>((i + 1) * num_tracks / count);
   }
-}
-
-template <class Work>
-void NormalEquations::ForEachPiece(Work&& work) {
-  const int num_pieces = static_cast<int>(pieces_.size());
-  const int num_threads = std::min(num_threads_, num_pieces);
-  const auto run = [&](int thread) {
-    for (int i = thread; i < num_pieces; i += num_threads) work(pieces_[i]);
-  };
-  std::vector<std::thread> others;
-  for (int thread = 1; thread < num_threads; ++thread) others.emplace_back(run, thread);
-  run(0);
-  for (std::thread& other : others) other.join();
 }
 
 double NormalEquations::Linearize(const BundleState& state) {
@@ -180,128 +159,6 @@ double NormalEquations::AddPrior(const BundleState& state) {
   held_.corner += earlier;
   held_.corner_right -= earlier * off;
   return information * state.correction.coefficients_px.squaredNorm() + off.dot(earlier * off);
-}
-
-bool NormalEquations::Solve(double damping, BundleStep& step) {
-  ForEachPiece([&](Piece& piece) { EliminatePiece(damping, piece); });
-  reduced_ = held_;
-  Damp(damping);
-  for (const Piece& piece : pieces_) reduced_ -= piece.sum;
-  if (!solver_.Factorize(reduced_)) return false;
-  step.reduced = solver_.SolveFor(reduced_);
-  if (!step.reduced.allFinite()) return false;
-  FindPointSteps(step);
-  MeasureStep(damping, step);
-  return true;
-}
-
-void NormalEquations::Damp(double damping) {
-  for (int i = 0; i < structure_.num_free_poses(); ++i) {
-    for (double& value : reduced_.blocks[structure_.row_begin[i]].diagonal()) {
-      value = DampedDiagonal(value, damping);
-    }
-  }
-  for (double& value : reduced_.corner.diagonal()) value = DampedDiagonal(value, damping);
-}
-
-void NormalEquations::EliminatePiece(double damping, Piece& piece) {
-  piece.sum.SetZero(structure_, num_coefficients_);
-  const bool with_correction = num_coefficients_ > 0;
-  for (int track = piece.first_track; track < piece.last_track; ++track) {
-    Eigen::Matrix3d damped = point_blocks_[track];
-    for (double& value : damped.diagonal()) value = DampedDiagonal(value, damping);
-    const Eigen::Matrix3d inverse = damped.inverse();
-    point_inverses_[track] = inverse;
-    const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
-    const int last = structure_.tracks[track].last;
-    for (int i = structure_.tracks[track].first; i < last; ++i) {
-      const int row = structure_.sightings[i].free_pose;
-      if (row == BundleStructure::kFixed) continue;
-      piece.sum.right[row].noalias() += sighting_blocks_[i] * inverse_right;
-      const Eigen::Matrix<double, 6, 3> product = sighting_blocks_[i] * inverse;
-      int block = structure_.row_begin[row];
-      for (int j = i; j < last; ++j) {
-        const int column = structure_.sightings[j].free_pose;
-        if (column == BundleStructure::kFixed) continue;
-        block = structure_.FindBlock(row, column, block);
-        piece.sum.blocks[block].noalias() += product * sighting_blocks_[j].transpose();
-      }
-      if (with_correction) piece.sum.border[row].noalias() += product * point_borders_[track];
-    }
-    if (!with_correction) continue;
-    const BorderMatrix<3> product = inverse * point_borders_[track];
-    piece.sum.corner.noalias() += point_borders_[track].transpose() * product;
-    piece.sum.corner_right.noalias() += point_borders_[track].transpose() * inverse_right;
-  }
-}
-
-void NormalEquations::FindPointSteps(BundleStep& step) const {
-  step.points.resize(structure_.tracks.size());
-  const CornerVector correction = step.reduced.tail(num_coefficients_);
-  for (size_t track = 0; track < structure_.tracks.size(); ++track) {
-    Eigen::Vector3d right = point_rights_[track] - point_borders_[track] * correction;
-    for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
-      const int pose = structure_.sightings[i].free_pose;
-      if (pose == BundleStructure::kFixed) continue;
-      right.noalias() -= sighting_blocks_[i].transpose() * step.reduced.segment<6>(6 * pose);
-    }
-    step.points[track] = point_inverses_[track] * right;
-  }
-}
-
-void NormalEquations::MeasureStep(double damping, BundleStep& step) const {
-  // The model promises d^T b + d^T (damping D) d.
-  double decrease = 0;
-  const auto add = [&](const auto& d, const auto& right, const auto& diagonal) {
-    decrease += d.dot(right);
-    for (Eigen::Index i = 0; i < d.size(); ++i) {
-      decrease += d[i] * d[i] * (DampedDiagonal(diagonal[i], damping) - diagonal[i]);
-    }
-  };
-  for (int i = 0; i < structure_.num_free_poses(); ++i) {
-    add(step.reduced.segment<6>(6 * i), held_.right[i],
-        held_.blocks[structure_.row_begin[i]].diagonal());
-  }
-  add(step.reduced.tail(num_coefficients_), held_.corner_right, held_.corner.diagonal());
-  for (size_t track = 0; track < step.points.size(); ++track) {
-    add(step.points[track], point_rights_[track], point_blocks_[track].diagonal());
-  }
-  step.expected_decrease = decrease;
-}
-
-void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
-  // To first order this is BoxPlus and addition. A stretch of the path that turns as a whole must
-  // keep its shape, though, or long paths converge slowly: poses move by the exponential of SE(3),
-  // and a point moves with the first pose that sees it.
-  const std::vector<Rigid3> old = state.camera_from_world;
-  for (int i = 0; i < structure_.num_free_poses(); ++i) {
-    Rigid3& pose = state.camera_from_world[structure_.pose_of_free[i]];
-    const Eigen::Vector3d turn = step.reduced.segment<3>(6 * i);
-    const Eigen::Vector3d shift = step.reduced.segment<3>(6 * i + 3);
-    pose = Rigid3(ExpSO3(turn), Eigen::Vector3d(LeftJacobianSO3(turn) * shift)) * pose;
-  }
-  for (size_t track = 0; track < step.points.size(); ++track) {
-    const BundleStructure::Sighting& host = structure_.sightings[structure_.tracks[track].first];
-    Eigen::Vector3d& point = state.points[structure_.tracks[track].point];
-    if (host.free_pose == BundleStructure::kFixed) {
-      point += step.points[track];
-      continue;
-    }
-    const auto host_step = step.reduced.segment<6>(6 * host.free_pose);
-    const Eigen::Vector3d x = old[host.pose] * point;
-    const Eigen::Vector3d moved_x = x + host_step.head<3>().cross(x) + host_step.tail<3>() +
-                                    old[host.pose].rotation * step.points[track];
-    point = state.camera_from_world[host.pose].Inverse() * moved_x;
-  }
-  if (num_coefficients_ > 0) {
-    state.correction.coefficients_px += step.reduced.tail<kMaxCoefficients>();
-  }
-}
-
-Eigen::MatrixXd NormalEquations::InverseColumns(int first, int count) const {
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(reduced_size(), count);
-  right.middleRows(first, count).setIdentity();
-  return solver_.Solve(right);
 }
 
 }  // namespace arfm_vo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
@@ -49,8 +50,7 @@ class NormalEquations {
     double cost = 0;
     ReducedSystem sum;
   };
-  template <class Work>
-  void ForEachPiece(Work&& work);
+  void ForEachPiece(const std::function<void(Piece&)>& work);
   void LinearizePiece(const BundleState& state, Piece& piece);
   void LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
                          int index, Piece& piece);

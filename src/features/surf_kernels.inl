@@ -1,28 +1,11 @@
-// The kernels of the fast path, compiled once for each instruction set. It includes no header with
-// inline functions, so that no code for a better CPU can leak into the rest of the program.
+// The kernels of the fast path, compiled once for each instruction set (vectors.h).
+#include "arfm_vo/base/vectors.h"
 #include "surf_kernels.h"
 
 namespace arfm_vo {
 namespace {
 
-constexpr int kLanes = 8;
-typedef float Floats __attribute__((vector_size(32)));
-typedef int32_t Ints __attribute__((vector_size(32)));
-typedef uint32_t Words __attribute__((vector_size(32)));
 typedef int64_t Longs __attribute__((vector_size(32)));
-
-template <class V, class T>
-inline V Load(const T* from) {
-  V vector;
-  __builtin_memcpy(&vector, from, sizeof(vector));
-  return vector;
-}
-template <class V, class T>
-inline void Store(const V& vector, T* to) {
-  __builtin_memcpy(to, &vector, sizeof(vector));
-}
-inline Floats Broadcast(float value) { return value - Floats{}; }
-inline Floats ToFloats(const Words& words) { return __builtin_convertvector((Ints)words, Floats); }
 
 /// Differences of rows that the three second derivatives share along a row: what is left to do for
 /// a pixel is a few sums along it. Where every second pixel is wanted, first the values of even
@@ -126,7 +109,7 @@ inline bool IsAny(const Ints& mask) {
 inline Ints IsNotBelow(const Floats& centre, const float* const rows[3], int x) {
   Ints result = ~Ints{};
   for (int row = 0; row < 3; ++row) {
-    for (int dx = -1; dx <= 1; ++dx) result &= centre >= Load<Floats>(rows[row] + x + dx);
+    for (int dx = -1; dx <= 1; ++dx) result &= centre >= Load(rows[row] + x + dx);
   }
   return result;
 }
@@ -135,7 +118,7 @@ int FindPeaks(const float* const rows[9], int begin, int end, float threshold, i
   int num = 0;
   const Floats least = Broadcast(threshold);
   for (int x = begin; x < end; x += kLanes) {
-    const auto at = [x](const float* row) { return Load<Floats>(row + x); };
+    const auto at = [x](const float* row) { return Load(row + x); };
     const Floats centre = at(rows[4]);
     // Few get past the next neighbours, so that the branch is foreseen.
     Ints is_peak = (centre > least) & (centre >= at(rows[4] - 1)) & (centre >= at(rows[4] + 1)) &
@@ -174,7 +157,7 @@ void PlaceSamples(const IntegralView& integral, const SampleGrid& grid, const fl
   const Floats x = Broadcast(grid.x), y = Broadcast(grid.y), step = Broadcast(grid.step);
   const Floats cosine = Broadcast(grid.cosine), sine = Broadcast(grid.sine), one = Broadcast(1);
   for (int i = 0; i < num; i += kLanes) {
-    const Floats along = Load<Floats>(u + i), across = Load<Floats>(v + i);
+    const Floats along = Load(u + i), across = Load(v + i);
     const Ints column = Clamp(Floor(x + step * (cosine * along - sine * across) + one), grid.half,
                               integral.cols - grid.half);
     const Ints row = Clamp(Floor(y + step * (sine * along + cosine * across) + one), grid.half,

@@ -1,31 +1,17 @@
-// The kernels of patches, compiled once for each instruction set. It includes no header with inline
-// functions, so that no code for a better CPU can leak into the rest of the program.
+// The kernels of patches, compiled once for each instruction set (vectors.h).
+#include "arfm_vo/base/vectors.h"
 #include "patch_kernels.h"
 
 namespace arfm_vo {
 namespace {
 
-constexpr int kLanes = 8;
-typedef float Floats __attribute__((vector_size(32)));
-typedef int32_t Ints __attribute__((vector_size(32)));
-typedef uint32_t Words __attribute__((vector_size(32)));
 typedef uint8_t Bytes __attribute__((vector_size(8)));
 
-inline Floats Load(const float* from) {
-  Floats vector;
-  __builtin_memcpy(&vector, from, sizeof(vector));
-  return vector;
-}
-inline void Store(const Floats& vector, float* to) {
-  __builtin_memcpy(to, &vector, sizeof(vector));
-}
 inline Floats LoadPixels(const uint8_t* from) {
   Bytes bytes;
   __builtin_memcpy(&bytes, from, sizeof(bytes));
   return __builtin_convertvector(__builtin_convertvector(bytes, Ints), Floats);
 }
-inline Floats Broadcast(float value) { return value - Floats{}; }
-inline Floats ToFloats(const Words& words) { return __builtin_convertvector((Ints)words, Floats); }
 inline float Sum(const Floats& v) {
   return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
 }

@@ -8,6 +8,7 @@
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/motion_model.h"
+#include "corrected_frame.h"
 
 namespace arfm_vo {
 
@@ -37,7 +38,7 @@ class LocalOdometry::Implementation {
 
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images) {
     Stopwatch stopwatch;
-    const StereoFrame frame = Corrected(measured);
+    const StereoFrame frame = Corrected(measured, camera_, correction_);
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.median_row_residual_px = MedianRowResidual(frame.points);
@@ -100,33 +101,6 @@ class LocalOdometry::Implementation {
     BundleResult result;
     Eigen::MatrixXd information;  ///< FindPoseInformation
   };
-  /// The frame with its points where they are when the right image is displaced as we know.
-  StereoFrame Corrected(StereoFrame frame) const {
-    if (correction_.IsZero()) return frame;
-    const auto is_too_far = [&](StereoPoint& point) {
-      const Eigen::Vector2d right(point.observation.z(),
-                                  point.observation.y() + point.row_residual_px);
-      const double disparity =
-          point.observation.x() - NominalRightPixel(camera_, correction_, right).x();
-      if (!(disparity > point.sigma_px)) return true;
-      point.x_in_camera =
-          camera_.Triangulate(point.observation.x(), point.observation.y(), disparity);
-      return false;
-    };
-    StereoPoints& points = frame.points;
-    points.erase(std::remove_if(points.begin(), points.end(), is_too_far), points.end());
-    return frame;
-  }
-
-  static double MedianRowResidual(const StereoPoints& points) {
-    if (points.empty()) return 0;
-    std::vector<double> residuals;
-    for (const StereoPoint& point : points) residuals.push_back(point.row_residual_px);
-    const auto middle = residuals.begin() + residuals.size() / 2;
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    return *middle;
-  }
-
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
     if (update.pose.num_matches < options_.min_points_to_start) {

@@ -91,11 +91,12 @@ void SurfDescriptorOnly(benchmark::State& state) {
 }
 
 /// Arguments: points, threads, per cent of the image's width and height.
-void SurfWhole(benchmark::State& state, bool upright) {
+void SurfWhole(benchmark::State& state, bool upright, int initial_step) {
   const int threads = static_cast<int>(state.range(1));
   cv::setNumThreads(threads);
   SurfOptions options = Options(static_cast<int>(state.range(0)), threads);
   options.descriptor.upright = upright;
+  options.detector.initial_step = initial_step;
   Surf surf(options);
   cv::Mat image;
   const double factor = static_cast<double>(state.range(2)) / 100;
@@ -192,7 +193,7 @@ void Setup(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(SurfDetector)->Apply(Setup);
 BENCHMARK(SurfDescriptorOnly)->Apply(Setup);
-BENCHMARK_CAPTURE(SurfWhole, oriented, false)
+BENCHMARK_CAPTURE(SurfWhole, oriented, false, 1)
     ->Apply(Setup)
     ->Args({kPoints, 1, 100})
     ->Args({kPoints, 2, 100})
@@ -203,7 +204,8 @@ BENCHMARK_CAPTURE(SurfWhole, oriented, false)
     ->Args({500, 1, 100})
     ->Args({2000, 1, 100})
     ->Args({4000, 1, 100});
-BENCHMARK_CAPTURE(SurfWhole, upright, true)->Apply(Setup)->Args({kPoints, 1, 100});
+BENCHMARK_CAPTURE(SurfWhole, every_second_pixel, false, 2)->Apply(Setup)->Args({kPoints, 1, 100});
+BENCHMARK_CAPTURE(SurfWhole, upright, true, 1)->Apply(Setup)->Args({kPoints, 1, 100});
 BENCHMARK(DlibSurf)->Apply(Setup);
 BENCHMARK_TEMPLATE(OpenCv, cv::SIFT)->Apply(Setup)->Arg(1)->Arg(2);
 BENCHMARK_TEMPLATE(OpenCv, cv::ORB)->Apply(Setup)->Arg(1)->Arg(2);

@@ -58,6 +58,39 @@ TEST(PoseEstimator, DoesNotBelieveAWrongPrediction) {
   EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
 }
 
+/// Another vehicle that fills 45 % of the view and moves exactly as was predicted.
+TEST(PoseEstimator, AMinorityThatFitsThePredictionDoesNotWin) {
+  RandomEngine engine(8);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    Rigid3 wrong = truth;
+    wrong.translation += Eigen::Vector3d(1, 0, 2);
+    auto observations = MakeObservations(truth, 220, 0.5, engine);
+    const auto vehicle = MakeObservations(wrong, 180, 0.5, engine);
+    observations.insert(observations.end(), vehicle.begin(), vehicle.end());
+    const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, wrong, {});
+    ASSERT_TRUE(estimate.IsTracked());
+    EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
+  }
+}
+
+/// Two samples of eight would hardly be without outliers.
+TEST(PoseEstimator, AMajorityNearThePredictionNeedsNoSamples) {
+  RandomEngine engine(9);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  auto observations = MakeObservations(truth, 300, 0.5, engine);
+  SpoilPixels(120, engine, observations);
+  PoseEstimatorOptions options;
+  options.sample_size = 8;
+  options.ransac.max_iterations = options.ransac.min_iterations = 2;
+  Rigid3 near = truth;
+  near.translation += Eigen::Vector3d(0.05, 0, 0.1);
+  const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, near, options);
+  ASSERT_TRUE(estimate.IsTracked());
+  EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
+  EXPECT_GE(estimate.num_inliers, 170);
+}
+
 TEST(PoseEstimator, PassesOverAPredictionThatIsNotFinite) {
   RandomEngine engine(4);
   const Rigid3 truth = RandomPose(engine, 1, 5);

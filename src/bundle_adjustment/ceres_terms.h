@@ -1,0 +1,176 @@
+#pragma once
+
+#include <ceres/ceres.h>
+#include <ceres/version.h>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+
+#include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+
+namespace arfm_vo::ceres_terms {
+
+// A pose is (quaternion x, y, z, w, translation). Its cost functions give their derivatives by the
+// six-vector of BoxPlus in the first six of the seven columns, so that the derivative of Plus is
+// (I, 0)^T and no product is spent on it.
+constexpr int kPoseSize = 7;
+constexpr int kMaxCoefficients = StereoCorrection::kSize;
+using Coefficients = StereoCorrection::Coefficients;
+using PoseArray = std::array<double, kPoseSize>;
+template <int N>
+using RowMajor = Eigen::Matrix<double, N, kPoseSize, Eigen::RowMajor>;
+
+inline Rigid3 PoseOf(const double* pose) {
+  return {Eigen::Quaterniond(pose[3], pose[0], pose[1], pose[2]),
+          Eigen::Vector3d(pose[4], pose[5], pose[6])};
+}
+
+inline void SetPose(const Rigid3& rigid, double* pose) {
+  Eigen::Map<Eigen::Vector4d>(pose + 0) = rigid.rotation.coeffs();
+  Eigen::Map<Eigen::Vector3d>(pose + 4) = rigid.translation;
+}
+
+#if CERES_VERSION_MAJOR > 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR >= 1)
+class PoseManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return kPoseSize; }
+  int TangentSize() const override { return 6; }
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, kPoseSize, 6, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* step) const override {
+    const Rigid3 difference = PoseOf(y) * PoseOf(x).Inverse();
+    Eigen::Map<Eigen::Vector3d>(step + 0) = LogSO3(difference.rotation);
+    Eigen::Map<Eigen::Vector3d>(step + 3) = difference.translation;
+    return true;
+  }
+  bool MinusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 6, kPoseSize, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+#else  // Ceres 1.14 to 2.0
+class PoseManifold : public ceres::LocalParameterization {
+ public:
+  int GlobalSize() const override { return kPoseSize; }
+  int LocalSize() const override { return 6; }
+  bool ComputeJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, kPoseSize, 6, Eigen::RowMajor>>(jacobian).setIdentity();
+    return true;
+  }
+#endif
+  bool Plus(const double* pose, const double* step, double* moved) const override {
+    SetPose(BoxPlus(PoseOf(pose), Eigen::Map<const Eigen::Matrix<double, 6, 1>>(step)), moved);
+    return true;
+  }
+};
+
+/// ReprojectionTerm, N = 4 rows, or 2 without a right pixel. Parameters: pose, point, correction.
+template <int N>
+class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, kMaxCoefficients> {
+ public:
+  ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation)
+      : camera_(camera), observation_(observation) {}
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Rigid3 pose = PoseOf(parameters[0]);
+    const bool with_correction = jacobians != nullptr && jacobians[2] != nullptr;
+    const ReprojectionModel model(camera_, {Coefficients(parameters[2])}, with_correction);
+    const Eigen::Vector3d point(parameters[1]);
+    ReprojectionTerm term;
+    if (jacobians == nullptr) {
+      model.Evaluate(observation_, pose.RotationMatrix(), pose.translation, point, term.residual);
+    } else {
+      model.Linearize(observation_, pose.RotationMatrix(), pose.translation, point, term);
+    }
+    Eigen::Map<Eigen::Matrix<double, N, 1>>(residuals + 0) = term.residual.template head<N>();
+    if (jacobians != nullptr) SetJacobians(term, pose.RotationMatrix(), jacobians);
+    return true;
+  }
+
+ private:
+  void SetJacobians(const ReprojectionTerm& term, const Eigen::Matrix3d& rotation,
+                    double** jacobians) const {
+    using Matrix3 = Eigen::Matrix<double, N, 3, Eigen::RowMajor>;
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<RowMajor<N>>(jacobians[0]) << term.ByPose().template topRows<N>(),
+          Eigen::Matrix<double, N, 1>::Zero();
+    }
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Matrix3>(jacobians[1] + 0) = term.ByPoint(rotation).template topRows<N>();
+    }
+    if (jacobians[2] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, N, kMaxCoefficients, Eigen::RowMajor>>(jacobians[2] + 0) =
+          term.ByCorrection().template topRows<N>();
+    }
+  }
+
+  const StereoCamera& camera_;
+  const BundleObservation& observation_;
+};
+
+/// sqrt(Omega) e of a PoseConstraint. Parameters: first pose, second pose.
+class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> {
+ public:
+  explicit ConstraintCost(const PoseConstraint& constraint)
+      : constraint_(constraint), root_(SquareRootOf(constraint.information)) {}
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const ConstraintTerm term =
+        LinearizeConstraint(constraint_, PoseOf(parameters[0]), PoseOf(parameters[1]));
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(residuals + 0) = root_ * term.residual;
+    if (jacobians == nullptr) return true;
+    for (const int i : {0, 1}) {
+      if (jacobians[i] == nullptr) continue;
+      Eigen::Map<RowMajor<6>>(jacobians[i]) << root_ * (i == 0 ? term.by_first : term.by_second),
+          Eigen::Matrix<double, 6, 1>::Zero();
+    }
+    return true;
+  }
+
+ private:
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  static Matrix6d SquareRootOf(const Matrix6d& information) {
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
+    return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+           solver.eigenvectors().transpose();
+  }
+
+  const PoseConstraint& constraint_;
+  const Matrix6d root_;
+};
+
+/// Of the correction's coefficients k: k / sigma, and the root of the earlier information times
+/// what k is off the earlier mean.
+class CorrectionPriorCost
+    : public ceres::SizedCostFunction<2 * kMaxCoefficients, kMaxCoefficients> {
+ public:
+  CorrectionPriorCost(double sigma, const CorrectionPrior& earlier) : mean_(earlier.mean_px) {
+    const Eigen::SelfAdjointEigenSolver<CorrectionPrior::Information> eigen(earlier.information);
+    roots_.topRows<kMaxCoefficients>().setIdentity();
+    roots_.topRows<kMaxCoefficients>() /= sigma;
+    roots_.bottomRows<kMaxCoefficients>() =
+        eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::Map<const Coefficients> k(parameters[0]);
+    Eigen::Map<Eigen::Matrix<double, 2 * kMaxCoefficients, 1>> residual(residuals);
+    residual = roots_ * k;
+    residual.tail<kMaxCoefficients>() -= roots_.bottomRows<kMaxCoefficients>() * mean_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Roots>(jacobians[0] + 0) = roots_;
+    }
+    return true;
+  }
+
+ private:
+  using Roots = Eigen::Matrix<double, 2 * kMaxCoefficients, kMaxCoefficients, Eigen::RowMajor>;
+  Roots roots_;
+  const Coefficients mean_;
+};
+
+}  // namespace arfm_vo::ceres_terms

@@ -1,0 +1,34 @@
+#include "corrected_frame.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace arfm_vo {
+
+StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
+                      const StereoCorrection& correction) {
+  if (correction.IsZero()) return frame;
+  const auto is_too_far = [&](StereoPoint& point) {
+    const Eigen::Vector2d right(point.observation.z(),
+                                point.observation.y() + point.row_residual_px);
+    const double disparity =
+        point.observation.x() - NominalRightPixel(camera, correction, right).x();
+    if (!(disparity > point.sigma_px)) return true;
+    point.x_in_camera = camera.Triangulate(point.observation.x(), point.observation.y(), disparity);
+    return false;
+  };
+  StereoPoints& points = frame.points;
+  points.erase(std::remove_if(points.begin(), points.end(), is_too_far), points.end());
+  return frame;
+}
+
+double MedianRowResidual(const StereoPoints& points) {
+  if (points.empty()) return 0;
+  std::vector<double> residuals;
+  for (const StereoPoint& point : points) residuals.push_back(point.row_residual_px);
+  const auto middle = residuals.begin() + residuals.size() / 2;
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  return *middle;
+}
+
+}  // namespace arfm_vo
