@@ -97,28 +97,44 @@ PoseRefinement Agree(const Consensus& consensus, const StereoCamera& camera,
                      const std::vector<PointObservation>& observations,
                      const std::optional<Rigid3>& predicted, const PoseEstimatorOptions& options) {
   const int num_observations = static_cast<int>(observations.size());
+  std::vector<char> agrees(observations.size());
   std::vector<Rigid3> near;  // hypotheses that are tried before those of samples
   if (predicted && predicted->IsFinite()) {
     near.push_back(*predicted);
     const PoseRefinement refined = RefinePose(camera, observations, *predicted, options.refinement);
     if (refined.status == RefinementStatus::kConverged) {
       near.push_back(refined.camera_from_world);
-      std::vector<char> agrees(observations.size());
       consensus.Classify(near.back(), agrees);
       // No other pose can have more than the rest.
       if (2 * std::count(agrees.begin(), agrees.end(), 1) > num_observations) return refined;
     }
   }
+  PoseRefinementOptions briefly = options.refinement;
+  briefly.max_rounds = 1;
+  double best_score = 0;
   const auto consent = Ransac<Rigid3>(
       num_observations, options.sample_size, options.ransac,
       [&](const std::vector<int>& sample) -> std::optional<Rigid3> {
-        if (near.empty()) return consensus.Hypothesis(sample);
-        const Rigid3 hypothesis = near.back();
-        near.pop_back();
-        return hypothesis;
+        if (!near.empty()) {
+          const Rigid3 hypothesis = near.back();
+          near.pop_back();
+          return hypothesis;
+        }
+        const std::optional<Rigid3> hypothesis = consensus.Hypothesis(sample);
+        // A promising one is refined (Chum, Matas, Kittler 2003): a few noisy points would else
+        // lose against a refined prediction with fewer friends.
+        if (!hypothesis || consensus.Classify(*hypothesis, agrees) < best_score / 2) {
+          return hypothesis;
+        }
+        const PoseRefinement refined =
+            RefinePose(camera, observations, *hypothesis, briefly, agrees);
+        return refined.status == RefinementStatus::kConverged ? refined.camera_from_world
+                                                              : hypothesis;
       },
       [&](const Rigid3& model, std::vector<char>& flags) {
-        return consensus.Classify(model, flags);
+        const double score = consensus.Classify(model, flags);
+        best_score = std::max(best_score, score);
+        return score;
       });
   if (!consent) return {};
   return RefinePose(camera, observations, consent->model, options.refinement, consent->is_inlier);

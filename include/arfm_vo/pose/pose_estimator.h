@@ -32,9 +32,10 @@ struct PoseEstimatorOptions {
 
 /// The camera's pose from points of the map and where it sees them: EPnP inside RANSAC with the
 /// score of MSAC (Torr and Zisserman 2000) on the stereo reprojection errors in units of their
-/// standard deviation, then RefinePose on the inliers. `predicted_camera_from_world`, as it
-/// is and refined, makes two hypotheses more, and nothing else is tried where more than half of the
-/// observations agree with the refined one; it is never needed and never trusted.
+/// standard deviation, promising hypotheses refined (Chum, Matas, Kittler 2003), then RefinePose on
+/// the inliers. `predicted_camera_from_world`, as it is and refined, makes two hypotheses more, and
+/// nothing else is tried where more than half of the observations agree with the refined one; it
+/// is never needed and never trusted.
 /// Status kTooFewMatches below min_inliers observations, kNoConsensus where too few agree.
 /// `is_inlier`, if not null, becomes [N]: what agrees with the pose; all 0 where there is none.
 /// Throws std::invalid_argument for wrong options and for observations that are not IsValid().
