@@ -45,7 +45,7 @@ echo '{adjust_globally: true}' > "$work/4.yaml"
         "$programs/kitti_odometry" "$folder" --stride $stride --config "$work/$i.yaml" > "$work/lines" 2> "$work/errors" ||
           { cat "$work/errors" >&2; exit 1; }
         row+=" | $(awk -F': ' '$1 == "t_rel_short_percent" {s = $2} $1 == "ate_rmse_m" {a = $2} $1 == "lost" {l = $2}
-                              END {printf "%.2f / %.3f%s", s, a, l > 0 ? " (" l " lost)" : ""}' "$work/lines")"
+                              END {printf "%.2f / %.3f%s", s, a, (l > 0 ? " (" l " lost)" : "")}' "$work/lines")"
       done
     done
     if [ "$i" = 3 ]; then
