@@ -2,9 +2,8 @@
 
 #include <arfm_vo/MapUpdateStamped.h>
 #include <nav_msgs/Path.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
@@ -24,7 +23,6 @@ void BaNodeOptions::Check() const {
   Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
   Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
   Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
-  Require(niceness >= 0 && niceness <= 19, "niceness must be in 0..19");
   Require(max_path_poses >= 2, "max_path_poses must be at least 2");
 }
 
@@ -42,10 +40,15 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
         told_.Set(figures_);
         ROS_ERROR_THROTTLE(5, "keyframe refused: %s", error.what());
       }) {
-  // Linux gives each thread its own niceness, and a new thread that of its maker.
-  worker_.Post([niceness = options_.niceness] {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), niceness);
-  });
+  // A niced thread would still keep a thread that wakes up waiting for some ms, time and again. On
+  // Linux each thread has its own policy, and a new thread that of its maker.
+  if (options_.idle_priority) {
+    worker_.Post([] {
+      const sched_param none{};
+      if (pthread_setschedparam(pthread_self(), SCHED_IDLE, &none) != 0)
+        ROS_WARN("the adjusting thread keeps its priority");
+    });
+  }
   diagnostics_.setHardwareID("arfm_vo");
   diagnostics_.add("global adjustment", [this](auto& status) { Report(status); });
   keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,

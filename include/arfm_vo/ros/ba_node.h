@@ -22,7 +22,8 @@ struct BaNodeOptions {
   double tf_rate_hz = 20;
   double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
   double max_time_share = 0.15;  ///< of the wall time that adjusting may take
-  int niceness = 19;             ///< of the adjusting thread, so that no pose waits for it
+  bool idle_priority = true;  ///< adjust only while nobody else wants the CPU (SCHED_IDLE), so that
+                              ///< no pose waits for it
   int max_path_poses = 1000;
   std::string trajectory_dir;  ///< the keyframes are saved here at the end; empty: nowhere
 
@@ -36,7 +37,7 @@ struct BaNodeOptions {
     visit("tf_rate_hz", tf_rate_hz);
     visit("tf_tolerance_s", tf_tolerance_s);
     visit("max_time_share", max_time_share);
-    visit("niceness", niceness);
+    visit("idle_priority", idle_priority);
     visit("max_path_poses", max_path_poses);
     visit("trajectory_dir", trajectory_dir);
   }
