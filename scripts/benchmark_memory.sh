@@ -40,5 +40,5 @@ for folder in "${folders[@]}"; do
   }
   early=$(around 200) end=$(around $((pairs - 50)))
   echo "| $(basename "$folder") | $pairs | $(value lost) | $early | $(around 500) | $(around 1000) | $end" \
-    "| $(awk -v a="$early" -v b="$end" 'BEGIN {printf "%.3f", a > 0 ? b / a : 0}') | $(value peak_rss_mb) |"
+    "| $(awk -v a="$early" -v b="$end" 'BEGIN {printf "%.3f", (a > 0 ? b / a : 0)}') | $(value peak_rss_mb) |"
 done
