@@ -111,30 +111,25 @@ PoseRefinement Agree(const Consensus& consensus, const StereoCamera& camera,
   }
   PoseRefinementOptions briefly = options.refinement;
   briefly.max_rounds = 1;
-  double best_score = 0;
+  bool is_sampled = false;
   const auto consent = Ransac<Rigid3>(
       num_observations, options.sample_size, options.ransac,
       [&](const std::vector<int>& sample) -> std::optional<Rigid3> {
-        if (!near.empty()) {
-          const Rigid3 hypothesis = near.back();
-          near.pop_back();
-          return hypothesis;
-        }
-        const std::optional<Rigid3> hypothesis = consensus.Hypothesis(sample);
-        // A promising one is refined (Chum, Matas, Kittler 2003): a few noisy points would else
-        // lose against a refined prediction with fewer friends.
-        if (!hypothesis || consensus.Classify(*hypothesis, agrees) < best_score / 2) {
-          return hypothesis;
-        }
-        const PoseRefinement refined =
-            RefinePose(camera, observations, *hypothesis, briefly, agrees);
-        return refined.status == RefinementStatus::kConverged ? refined.camera_from_world
-                                                              : hypothesis;
+        is_sampled = near.empty();
+        if (is_sampled) return consensus.Hypothesis(sample);
+        const Rigid3 hypothesis = near.back();
+        near.pop_back();
+        return hypothesis;
       },
       [&](const Rigid3& model, std::vector<char>& flags) {
-        const double score = consensus.Classify(model, flags);
-        best_score = std::max(best_score, score);
-        return score;
+        return consensus.Classify(model, flags);
+      },
+      // A few noisy points would else lose against a refined prediction with fewer friends.
+      [&](const Rigid3& model, const std::vector<char>& flags) -> std::optional<Rigid3> {
+        if (!is_sampled) return std::nullopt;
+        const PoseRefinement refined = RefinePose(camera, observations, model, briefly, flags);
+        if (refined.status != RefinementStatus::kConverged) return std::nullopt;
+        return refined.camera_from_world;
       });
   if (!consent) return {};
   return RefinePose(camera, observations, consent->model, options.refinement, consent->is_inlier);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "arfm_vo/base/check.h"
@@ -45,11 +46,13 @@ struct RansacReport {
 ///   indices below N classify(const Model&, std::vector<char>& is_inlier) -> double     fills [N]
 ///   flags, returns a score: the sum
 ///       over all data of a truncated quality in [0, 1] (MSAC); the highest wins
+///   improve(const Model&, const std::vector<char>& is_inlier) -> std::optional<Model>   a better
+///       model for one with at least half of the best score (Chum, Matas, Kittler 2003), or nothing
 /// Nothing is returned where N < sample_size or no sample gave a model.
-template <class Model, class Estimate, class Classify>
+template <class Model, class Estimate, class Classify, class Improve>
 std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
                                           const RansacOptions& options, Estimate&& estimate,
-                                          Classify&& classify) {
+                                          Classify&& classify, Improve&& improve) {
   if (num_data < sample_size) return std::nullopt;
   RandomEngine engine(options.seed);
   std::optional<RansacReport<Model>> best;
@@ -62,9 +65,15 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
       do sample[i] = static_cast<int>(RandomBelow(num_data, engine));
       while (std::find(sample.begin(), sample.begin() + i, sample[i]) != sample.begin() + i);
     }
-    const std::optional<Model> model = estimate(sample);
+    std::optional<Model> model = estimate(sample);
     if (!model) continue;
-    const double score = classify(*model, is_inlier);
+    double score = classify(*model, is_inlier);
+    if (score >= best_score / 2) {
+      if (std::optional<Model> improved = improve(*model, is_inlier)) {
+        model = std::move(improved);
+        score = classify(*model, is_inlier);
+      }
+    }
     if (score <= best_score) continue;
     best_score = score;
     const int num_inliers = static_cast<int>(std::count(is_inlier.begin(), is_inlier.end(), 1));
@@ -79,6 +88,17 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
     }
   }
   return best;
+}
+
+/// The same, where a sample's model is as good as it gets.
+template <class Model, class Estimate, class Classify>
+std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
+                                          const RansacOptions& options, Estimate&& estimate,
+                                          Classify&& classify) {
+  return Ransac<Model>(
+      num_data, sample_size, options, std::forward<Estimate>(estimate),
+      std::forward<Classify>(classify),
+      [](const Model&, const std::vector<char>&) { return std::optional<Model>(); });
 }
 
 }  // namespace arfm_vo
