@@ -10,10 +10,12 @@ constexpr int kReadAhead = 16;  ///< values that a vector load may touch beyond 
 void IntegralImage::Compute(const cv::Mat& grey) {
   Require(!grey.empty(), "integral image: the image is empty");
   Require(grey.type() == CV_8UC1, "integral image: the image must be 8 bit grey");
-  rows_ = grey.rows;
-  cols_ = grey.cols;
-  stride_ = cols_ + 1 + kReadAhead;
-  sums_.assign(static_cast<size_t>(rows_ + 1) * stride_ + kReadAhead, 0);
+  if (grey.rows != rows_ || grey.cols != cols_) {
+    rows_ = grey.rows;
+    cols_ = grey.cols;
+    stride_ = cols_ + 1 + kReadAhead;
+    sums_.assign(static_cast<size_t>(rows_ + 1) * stride_ + kReadAhead, 0);
+  }  // else the first row, the first column and what lies beyond the last are 0 already
   for (int y = 0; y < rows_; ++y) {
     const uint8_t* pixels = grey.ptr(y);
     const uint32_t* above = row(y);

@@ -11,6 +11,8 @@ namespace arfm_vo {
 namespace {
 
 constexpr int kSize = Patch::kSize;
+/// A patch is not sheared anew where no sample would move by more.
+constexpr float kMinShiftPx = 0.1f;
 
 /// Left pixel steps of right pixel steps where the disparity has the given gradient.
 cv::Matx22f LeftFromRight(const cv::Vec2f& disparity_gradient) {
@@ -55,6 +57,10 @@ SlantAlignment SlantAligner::Align(const cv::Mat& left, const cv::Point2f& centr
     left_from_right = left_from_right * cv::Matx22f(1 + shear[0], shear[1], 0, 1);
     const cv::Vec2f gradient = DisparityGradient(left_from_right);
     if (!(std::max(std::abs(gradient[0]), std::abs(gradient[1])) < options_.max_gradient)) break;
+    if (Patch::kHalfSpan * (std::abs(shear[0]) + std::abs(shear[1])) < kMinShiftPx) {
+      best.disparity_gradient = gradient;
+      break;
+    }
     const auto slanted = Patch::Sample(left, centre, LeftFromRight(gradient));
     if (!slanted) break;
     patch = *slanted;

@@ -9,6 +9,7 @@
 
 #include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/reprojection.h"
+#include "pose_equations.h"
 
 namespace arfm_vo {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kBehindCamera = 1e12;  ///< squared error of a point that cannot be seen
 /// Expected fall of the cost at which a search ends: a tenth of the pose's standard deviation while
 /// the inliers may change, a thousandth at the end.
 constexpr double kRoughly = 1e-2, kEnough = 1e-6;
@@ -36,9 +36,8 @@ struct ResidualModel {
                                                   options.inlier_probability)) {}
 };
 
-struct NormalEquations {
-  Matrix6d hessian = Matrix6d::Zero();   ///< J^T W J
-  Vector6d gradient = Vector6d::Zero();  ///< J^T W r
+/// The normal equations with the cost.
+struct Linearization : PoseNormalEquations {
   double cost = 0;
 };
 
@@ -60,8 +59,9 @@ class Refiner {
         observations_(observations),
         options_(options),
         models_{ResidualModel(options, 2), ResidualModel(options, 3)},
-        information_(observations.size()),
-        squared_(observations.size()) {
+        equations_(camera, observations),
+        squared_(observations.size()),
+        weights_(observations.size()) {
     result_.camera_from_world = camera_from_world;
     result_.is_inlier = is_inlier;
     if (is_inlier.empty()) result_.is_inlier.assign(observations.size(), 1);
@@ -100,17 +100,9 @@ class Refiner {
 
   /// The information of each residual, and its squared norm, at the present pose.
   void UpdateInformation() {
-    const Eigen::Matrix3d rotation = result_.camera_from_world.RotationMatrix();
-    for (size_t i = 0; i < observations_.size(); ++i) {
-      const Eigen::Vector3d x =
-          rotation * observations_[i].x_in_world + result_.camera_from_world.translation;
-      squared_[i] = kBehindCamera;
-      information_[i].setZero();
-      if (!(x.z() > kMinDepth)) continue;
-      information_[i] = ReprojectionInformation(camera_, observations_[i], rotation, x);
-      const Eigen::Vector3d error = ReprojectionError(camera_, observations_[i], x);
-      squared_[i] = error.dot(information_[i] * error);
-    }
+    equations_.UpdateInformation(result_.camera_from_world);
+    std::copy_n(equations_.SquareErrors(result_.camera_from_world), squared_.size(),
+                squared_.begin());
   }
 
   void MeasureScale(double max_scale) {
@@ -139,49 +131,24 @@ class Refiner {
     return is_same;
   }
 
-  NormalEquations Linearize(const Rigid3& camera_from_world) const {
-    NormalEquations equations;
-    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
+  Linearization Linearize(const Rigid3& camera_from_world) {
     const double inverse_variance = 1 / (result_.scale * result_.scale);
-    Eigen::Matrix3d rotation_block = Eigen::Matrix3d::Zero(), mixed_block = rotation_block,
-                    translation_block = rotation_block;
-    Eigen::Vector3d torque = Eigen::Vector3d::Zero(), force = torque;
+    LossSum sums[] = {LossSum(models_[0].loss), LossSum(models_[1].loss)};
+    const double* squared = equations_.SquareErrors(camera_from_world);
     for (size_t i = 0; i < observations_.size(); ++i) {
+      weights_[i] = 0;
       if (!result_.is_inlier[i]) continue;
-      const Eigen::Vector3d x =
-          rotation * observations_[i].x_in_world + camera_from_world.translation;
-      const RobustLoss& loss = ModelOf(i).loss;
-      if (!(x.z() > kMinDepth)) {
-        equations.cost += loss.Rho(kBehindCamera);
-        continue;
-      }
-      const Eigen::Vector3d error = ReprojectionError(camera_, observations_[i], x);
-      const Eigen::Vector3d whitened = information_[i] * error;
-      const double s = error.dot(whitened) * inverse_variance;
-      equations.cost += loss.Rho(s);
-      const double weight = loss.Weight(s) * inverse_variance;
-      // With A the derivative by the point and M = A^T S^-1 A, the derivative by the step is
-      // A [-x]x for the rotation and A for the translation.
-      const Eigen::Matrix3d a = ProjectionJacobian(camera_, x);
-      const Eigen::Vector3d pull = weight * (a.transpose() * whitened);
-      const Eigen::Matrix3d m = weight * (a.transpose() * (information_[i] * a));
-      const Eigen::Matrix3d skew = Skew(x);
-      const Eigen::Matrix3d mixed = skew * m;
-      force += pull;
-      torque += x.cross(pull);
-      translation_block += m;
-      mixed_block += mixed;
-      rotation_block += mixed * skew.transpose();
+      const double s = squared[i] < kBehindCamera ? squared[i] * inverse_variance : kBehindCamera;
+      sums[observations_[i].has_right].Add(s);
+      weights_[i] = ModelOf(i).loss.Weight(s) * inverse_variance;
     }
-    equations.hessian << rotation_block, mixed_block, mixed_block.transpose(), translation_block;
-    equations.gradient << torque, force;
-    return equations;
+    return {equations_.Accumulate(camera_from_world, weights_), sums[0].Sum() + sums[1].Sum()};
   }
 
   /// Iterates to the minimum for fixed inliers, scale and information. Returns false, with the
   /// status, where the points do not fix the pose.
   bool Iterate(double enough) {
-    NormalEquations equations = Linearize(result_.camera_from_world);
+    Linearization equations = Linearize(result_.camera_from_world);
     double damping = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       const std::optional<Vector6d> step = Solve(equations, damping);
@@ -192,7 +159,7 @@ class Refiner {
       ++result_.num_iterations;
       const Rigid3 moved = BoxPlus(result_.camera_from_world, *step);
       const double expected = equations.gradient.dot(*step);
-      const NormalEquations moved_equations = Linearize(moved);
+      const Linearization moved_equations = Linearize(moved);
       if (moved_equations.cost <= equations.cost) {
         result_.camera_from_world = moved;
         equations = moved_equations;
@@ -208,7 +175,7 @@ class Refiner {
   }
 
   /// The step of the damped equations, scaled to a unit diagonal.
-  std::optional<Vector6d> Solve(const NormalEquations& equations, double damping) const {
+  std::optional<Vector6d> Solve(const Linearization& equations, double damping) const {
     if (!IsFullRank(equations.hessian)) return std::nullopt;
     const Vector6d scale = equations.hessian.diagonal().cwiseSqrt().cwiseInverse();
     Matrix6d scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
@@ -222,9 +189,9 @@ class Refiner {
   bool FindCovariance() {
     const Eigen::Matrix3d rotation = result_.camera_from_world.RotationMatrix();
     const double inverse_variance = 1 / (result_.scale * result_.scale);
-    Matrix6d hessian = Matrix6d::Zero();
     double slope = 0, square = 0, num_coordinates = 0, squared_px = 0;
     for (size_t i = 0; i < observations_.size(); ++i) {
+      weights_[i] = result_.is_inlier[i] ? inverse_variance : 0;
       if (!result_.is_inlier[i]) continue;
       const ResidualModel& model = ModelOf(i);
       const int k = observations_[i].NumCoordinates();
@@ -236,11 +203,8 @@ class Refiner {
       const Eigen::Vector3d x =
           rotation * observations_[i].x_in_world + result_.camera_from_world.translation;
       squared_px += ReprojectionError(camera_, observations_[i], x).squaredNorm();
-      const Eigen::Matrix3d a = ProjectionJacobian(camera_, x);
-      Eigen::Matrix<double, 3, 6> jacobian;
-      jacobian << -a * Skew(x), a;
-      hessian += inverse_variance * jacobian.transpose() * information_[i] * jacobian;
     }
+    const Matrix6d hessian = equations_.Accumulate(result_.camera_from_world, weights_).hessian;
     result_.rms_px = std::sqrt(squared_px / num_coordinates);
     const double freedom = std::max(1.0, num_coordinates - 6);
     // The stated noise stands in where the residuals are too small or too few to tell.
@@ -262,8 +226,9 @@ class Refiner {
   const std::vector<PointObservation>& observations_;
   const PoseRefinementOptions& options_;
   const ResidualModel models_[2];
-  std::vector<Eigen::Matrix3d> information_;
-  std::vector<double> squared_;
+  PoseEquations equations_;
+  std::vector<double> squared_;  ///< [N], at the present pose
+  std::vector<double> weights_;  ///< [N]
   std::vector<double> scratch_;
   PoseRefinement result_;
 };

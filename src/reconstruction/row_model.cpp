@@ -17,7 +17,9 @@ constexpr double kPriorSigmaPx[] = {2, 2, 2, 2, 1, 1};
 constexpr double kRobustWidth = 2;
 /// No sample is trusted more than this.
 constexpr double kMinSigmaPx = 0.1;
-constexpr int kNumIterations = 10;
+constexpr int kMaxIterations = 10;
+/// Iterations end when no prediction moves by more.
+constexpr double kConvergedPx = 1e-3;
 
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + values.size() / 2;
@@ -67,7 +69,7 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
   }
   Information information;
   Terms weighted_sum;
-  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     MeasureSpread(samples);
     information = information_;
     weighted_sum = weighted_sum_;
@@ -80,7 +82,9 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
       information += weight * terms * terms.transpose();
       weighted_sum += weight * sample.residual_px * terms;
     }
+    const Terms last = coefficients_;
     coefficients_ = information.ldlt().solve(weighted_sum);
+    if ((coefficients_ - last).lpNorm<1>() < kConvergedPx) break;  // terms are in [-1, 1]
   }
   MeasureSpread(samples);
   num_samples_ += static_cast<double>(samples.size());

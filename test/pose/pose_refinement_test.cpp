@@ -41,42 +41,6 @@ void ExpectHonest(double mean_nees, int count) {
   EXPECT_LT(mean_nees, ChiSquareQuantile(6 * count, 0.975) / count);
 }
 
-TEST(Reprojection, JacobianAgreesWithNumericDerivatives) {
-  RandomEngine engine(1);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::Vector3d x = RandomVisiblePoint(engine, 2, 40);
-    const Eigen::Matrix3d jacobian = ProjectionJacobian(kSceneCamera, x);
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d step = 1e-5 * Eigen::Vector3d::Unit(i);
-      const Eigen::Vector3d numeric =
-          (kSceneCamera.ProjectStereo(x + step) - kSceneCamera.ProjectStereo(x - step)) / 2e-5;
-      EXPECT_LT((jacobian.col(i) - numeric).norm(), 1e-5 * (1 + numeric.norm()));
-    }
-  }
-}
-
-TEST(Reprojection, InformationOfAnExactPointIsThatOfThePixels) {
-  PointObservation observation;
-  observation.sigma_px = 0.5;
-  const Eigen::Vector3d x(1, 2, 10);
-  EXPECT_EQ(ReprojectionInformation(kSceneCamera, observation, Eigen::Matrix3d::Identity(), x),
-            Eigen::Matrix3d(4 * Eigen::Matrix3d::Identity()));
-  observation.has_right = false;
-  EXPECT_EQ(ReprojectionInformation(kSceneCamera, observation, Eigen::Matrix3d::Identity(), x),
-            Eigen::Matrix3d(Eigen::Vector3d(4, 4, 0).asDiagonal()));
-}
-
-TEST(Reprojection, SpreadOfThePointAlongTheRayWidensTheRightPixelAlone) {
-  PointObservation observation;  // on the optical axis: depth changes disparity, not (u, v)
-  observation.x_covariance = Eigen::Vector3d(0, 0, 0.25).asDiagonal();
-  const Eigen::Matrix3d information = ReprojectionInformation(
-      kSceneCamera, observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 10));
-  const double slope = 707 * 0.54 / 100;  // px per m
-  EXPECT_NEAR(information(2, 2), 1 / (1 + 0.25 * slope * slope), 1e-12);
-  EXPECT_NEAR(information(0, 0), 1, 1e-12);
-  EXPECT_NEAR(information(0, 2), 0, 1e-12);
-}
-
 TEST(PoseRefinement, IsExactWithoutNoise) {
   RandomEngine engine(2);
   for (const StepKind step : {StepKind::kGaussNewton, StepKind::kLevenbergMarquardt}) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 namespace arfm_vo {
-/// Vectors of eight lanes for kernels that are compiled once for each instruction set. Nameless, so
+/// Vectors of 32 bytes for kernels that are compiled once for each instruction set. Nameless, so
 /// that no code for a better CPU can leak into the rest of the program; it includes no header with
 /// inline functions for the same reason.
 namespace {
@@ -12,6 +12,7 @@ constexpr int kLanes = 8;
 typedef float Floats __attribute__((vector_size(32)));
 typedef int32_t Ints __attribute__((vector_size(32)));
 typedef uint32_t Words __attribute__((vector_size(32)));
+typedef double Doubles __attribute__((vector_size(32)));  ///< four lanes
 
 template <class V = Floats, class T>
 inline V Load(const T* from) {

@@ -32,11 +32,4 @@ inline Eigen::Matrix3d ProjectionJacobian(const StereoCamera& camera,
   return jacobian;
 }
 
-/// The inverse S^-1 of the covariance S = sigma^2 I + J R P R^T J^T of a reprojection error, with P
-/// the covariance of the point in the world. Third row and column are zero without a right pixel.
-Eigen::Matrix3d ReprojectionInformation(const StereoCamera& camera,
-                                        const PointObservation& observation,
-                                        const Eigen::Matrix3d& rotation_camera_from_world,
-                                        const Eigen::Vector3d& x_in_camera);
-
 }  // namespace arfm_vo

@@ -75,8 +75,38 @@ class RobustLoss {
   }
 
  private:
+  friend class LossSum;
+
   LossKind kind_;
   double threshold_squared_;
+};
+
+/// A sum of losses rho(s). Logarithms are taken of products, which is one for many values.
+class LossSum {
+ public:
+  explicit LossSum(const RobustLoss& loss) : loss_(loss) {}
+
+  void Add(double s) {
+    if (loss_.kind_ != LossKind::kCauchy) {
+      sum_ += loss_.Rho(s);
+      return;
+    }
+    product_ *= 1 + s / loss_.threshold_squared_;
+    if (product_ > 1e100) TakeLogarithm();
+  }
+  double Sum() {
+    if (loss_.kind_ == LossKind::kCauchy) TakeLogarithm();
+    return sum_;
+  }
+
+ private:
+  void TakeLogarithm() {
+    sum_ += loss_.threshold_squared_ * std::log(product_);
+    product_ = 1;
+  }
+
+  const RobustLoss& loss_;
+  double sum_ = 0, product_ = 1;
 };
 
 }  // namespace arfm_vo
