@@ -143,12 +143,14 @@ void LocalMap::RemoveOldestKeyframe() {
   for (const LandmarkObservation& observation : removed.observations) {
     const auto found = landmarks_.find(observation.landmark);
     if (found == landmarks_.end()) continue;
-    if (--found->second.num_keyframes == 0) {
-      landmarks_.erase(found);
-    } else if (found->second.reference == removed.id) {
+    if (--found->second.num_keyframes > 0 && found->second.reference == removed.id) {
       MoveReference(found->second);
     }
   }
+  Landmarks::sequence_type all = landmarks_.extract_sequence();  // removes many in one go
+  const auto is_unseen = [](const auto& entry) { return entry.second.num_keyframes == 0; };
+  all.erase(std::remove_if(all.begin(), all.end(), is_unseen), all.end());
+  landmarks_.adopt_sequence(boost::container::ordered_unique_range, std::move(all));
 }
 
 void LocalMap::MoveReference(Landmark& landmark) const {

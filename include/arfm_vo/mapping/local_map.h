@@ -1,7 +1,7 @@
 #pragma once
 
+#include <boost/container/flat_map.hpp>
 #include <deque>
-#include <map>
 #include <vector>
 
 #include "arfm_vo/geometry/stereo_camera.h"
@@ -28,6 +28,9 @@ struct LocalMapOptions {
   }
 };
 
+/// Side by side in memory: all of them are looked at in each frame.
+using Landmarks = boost::container::flat_map<LandmarkId, Landmark>;
+
 /// The points that the newest keyframes saw, and those keyframes (Fig. 3). A frame is localised
 /// against all points in its field of view, whichever keyframe they come from.
 class LocalMap {
@@ -49,7 +52,7 @@ class LocalMap {
   void CountSightings(const std::vector<LandmarkId>& expected, const LandmarkObservations& tracked);
 
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
-  const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  const Landmarks& landmarks() const { return landmarks_; }
   const Keyframe* FindKeyframe(KeyframeId id) const;
   /// The id that the next new landmark will have; ids grow.
   LandmarkId next_landmark() const { return next_landmark_; }
@@ -73,7 +76,7 @@ class LocalMap {
   StereoCamera camera_;
   LocalMapOptions options_;
   std::deque<Keyframe> keyframes_;
-  std::map<LandmarkId, Landmark> landmarks_;
+  Landmarks landmarks_;
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };
