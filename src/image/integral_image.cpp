@@ -1,5 +1,7 @@
 #include "arfm_vo/image/integral_image.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
@@ -15,17 +17,9 @@ void IntegralImage::Compute(const cv::Mat& grey) {
     cols_ = grey.cols;
     stride_ = cols_ + 1 + kReadAhead;
     sums_.assign(static_cast<size_t>(rows_ + 1) * stride_ + kReadAhead, 0);
-  }  // else the first row, the first column and what lies beyond the last are 0 already
-  for (int y = 0; y < rows_; ++y) {
-    const uint8_t* pixels = grey.ptr(y);
-    const uint32_t* above = row(y);
-    uint32_t* sums = sums_.data() + static_cast<size_t>(y + 1) * stride_;
-    uint32_t row_sum = 0;
-    for (int x = 0; x < cols_; ++x) {
-      row_sum += pixels[x];
-      sums[x + 1] = above[x + 1] + row_sum;
-    }
-  }
+  }  // else what lies beyond the last column is 0 already
+  cv::Mat sums(rows_ + 1, cols_ + 1, CV_32SC1, sums_.data(), stride_ * sizeof(uint32_t));
+  cv::integral(grey, sums, CV_32S);
 }
 
 }  // namespace arfm_vo

@@ -13,16 +13,18 @@ class OccupancyGrid {
       : cell_px_(cell_px),
         separation_px_(separation_px),
         columns_(width / cell_px + 1),
-        cells_(static_cast<size_t>(columns_) * (height / cell_px + 1)) {}
+        rows_(height / cell_px + 1),
+        cells_(static_cast<size_t>(columns_) * rows_) {}
 
   int Count(double u, double v) const { return static_cast<int>(cells_[Cell(u, v)].size()); }
   void Add(double u, double v) { cells_[Cell(u, v)].push_back({u, v}); }
 
   bool IsFree(double u, double v) const {
-    for (const double du : {-separation_px_, 0.0, separation_px_}) {
-      for (const double dv : {-separation_px_, 0.0, separation_px_}) {
-        for (const Eigen::Vector2d& taken : cells_[Cell(u + du, v + dv)]) {
-          if ((taken - Eigen::Vector2d(u, v)).norm() < separation_px_) return false;
+    for (int row = Row(v - separation_px_); row <= Row(v + separation_px_); ++row) {
+      for (int column = Column(u - separation_px_); column <= Column(u + separation_px_); ++column) {
+        for (const Eigen::Vector2d& taken : cells_[row * columns_ + column]) {
+          const double du = taken.x() - u, dv = taken.y() - v;
+          if (du * du + dv * dv < separation_px_ * separation_px_) return false;
         }
       }
     }
@@ -30,16 +32,13 @@ class OccupancyGrid {
   }
 
  private:
-  size_t Cell(double u, double v) const {
-    const int column = std::clamp(static_cast<int>(u) / cell_px_, 0, columns_ - 1);
-    const int rows = static_cast<int>(cells_.size()) / columns_;
-    const int row = std::clamp(static_cast<int>(v) / cell_px_, 0, rows - 1);
-    return static_cast<size_t>(row) * columns_ + column;
-  }
+  int Column(double u) const { return std::clamp(static_cast<int>(u) / cell_px_, 0, columns_ - 1); }
+  int Row(double v) const { return std::clamp(static_cast<int>(v) / cell_px_, 0, rows_ - 1); }
+  size_t Cell(double u, double v) const { return Row(v) * columns_ + Column(u); }
 
   int cell_px_;
   double separation_px_;
-  int columns_;
+  int columns_, rows_;
   std::vector<std::vector<Eigen::Vector2d>> cells_;
 };
 
