@@ -30,11 +30,11 @@ double GetMemoryMb() {
 
 void KeepMemoryFlat() {
 #ifdef __GLIBC__
-  constexpr int kLarge = 2 << 20;  // bytes; set once, or glibc raises it to what was freed
-  constexpr int kKept = 16 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLarge);
+  // Bytes: an image of KITTI is below kLarge, or its pages would be zeroed anew for each pair.
+  constexpr int kLarge = 512 << 10, kKept = 16 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLarge);  // set once, or glibc raises it to what was freed
   mallopt(M_TRIM_THRESHOLD, kKept);
-  mallopt(M_ARENA_MAX, 2);
+  mallopt(M_ARENA_MAX, 1);  // what one thread frees, another can use
 #endif
 }
 

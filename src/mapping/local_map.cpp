@@ -66,7 +66,8 @@ const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& l
   keyframe.id = next_keyframe_++;
   keyframe.stamp_s = frame.stamp_s;
   keyframe.camera_from_world = camera_from_world;
-  keyframe.left = left.clone();
+  left.copyTo(spare_image_);
+  keyframe.left = std::move(spare_image_);
   for (const LandmarkObservation& observation : tracked) {
     const auto landmark = landmarks_.find(observation.landmark);
     if (landmark == landmarks_.end()) continue;
@@ -138,8 +139,10 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, K
 }
 
 void LocalMap::RemoveOldestKeyframe() {
-  const Keyframe removed = std::move(keyframes_.front());
+  Keyframe removed = std::move(keyframes_.front());
   keyframes_.pop_front();
+  const bool is_shared = removed.left.u != nullptr && removed.left.u->refcount > 1;
+  if (!is_shared) spare_image_ = std::move(removed.left);
   for (const LandmarkObservation& observation : removed.observations) {
     const auto found = landmarks_.find(observation.landmark);
     if (found == landmarks_.end()) continue;

@@ -77,6 +77,7 @@ class LocalMap {
   LocalMapOptions options_;
   std::deque<Keyframe> keyframes_;
   Landmarks landmarks_;
+  cv::Mat spare_image_;  ///< of a keyframe that left: fresh memory costs more than the copy
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
 };
