@@ -43,7 +43,7 @@ class Consensus {
     }
   }
 
-  std::optional<Rigid3> Hypothesis(const std::vector<int>& sample) const {
+  std::optional<Rigid3> Solve(const std::vector<int>& sample) const {
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxSample> points(3, sample.size());
     Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxSample> rays(2, sample.size());
     for (size_t i = 0; i < sample.size(); ++i) {
@@ -92,47 +92,75 @@ class Consensus {
   std::vector<PointSpread> spreads_;
 };
 
-/// The refined pose on which most agree.
-PoseRefinement Agree(const Consensus& consensus, const StereoCamera& camera,
-                     const std::vector<PointObservation>& observations,
-                     const std::optional<Rigid3>& predicted, const PoseEstimatorOptions& options) {
-  const int num_observations = static_cast<int>(observations.size());
-  std::vector<char> agrees(observations.size());
-  std::vector<Rigid3> near;  // hypotheses that are tried before those of samples
-  if (predicted && predicted->IsFinite()) {
-    near.push_back(*predicted);
-    const PoseRefinement refined = RefinePose(camera, observations, *predicted, options.refinement);
-    if (refined.status == RefinementStatus::kConverged) {
-      near.push_back(refined.camera_from_world);
-      consensus.Classify(near.back(), agrees);
-      // No other pose can have more than the rest.
-      if (2 * std::count(agrees.begin(), agrees.end(), 1) > num_observations) return refined;
-    }
-  }
+/// A pose, and who agrees with it.
+struct Hypothesis {
+  Rigid3 camera_from_world;
+  std::vector<char> agrees;  ///< [N]
+  double score;
+
+  Hypothesis(const Consensus& consensus, const Rigid3& pose, size_t num_observations)
+      : camera_from_world(pose),
+        agrees(num_observations),
+        score(consensus.Classify(pose, agrees)) {}
+  int Count() const { return static_cast<int>(std::count(agrees.begin(), agrees.end(), 1)); }
+};
+
+/// The pose on which most agree, by samples.
+std::optional<Rigid3> Sample(const StereoCamera& camera,
+                             const std::vector<PointObservation>& observations,
+                             const PoseEstimatorOptions& options) {
+  const Consensus consensus(camera, observations, options);
   PoseRefinementOptions briefly = options.refinement;
   briefly.max_rounds = 1;
-  bool is_sampled = false;
   const auto consent = Ransac<Rigid3>(
-      num_observations, options.sample_size, options.ransac,
-      [&](const std::vector<int>& sample) -> std::optional<Rigid3> {
-        is_sampled = near.empty();
-        if (is_sampled) return consensus.Hypothesis(sample);
-        const Rigid3 hypothesis = near.back();
-        near.pop_back();
-        return hypothesis;
-      },
+      static_cast<int>(observations.size()), options.sample_size, options.ransac,
+      [&](const std::vector<int>& sample) { return consensus.Solve(sample); },
       [&](const Rigid3& model, std::vector<char>& flags) {
         return consensus.Classify(model, flags);
       },
       // A few noisy points would else lose against a refined prediction with fewer friends.
       [&](const Rigid3& model, const std::vector<char>& flags) -> std::optional<Rigid3> {
-        if (!is_sampled) return std::nullopt;
         const PoseRefinement refined = RefinePose(camera, observations, model, briefly, flags);
         if (refined.status != RefinementStatus::kConverged) return std::nullopt;
         return refined.camera_from_world;
       });
-  if (!consent) return {};
-  return RefinePose(camera, observations, consent->model, options.refinement, consent->is_inlier);
+  if (!consent) return std::nullopt;
+  return consent->model;
+}
+
+/// The refined pose on which most agree.
+PoseRefinement Agree(const StereoCamera& camera, const std::vector<PointObservation>& observations,
+                     const std::optional<Rigid3>& predicted, PoseEstimatorOptions options) {
+  const size_t num_observations = observations.size();
+  const Consensus consensus(camera, observations, options);
+  std::optional<Hypothesis> best;
+  const auto propose = [&](const Rigid3& pose) {
+    Hypothesis hypothesis(consensus, pose, num_observations);
+    if (!best || hypothesis.score > best->score) best = std::move(hypothesis);
+  };
+  std::vector<PointObservation> rest = observations;
+  if (predicted && predicted->IsFinite()) {
+    propose(*predicted);
+    const PoseRefinement refined = RefinePose(camera, observations, *predicted, options.refinement);
+    if (refined.status == RefinementStatus::kConverged) propose(refined.camera_from_world);
+    const size_t num_friends = best->Count();
+    // No other pose can have more than the rest. One that has must have them among the rest, but
+    // for those, far away as a rule, that agree with both: few samples find it there.
+    if (refined.status == RefinementStatus::kConverged && 2 * num_friends > num_observations) {
+      return refined;
+    }
+    rest.clear();
+    for (size_t i = 0; i < num_observations; ++i) {
+      if (!best->agrees[i]) rest.push_back(observations[i]);
+    }
+    options.ransac.max_iterations =
+        CountSamples(static_cast<double>(num_friends) / std::max<size_t>(rest.size(), 1),
+                     options.sample_size, options.ransac);
+  }
+  if (const auto sampled = Sample(camera, rest, options)) propose(*sampled);
+  if (!best) return {};
+  return RefinePose(camera, observations, best->camera_from_world, options.refinement,
+                    best->agrees);
 }
 
 }  // namespace
@@ -163,9 +191,8 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   if (num_observations < options.min_inliers) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;
-  const Consensus consensus(camera, observations, options);
   const PoseRefinement refinement =
-      Agree(consensus, camera, observations, predicted_camera_from_world, options);
+      Agree(camera, observations, predicted_camera_from_world, options);
   if (refinement.status != RefinementStatus::kConverged) return estimate;
   const double min_inliers =
       std::max<double>(options.min_inliers, options.min_inlier_share * num_observations);

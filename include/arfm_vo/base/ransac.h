@@ -33,6 +33,16 @@ struct RansacOptions {
   }
 };
 
+/// Samples to draw until one holds no outlier with the wanted confidence.
+inline int CountSamples(double inlier_share, int sample_size, const RansacOptions& options) {
+  const double good_sample = std::pow(std::clamp(inlier_share, 0.0, 1.0), sample_size);
+  if (good_sample <= 1e-12) return options.max_iterations;
+  if (good_sample >= 1 - 1e-12) return options.min_iterations;
+  const double wanted = std::log(1 - options.confidence) / std::log(1 - good_sample);
+  return std::clamp(static_cast<int>(std::min(wanted, 1e9)) + 1, options.min_iterations,
+                    options.max_iterations);
+}
+
 template <class Model>
 struct RansacReport {
   Model model;
@@ -78,14 +88,7 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
     best_score = score;
     const int num_inliers = static_cast<int>(std::count(is_inlier.begin(), is_inlier.end(), 1));
     best = RansacReport<Model>{*model, is_inlier, num_inliers, iteration + 1};
-    const double good_sample = std::pow(static_cast<double>(num_inliers) / num_data, sample_size);
-    if (good_sample >= 1 - 1e-12) {
-      needed = options.min_iterations;
-    } else if (good_sample > 1e-12) {
-      const double wanted = std::log(1 - options.confidence) / std::log(1 - good_sample);
-      needed = std::clamp(static_cast<int>(std::min(wanted, 1e9)) + 1, options.min_iterations,
-                          options.max_iterations);
-    }
+    needed = CountSamples(static_cast<double>(num_inliers) / num_data, sample_size, options);
   }
   return best;
 }
