@@ -28,6 +28,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       losses_{RobustLoss(options.loss, options.loss_threshold_sigma, 2),
               RobustLoss(options.loss, options.loss_threshold_sigma, 4)},
       num_threads_(options.num_threads),
+      gives_way_(options.gives_way),
       num_coefficients_(selection.num_free_coefficients()),
       solver_(structure, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
@@ -62,6 +63,7 @@ void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
   piece.sum.SetZero(structure_, num_coefficients_);
   piece.cost = 0;
   for (int track = piece.first_track; track < piece.last_track; ++track) {
+    GiveWay(track);
     point_blocks_[track].setZero();
     point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();

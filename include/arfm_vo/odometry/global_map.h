@@ -26,6 +26,7 @@ struct GlobalMapOptions {
   static BundleOptions DefaultSolver() {
     BundleOptions options;
     options.loss = LossKind::kCauchy;
+    options.gives_way = true;
     return options;
   }
   /// Keyframes that move in an adjustment.

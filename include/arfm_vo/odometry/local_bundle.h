@@ -11,6 +11,7 @@ namespace arfm_vo {
 inline BundleOptions WindowSolver() {
   BundleOptions options;
   options.max_iterations = 6;
+  options.function_tolerance = 1e-4;  // the next window takes the rest of the way
   options.with_point_covariance = true;
   return options;
 }
