@@ -121,6 +121,7 @@ void GlobalMap::BendOntoLoops() {
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
+  problem.correction = correction_;
   problem.correction_sigma_px = options_.stereo_correction_sigma_px;
   problem.correction_prior = correction_prior_;
   const int first_moving = FirstMoving();
@@ -174,6 +175,7 @@ BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progr
       ChiSquareQuantile(StereoCorrection::kSize, options_.stereo_correction_confidence)) {
     return result;
   }
+  problem.correction = {};
   problem.correction_sigma_px = 0;
   return AdjustBundle(problem, options_.solver, progress);
 }
@@ -222,6 +224,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
     update.keyframes.push_back({keyframe.id, keyframe.camera_from_map});
   }
   map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
+  correction_ = result.correction;
   for (auto& [id, point] : store_.landmarks) {
     if (point.row >= 0) {
       if (!result.point_is_used[point.row]) continue;

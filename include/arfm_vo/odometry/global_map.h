@@ -26,6 +26,7 @@ struct GlobalMapOptions {
   static BundleOptions DefaultSolver() {
     BundleOptions options;
     options.loss = LossKind::kCauchy;
+    options.function_tolerance = 1e-4;
     options.gives_way = true;
     return options;
   }
@@ -85,6 +86,7 @@ class GlobalMap {
   std::vector<PoseConstraint> loops_;
   bool has_new_loops_ = false;
   CorrectionPrior correction_prior_;  ///< from keyframes that move no more
+  StereoCorrection correction_;         ///< of the last adjustment
   CorrectionPrior told_;              ///< by the keyframes that moved in the last adjustment
   int num_telling_ = 0;               ///< those keyframes
 };
