@@ -19,6 +19,7 @@ void BundleOptions::Check() const {
   Require(inlier_probability > 0 && inlier_probability < 1,
           "bundle.inlier_probability must be in (0, 1)");
   Require(num_threads >= 1, "bundle.num_threads must be at least 1");
+  Require(max_time_share > 0 && max_time_share <= 1, "bundle.max_time_share must be in (0, 1]");
 }
 
 BundleResult AdjustBundle(BundleProblem problem, const BundleOptions& options,

@@ -1,5 +1,6 @@
 #include "normal_equations.h"
 
+#include "arfm_vo/base/pacer.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
@@ -28,7 +29,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       losses_{RobustLoss(options.loss, options.loss_threshold_sigma, 2),
               RobustLoss(options.loss, options.loss_threshold_sigma, 4)},
       num_threads_(options.num_threads),
-      gives_way_(options.gives_way),
+      max_time_share_(options.max_time_share),
       num_coefficients_(selection.num_free_coefficients()),
       solver_(structure, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
@@ -62,8 +63,9 @@ void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
   const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
   piece.sum.SetZero(structure_, num_coefficients_);
   piece.cost = 0;
+  Pacer pacer(max_time_share_);
   for (int track = piece.first_track; track < piece.last_track; ++track) {
-    GiveWay(track);
+    pacer.Pause();
     point_blocks_[track].setZero();
     point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();

@@ -51,7 +51,6 @@ class NormalEquations {
     ReducedSystem sum;
   };
   void ForEachPiece(const std::function<void(Piece&)>& work);
-  void GiveWay(int track) const;
   void LinearizePiece(const BundleState& state, Piece& piece);
   void LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
                          int index, Piece& piece);
@@ -67,7 +66,7 @@ class NormalEquations {
   const BundleStructure& structure_;
   const RobustLoss losses_[2];  ///< without and with a right pixel
   const int num_threads_;
-  const bool gives_way_;
+  const double max_time_share_;
   const int num_coefficients_;  ///< of the correction that are free
   ReducedSolver solver_;
   std::vector<Piece> pieces_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "arfm_vo/base/pacer.h"
 #include "normal_equations.h"
 
 namespace arfm_vo {
@@ -25,21 +26,19 @@ void NormalEquations::ForEachPiece(const std::function<void(Piece&)>& work) {
   for (std::thread& other : others) other.join();
 }
 
-void NormalEquations::GiveWay(int track) const {
-  constexpr int kTracks = 8;  // some 10 us
-  if (gives_way_ && track % kTracks == 0) std::this_thread::yield();
-}
-
 bool NormalEquations::Solve(double damping, BundleStep& step) {
   ForEachPiece([&](Piece& piece) { EliminatePiece(damping, piece); });
+  Pacer pacer(max_time_share_);
   reduced_ = held_;
   Damp(damping);
   for (const Piece& piece : pieces_) reduced_ -= piece.sum;
   if (!solver_.Factorize(reduced_)) return false;
+  pacer.Pause();
   step.reduced = solver_.SolveFor(reduced_);
   if (!step.reduced.allFinite()) return false;
   FindPointSteps(step);
   MeasureStep(damping, step);
+  pacer.Pause();
   return true;
 }
 
@@ -55,8 +54,9 @@ void NormalEquations::Damp(double damping) {
 void NormalEquations::EliminatePiece(double damping, Piece& piece) {
   piece.sum.SetZero(structure_, num_coefficients_);
   const bool with_correction = num_coefficients_ > 0;
+  Pacer pacer(max_time_share_);
   for (int track = piece.first_track; track < piece.last_track; ++track) {
-    GiveWay(track);
+    pacer.Pause();
     Eigen::Matrix3d damped = point_blocks_[track];
     for (double& value : damped.diagonal()) value = DampedDiagonal(value, damping);
     const Eigen::Matrix3d inverse = damped.inverse();
@@ -88,7 +88,6 @@ void NormalEquations::FindPointSteps(BundleStep& step) const {
   step.points.resize(structure_.tracks.size());
   const CornerVector correction = step.reduced.tail(num_coefficients_);
   for (size_t track = 0; track < structure_.tracks.size(); ++track) {
-    GiveWay(static_cast<int>(track));
     Eigen::Vector3d right = point_rights_[track] - point_borders_[track] * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       const int pose = structure_.sightings[i].free_pose;

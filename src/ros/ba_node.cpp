@@ -2,8 +2,6 @@
 
 #include <arfm_vo/MapUpdateStamped.h>
 #include <nav_msgs/Path.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
@@ -15,6 +13,18 @@
 namespace arfm_vo {
 
 using diagnostic_msgs::DiagnosticStatus;
+
+namespace {
+
+/// Between adjustments: small maps would else be adjusted many times a second.
+const ros::WallDuration kPause(0.5);
+
+GlobalMapOptions Paced(GlobalMapOptions options, double max_time_share) {
+  options.solver.max_time_share = std::min(options.solver.max_time_share, max_time_share);
+  return options;
+}
+
+}  // namespace
 
 void BaNodeOptions::Check() const {
   algorithm.Check();
@@ -32,7 +42,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
       landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
       trajectory_output_(options_.trajectory_dir),
-      map_(options_.algorithm.global),
+      map_(Paced(options_.algorithm.global, options_.max_time_share)),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
         ++figures_.num_refused;
@@ -40,15 +50,6 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
         told_.Set(figures_);
         ROS_ERROR_THROTTLE(5, "keyframe refused: %s", error.what());
       }) {
-  // A niced thread would still keep a thread that wakes up waiting for some ms, time and again. On
-  // Linux each thread has its own policy, and a new thread that of its maker.
-  if (options_.idle_priority) {
-    worker_.Post([] {
-      const sched_param none{};
-      if (pthread_setschedparam(pthread_self(), SCHED_IDLE, &none) != 0)
-        ROS_WARN("the adjusting thread keeps its priority");
-    });
-  }
   diagnostics_.setHardwareID("arfm_vo");
   diagnostics_.add("global adjustment", [this](auto& status) { Report(status); });
   keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,
@@ -106,7 +107,7 @@ void BaNode::AdjustIfDue() {
   });
   ReturnFreeMemory();
   const double seconds = (ros::WallTime::now() - start).toSec();
-  next_adjustment_ = start + ros::WallDuration(seconds / options_.max_time_share);
+  next_adjustment_ = ros::WallTime::now() + kPause;
   figures_.is_adjusting = false;
   figures_.last_ms = 1e3 * seconds;
   figures_.longest_ms = std::max(figures_.longest_ms, figures_.last_ms);

@@ -46,9 +46,7 @@ struct BundleOptions {
   double max_time_s = 60;            ///< stop after the iteration that passes it
   double inlier_probability = 0.99;  ///< of the chi-square test of an observation
   int num_threads = 1;
-  /// Yields the CPU every few points: some kernels let a thread that wants it wait for some
-  /// milliseconds otherwise, whatever the priorities.
-  bool gives_way = false;
+  double max_time_share = 1;  ///< of the wall time; a thread sleeps in between (Pacer)
   bool with_point_covariance = false;
   bool with_newest_pose_covariance = false;
 
@@ -65,7 +63,7 @@ struct BundleOptions {
     visit("max_time_s", max_time_s);
     visit("inlier_probability", inlier_probability);
     visit("num_threads", num_threads);
-    visit("gives_way", gives_way);
+    visit("max_time_share", max_time_share);
     visit("with_point_covariance", with_point_covariance);
     visit("with_newest_pose_covariance", with_newest_pose_covariance);
   }

@@ -27,7 +27,6 @@ struct GlobalMapOptions {
     BundleOptions options;
     options.loss = LossKind::kCauchy;
     options.function_tolerance = 1e-4;
-    options.gives_way = true;
     return options;
   }
   /// Keyframes that move in an adjustment.

@@ -21,9 +21,7 @@ struct BaNodeOptions {
   bool publish_tf = true;  ///< map_frame -> odom_frame
   double tf_rate_hz = 20;
   double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
-  double max_time_share = 0.15;  ///< of the wall time that adjusting may take
-  bool idle_priority = true;  ///< adjust only while nobody else wants the CPU (SCHED_IDLE), so that
-                              ///< no pose waits for it
+  double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
   int max_path_poses = 1000;
   std::string trajectory_dir;  ///< the keyframes are saved here at the end; empty: nowhere
 
@@ -37,7 +35,6 @@ struct BaNodeOptions {
     visit("tf_rate_hz", tf_rate_hz);
     visit("tf_tolerance_s", tf_tolerance_s);
     visit("max_time_share", max_time_share);
-    visit("idle_priority", idle_priority);
     visit("max_path_poses", max_path_poses);
     visit("trajectory_dir", trajectory_dir);
   }
