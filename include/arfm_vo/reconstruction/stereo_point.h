@@ -7,11 +7,12 @@ namespace arfm_vo {
 
 /// A left keypoint that was found in the right image, and its point in space (eq 6).
 struct StereoPoint {
-  int keypoint = 0;             ///< index into the left image's Features
-  Eigen::Vector3d observation;  ///< (u_left, v, u_right), px; v is measured in the left image
-  double row_residual_px = 0;   ///< v_right - v_left
-  double sigma_px = 1;          ///< standard deviation of each coordinate of `observation`
-  Eigen::Vector3d x_in_camera;  ///< m, left camera frame
+  int keypoint = 0;  ///< index into the left image's Features
+  /// (u_left, v, u_right), px; v is measured in the left image
+  Eigen::Vector3d observation = Eigen::Vector3d::Zero();
+  double row_residual_px = 0;  ///< v_right - v_left
+  double sigma_px = 1;         ///< standard deviation of each coordinate of `observation`
+  Eigen::Vector3d x_in_camera = Eigen::Vector3d::Zero();  ///< m, left camera frame
   /// d disparity / d(u_left, v): how the surface slants; zero where it faces the camera.
   Eigen::Vector2d disparity_gradient = Eigen::Vector2d::Zero();
 };
