@@ -21,7 +21,8 @@ class OccupancyGrid {
 
   bool IsFree(double u, double v) const {
     for (int row = Row(v - separation_px_); row <= Row(v + separation_px_); ++row) {
-      for (int column = Column(u - separation_px_); column <= Column(u + separation_px_); ++column) {
+      for (int column = Column(u - separation_px_); column <= Column(u + separation_px_);
+           ++column) {
         for (const Eigen::Vector2d& taken : cells_[row * columns_ + column]) {
           const double du = taken.x() - u, dv = taken.y() - v;
           if (du * du + dv * dv < separation_px_ * separation_px_) return false;
