@@ -1,3 +1,4 @@
+#include "arfm_vo/base/cpu.h"
 #include "surf_kernels.inl"
 
 namespace arfm_vo {
@@ -5,11 +6,7 @@ namespace arfm_vo {
 const SurfKernels kSurfKernelsBaseline = kKernels;
 
 const SurfKernels& ChooseSurfKernels() {
-#if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
-  if (has_avx2) return kSurfKernelsAvx2;
-#endif
-  return kSurfKernelsBaseline;
+  return HasAvx2AndFma() ? kSurfKernelsAvx2 : kSurfKernelsBaseline;
 }
 
 }  // namespace arfm_vo

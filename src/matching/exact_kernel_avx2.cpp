@@ -1,15 +1,14 @@
 // Compiled with AVX2 and FMA where the compiler has them (see CMakeLists.txt).
 #if defined(__AVX2__)
 
+#include "arfm_vo/base/cpu.h"
 #include "exact_kernel.inl"
 
 namespace arfm_vo {
 
 void SearchExactlyAvx2(const ExactSearch& search) { SearchExactly(search); }
 
-bool CanSearchExactlyAvx2() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
+bool CanSearchExactlyAvx2() { return HasAvx2AndFma(); }
 
 }  // namespace arfm_vo
 

@@ -1,3 +1,4 @@
+#include "arfm_vo/base/cpu.h"
 #include "pose_kernels.inl"
 
 namespace arfm_vo {
@@ -5,11 +6,7 @@ namespace arfm_vo {
 const PoseKernels kPoseKernelsBaseline = kKernels;
 
 const PoseKernels& ChoosePoseKernels() {
-#if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_avx2) return kPoseKernelsAvx2;
-#endif
-  return kPoseKernelsBaseline;
+  return HasAvx2AndFma() ? kPoseKernelsAvx2 : kPoseKernelsBaseline;
 }
 
 }  // namespace arfm_vo

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
-#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -116,9 +115,8 @@ void RowSearchOptions::Check() const {
 RowSearch::RowSearch(const RowSearchOptions& options) : options_(options) { options.Check(); }
 
 void RowSearch::SetImages(const cv::Mat& left, const cv::Mat& right) {
-  cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) cv::pyrDown(i ? right : left, i ? right_ : left_);
-  });
+  cv::pyrDown(left, left_);
+  cv::pyrDown(right, right_);
 }
 
 std::optional<cv::Point2f> RowSearch::Find(const cv::Point2f& left_pixel, double row_offset_px,

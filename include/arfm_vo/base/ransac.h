@@ -53,9 +53,9 @@ struct RansacReport {
 
 /// The one RANSAC loop (Fischler and Bolles 1981) with the adaptive number of iterations.
 ///   estimate(const std::vector<int>& sample) -> std::optional<Model>   from `sample_size` distinct
-///   indices below N classify(const Model&, std::vector<char>& is_inlier) -> double     fills [N]
-///   flags, returns a score: the sum
-///       over all data of a truncated quality in [0, 1] (MSAC); the highest wins
+///       indices below N
+///   classify(const Model&, std::vector<char>& is_inlier) -> double   fills [N] flags, returns a
+///       score: the sum over all data of a truncated quality in [0, 1] (MSAC); the highest wins
 ///   improve(const Model&, const std::vector<char>& is_inlier) -> std::optional<Model>   a better
 ///       model for one with at least half of the best score (Chum, Matas, Kittler 2003), or nothing
 /// Nothing is returned where N < sample_size or no sample gave a model.

@@ -85,7 +85,7 @@ class GlobalMap {
   std::vector<PoseConstraint> loops_;
   bool has_new_loops_ = false;
   CorrectionPrior correction_prior_;  ///< from keyframes that move no more
-  StereoCorrection correction_;         ///< of the last adjustment
+  StereoCorrection correction_;       ///< of the last adjustment
   CorrectionPrior told_;              ///< by the keyframes that moved in the last adjustment
   int num_telling_ = 0;               ///< those keyframes
 };
