@@ -13,7 +13,7 @@ work=${WORK:-$(mktemp -d)}
 mkdir -p "$work"
 if [ -z "${WORK:-}" ]; then trap 'rm -rf "$work"' EXIT; fi
 # The simulated right image is displaced by nothing. No limit of time, so that a busy machine finds the same.
-echo 'global: {stereo_correction_sigma_px: 0, solver: {max_time_s: 3600}}' > "$work/global.yaml"
+echo 'global: {learn_correction: false, solver: {max_time_s: 3600}}' > "$work/global.yaml"
 echo 'adjust_globally: false' > "$work/online.yaml"
 
 run() {  # NAME COMMAND...

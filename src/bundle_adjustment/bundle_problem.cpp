@@ -63,10 +63,10 @@ void BundleProblem::Check() const {
   Require(std::any_of(pose_is_fixed.begin(), pose_is_fixed.end(), [](char flag) { return flag; }),
           "bundle: no pose is fixed, so the gauge is free");
   Require(correction.coefficients_px.allFinite(), "bundle: the stereo correction is not finite");
-  Require(std::isfinite(correction_sigma_px) && correction_sigma_px >= 0,
-          "bundle: correction_sigma_px must not be negative");
-  Require(correction_prior.mean_px.allFinite() && correction_prior.information.allFinite(),
-          "bundle: the prior of the stereo correction is not finite");
+  Require(!correction_prior || (correction_prior->mean.coefficients_px.allFinite() &&
+                                correction_prior->covariance.allFinite() &&
+                                correction_prior->covariance.diagonal().minCoeff() > 0),
+          "bundle: correction_prior must be finite with positive variances");
 }
 
 }  // namespace arfm_vo

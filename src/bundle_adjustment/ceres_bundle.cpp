@@ -131,9 +131,8 @@ class CeresBundle {
       ceres_problem_.SetParameterBlockConstant(correction_.data());
       return;
     }
-    ceres_problem_.AddResidualBlock(
-        new CorrectionPriorCost(problem_.correction_sigma_px, problem_.correction_prior), nullptr,
-        correction_.data());
+    ceres_problem_.AddResidualBlock(new CorrectionPriorCost(*problem_.correction_prior), nullptr,
+                                    correction_.data());
     ordering_->AddElementToGroup(correction_.data(), 1);
   }
 

@@ -142,35 +142,27 @@ class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> 
   const Matrix6d root_;
 };
 
-/// Of the correction's coefficients k: k / sigma, and the root of the earlier information times
-/// what k is off the earlier mean.
-class CorrectionPriorCost
-    : public ceres::SizedCostFunction<2 * kMaxCoefficients, kMaxCoefficients> {
+/// What the correction's coefficients are off their prior's mean, times the root of its
+/// information.
+class CorrectionPriorCost : public ceres::SizedCostFunction<kMaxCoefficients, kMaxCoefficients> {
  public:
-  CorrectionPriorCost(double sigma, const CorrectionPrior& earlier) : mean_(earlier.mean_px) {
-    const Eigen::SelfAdjointEigenSolver<CorrectionPrior::Information> eigen(earlier.information);
-    roots_.topRows<kMaxCoefficients>().setIdentity();
-    roots_.topRows<kMaxCoefficients>() /= sigma;
-    roots_.bottomRows<kMaxCoefficients>() =
-        eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
-  }
+  explicit CorrectionPriorCost(const CorrectionBelief& prior)
+      : mean_(prior.mean.coefficients_px), root_(prior.Information().llt().matrixL().transpose()) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Eigen::Map<const Coefficients> k(parameters[0]);
-    Eigen::Map<Eigen::Matrix<double, 2 * kMaxCoefficients, 1>> residual(residuals);
-    residual = roots_ * k;
-    residual.tail<kMaxCoefficients>() -= roots_.bottomRows<kMaxCoefficients>() * mean_;
+    Eigen::Map<Coefficients>(residuals + 0) = root_ * (k - mean_);
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Roots>(jacobians[0] + 0) = roots_;
+      Eigen::Map<Root>(jacobians[0] + 0) = root_;
     }
     return true;
   }
 
  private:
-  using Roots = Eigen::Matrix<double, 2 * kMaxCoefficients, kMaxCoefficients, Eigen::RowMajor>;
-  Roots roots_;
+  using Root = Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients, Eigen::RowMajor>;
   const Coefficients mean_;
+  const Root root_;
 };
 
 }  // namespace arfm_vo::ceres_terms

@@ -37,6 +37,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       point_borders_(structure.tracks.size()),
       point_rights_(structure.tracks.size()),
       point_inverses_(structure.tracks.size()) {
+  if (num_coefficients_ > 0) prior_information_ = problem.correction_prior->Information();
   const int64_t num_tracks = static_cast<int64_t>(structure.tracks.size());
   pieces_.resize(num_tracks < kMinTracksToSplit ? 1 : kNumPieces);
   const int64_t count = static_cast<int64_t>(pieces_.size());
@@ -155,14 +156,11 @@ double NormalEquations::AddConstraints(const BundleState& state) {
 
 double NormalEquations::AddPrior(const BundleState& state) {
   if (num_coefficients_ == 0) return 0;
-  const double information = 1 / (problem_.correction_sigma_px * problem_.correction_sigma_px);
-  held_.corner.diagonal().array() += information;
-  held_.corner_right -= information * state.correction.coefficients_px;
-  const auto& [mean, earlier] = problem_.correction_prior;
-  const StereoCorrection::Coefficients off = state.correction.coefficients_px - mean;
-  held_.corner += earlier;
-  held_.corner_right -= earlier * off;
-  return information * state.correction.coefficients_px.squaredNorm() + off.dot(earlier * off);
+  const StereoCorrection::Coefficients off =
+      state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
+  held_.corner += prior_information_;
+  held_.corner_right -= prior_information_ * off;
+  return off.dot(prior_information_ * off);
 }
 
 }  // namespace arfm_vo

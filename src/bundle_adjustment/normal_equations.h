@@ -68,6 +68,7 @@ class NormalEquations {
   const int num_threads_;
   const double max_time_share_;
   const int num_coefficients_;  ///< of the correction that are free
+  CorrectionBelief::Matrix prior_information_ = CorrectionBelief::Matrix::Zero();
   ReducedSolver solver_;
   std::vector<Piece> pieces_;
   std::vector<Eigen::Matrix3d> rotations_;                    ///< [poses]

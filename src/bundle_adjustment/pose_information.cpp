@@ -7,23 +7,26 @@
 namespace arfm_vo {
 namespace {
 
+constexpr int kNumTerms = ImageBasis::kNumTerms;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 /// A point's share in the information, to be eliminated.
 struct PointShare {
   Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, kNumTerms> by_columns = Eigen::Matrix<double, 3, kNumTerms>::Zero();
   std::vector<std::pair<int, Matrix63>> by_pose;  ///< pose, block of pose by point
 };
 
 }  // namespace
 
-Eigen::MatrixXd FindPoseInformation(const BundleProblem& problem, const BundleResult& result,
+PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleResult& result,
                                     const BundleOptions& options) {
-  const ReprojectionModel model(problem.camera, result.correction, false);
+  const ReprojectionModel model(problem.camera, result.correction, true);
   const RobustLoss losses[2] = {RobustLoss(options.loss, options.loss_threshold_sigma, 2),
                                 RobustLoss(options.loss, options.loss_threshold_sigma, 4)};
   const auto size = 6 * static_cast<Eigen::Index>(result.camera_from_world.size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+  PoseInformation information{Eigen::MatrixXd::Zero(size, size),
+                              Eigen::MatrixXd::Zero(size, kNumTerms)};
   std::vector<PointShare> points(problem.points.size());
   for (const BundleObservation& observation : problem.observations) {
     if (!result.point_is_used[observation.point]) continue;
@@ -38,10 +41,16 @@ Eigen::MatrixXd FindPoseInformation(const BundleProblem& problem, const BundleRe
                           result.covariance_factor;
     const Eigen::Matrix<double, 4, 6> by_pose = term.ByPose();
     const Eigen::Matrix<double, 4, 3> by_point = term.ByPoint(rotation);
-    information.block<6, 6>(6 * observation.pose, 6 * observation.pose) +=
+    information.poses.block<6, 6>(6 * observation.pose, 6 * observation.pose) +=
         weight * by_pose.transpose() * by_pose;
     PointShare& share = points[observation.point];
     share.block += weight * by_point.transpose() * by_point;
+    if (observation.has_right) {  // the third row alone moves with the columns
+      const auto basis = weight * term.right_by_coefficients.transpose();
+      information.by_columns.middleRows<6>(6 * observation.pose) +=
+          by_pose.row(2).transpose() * basis;
+      share.by_columns += by_point.row(2).transpose() * basis;
+    }
     share.by_pose.emplace_back(observation.pose, weight * by_pose.transpose() * by_point);
   }
   for (const PointShare& share : points) {
@@ -50,8 +59,9 @@ Eigen::MatrixXd FindPoseInformation(const BundleProblem& problem, const BundleRe
     if (!covariance.allFinite()) continue;
     for (const auto& [row, row_block] : share.by_pose) {
       const Matrix63 eliminated = row_block * covariance;
+      information.by_columns.middleRows<6>(6 * row) -= eliminated * share.by_columns;
       for (const auto& [column, column_block] : share.by_pose) {
-        information.block<6, 6>(6 * row, 6 * column) -= eliminated * column_block.transpose();
+        information.poses.block<6, 6>(6 * row, 6 * column) -= eliminated * column_block.transpose();
       }
     }
   }

@@ -23,7 +23,7 @@ std::string WriteFiles(const OdometryRun& run, const fs::path& folder) {
   WriteWholeFile(folder / "poses_online.txt", FormatKitti(run.online));
   WriteWholeFile(folder / "trajectory.tum", FormatTum(run.trajectory));
   WriteWholeFile(folder / "timing.csv", FormatTiming(run));
-  const PathComparison comparison = CompareWithTruth(run);
+  const PathComparison comparison = CompareWithTruth(run, run.trajectory);
   try {
     PlotTrajectory(comparison.estimate, comparison.truth, folder / "trajectory.png");
   } catch (const std::runtime_error& error) {

@@ -33,13 +33,13 @@ double ComputePathLength(const Trajectory& trajectory) {
 
 }  // namespace
 
-PathComparison CompareWithTruth(const OdometryRun& run) {
+PathComparison CompareWithTruth(const OdometryRun& run, const Trajectory& trajectory) {
   PathComparison comparison;
   const bool has_truth = std::any_of(run.truth.begin(), run.truth.end(),
                                      [](const auto& pose) { return pose.has_value(); });
-  for (size_t i = 0; i < run.trajectory.size(); ++i) {
+  for (size_t i = 0; i < trajectory.size(); ++i) {
     if (has_truth && !run.truth[i]) continue;
-    comparison.estimate.push_back(run.trajectory[i].world_from_camera);
+    comparison.estimate.push_back(trajectory[i].world_from_camera);
     if (has_truth) comparison.truth.push_back(*run.truth[i]);
   }
   return comparison;
@@ -55,10 +55,14 @@ std::string FormatRun(const OdometryRun& run) {
                      FormatLine("cpu_ms_per_pair: %.3f\n", 1e3 * run.cpu_s / num_pairs) +
                      FormatLine("finish_ms: %.3f\n", run.finish_ms) +
                      FormatLine("peak_rss_mb: %.1f\n", GetPeakMemoryMb());
-  const PathComparison comparison = CompareWithTruth(run);
-  if (comparison.truth.size() < 2) return text;
-  return text +
-         FormatTrajectoryError(ComputeTrajectoryError(comparison.truth, comparison.estimate));
+  for (const auto& [prefix, trajectory] :
+       {std::pair("live_", &run.online), std::pair("", &run.trajectory)}) {
+    const PathComparison comparison = CompareWithTruth(run, *trajectory);
+    if (comparison.truth.size() < 2) continue;
+    text += FormatTrajectoryError(ComputeTrajectoryError(comparison.truth, comparison.estimate),
+                                  prefix);
+  }
+  return text;
 }
 
 std::string FormatTiming(const OdometryRun& run) {

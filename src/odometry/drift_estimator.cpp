@@ -35,15 +35,31 @@ void PutBlocks(const MatrixXd& blocks, const std::vector<int>& rows,
 
 }  // namespace
 
-void DriftEstimator::Add(KeyframeId keyframe, const Matrix6& covariance) {
+void DriftEstimator::Add(KeyframeId keyframe, const Matrix6& covariance, KeyframeId beside,
+                         const Rigid3& keyframe_from_beside) {
   Require(keyframes_.empty() || keyframe > keyframes_.back(),
           "drift: keyframe " + std::to_string(keyframe) + " is not newer than the last");
+  const int known = Find(beside);
   keyframes_.push_back(keyframe);
   const Eigen::Index size = covariance_.rows();
   MatrixXd larger = MatrixXd::Zero(size + 6, size + 6);
   larger.topLeftCorner(size, size) = covariance_;
   larger.bottomRightCorner<6, 6>() = covariance;
   covariance_ = std::move(larger);
+  by_columns_.conservativeResize(size + 6, ImageBasis::kNumTerms);
+  by_columns_.bottomRows<6>().setZero();
+  if (known < 0) return;
+  by_columns_.bottomRows<6>() =
+      CarryStep(keyframe_from_beside) * by_columns_.middleRows<6>(6 * known);
+  const auto errs = by_columns_.bottomRows<6>();  // part of what the pose is unsure of already
+  Matrix6 own = covariance - errs * columns_ * errs.transpose();
+  covariance_.bottomRightCorner<6, 6>() = own;
+}
+
+void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
+  covariance_ += by_columns_ * columns_ * by_columns_.transpose();
+  by_columns_.setZero();
+  columns_ = correction.ColumnCovariance();
 }
 
 void DriftEstimator::Forget(KeyframeId oldest) {
@@ -53,11 +69,13 @@ void DriftEstimator::Forget(KeyframeId oldest) {
   keyframes_.erase(keyframes_.begin(), first);
   const Eigen::Index size = covariance_.rows() - gone;
   covariance_ = covariance_.bottomRightCorner(size, size).eval();
+  by_columns_ = by_columns_.bottomRows(size).eval();
 }
 
 void DriftEstimator::Clear() {
   keyframes_.clear();
   covariance_.resize(0, 0);
+  by_columns_.resize(0, ImageBasis::kNumTerms);
 }
 
 int DriftEstimator::Find(KeyframeId keyframe) const {
@@ -67,7 +85,7 @@ int DriftEstimator::Find(KeyframeId keyframe) const {
 }
 
 void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
-                            const std::vector<char>& is_held, const MatrixXd& information) {
+                            const std::vector<char>& is_held, const PoseInformation& information) {
   // Rows of the information, and the same keyframes as rows of the covariance.
   std::vector<int> free, held, free_known, held_known;
   for (size_t i = 0; i < keyframes.size(); ++i) {
@@ -76,11 +94,11 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
     (is_held[i] ? held : free).push_back(static_cast<int>(i));
     (is_held[i] ? held_known : free_known).push_back(known);
   }
-  const Eigen::LLT<MatrixXd> factor(TakeBlocks(information, free, free));
+  const Eigen::LLT<MatrixXd> factor(TakeBlocks(information.poses, free, free));
   if (free.empty() || factor.info() != Eigen::Success) return;
 
   // The errors e_free = step e_held + s, with s independent of e_held and of `own` covariance.
-  const MatrixXd step = -factor.solve(TakeBlocks(information, free, held));
+  const MatrixXd step = -factor.solve(TakeBlocks(information.poses, free, held));
   const MatrixXd own = factor.solve(MatrixXd::Identity(6 * free.size(), 6 * free.size()));
   std::vector<int> others;
   for (int i = 0; i < static_cast<int>(keyframes_.size()); ++i) {
@@ -89,6 +107,18 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
   const MatrixXd free_by_others = step * TakeBlocks(covariance_, held_known, others);
   const MatrixXd free_by_free =
       own + step * TakeBlocks(covariance_, held_known, held_known) * step.transpose();
+  MatrixXd pulled(6 * free.size(), ImageBasis::kNumTerms);
+  for (size_t i = 0; i < free.size(); ++i) {
+    pulled.middleRows<6>(6 * i) = information.by_columns.middleRows<6>(6 * free[i]);
+  }
+  MatrixXd held_by_columns(6 * held.size(), ImageBasis::kNumTerms);
+  for (size_t i = 0; i < held.size(); ++i) {
+    held_by_columns.middleRows<6>(6 * i) = by_columns_.middleRows<6>(6 * held_known[i]);
+  }
+  const MatrixXd free_by_columns = step * held_by_columns - factor.solve(pulled);
+  for (size_t i = 0; i < free.size(); ++i) {
+    by_columns_.middleRows<6>(6 * free_known[i]) = free_by_columns.middleRows<6>(6 * i);
+  }
   PutBlocks(free_by_others, free_known, others, covariance_);
   PutBlocks(free_by_others.transpose(), others, free_known, covariance_);
   PutBlocks((free_by_free + free_by_free.transpose()) / 2, free_known, free_known, covariance_);
@@ -96,16 +126,23 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
 
 DriftEstimator::Matrix6 DriftEstimator::Covariance(KeyframeId keyframe) const {
   const int i = Find(keyframe);
-  return i < 0 ? Matrix6::Zero() : Matrix6(covariance_.block<6, 6>(6 * i, 6 * i));
+  if (i < 0) return Matrix6::Zero();
+  const auto errs = by_columns_.middleRows<6>(6 * i);
+  return covariance_.block<6, 6>(6 * i, 6 * i) + errs * columns_ * errs.transpose();
 }
 
-Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
-                                            const Eigen::Matrix<double, 6, 6>& covariance) {
+Eigen::Matrix<double, 6, 6> CarryStep(const Rigid3& b_from_a) {
   const Eigen::Matrix3d rotation = b_from_a.RotationMatrix();
   Eigen::Matrix<double, 6, 6> carried = Eigen::Matrix<double, 6, 6>::Zero();
   carried.topLeftCorner<3, 3>() = rotation;
   carried.bottomRightCorner<3, 3>() = rotation;
   carried.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation) * rotation;
+  return carried;
+}
+
+Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
+                                            const Eigen::Matrix<double, 6, 6>& covariance) {
+  const Eigen::Matrix<double, 6, 6> carried = CarryStep(b_from_a);
   return carried * covariance * carried.transpose();
 }
 

@@ -16,6 +16,18 @@ namespace {
 /// One held keyframe for so many that move keeps what it saw of the same landmarks.
 constexpr int kHeldShare = 5;
 
+/// The correction is known where its columns are known better than this all over the image: no
+/// observation is trusted more (LandmarkAlignerOptions::min_sigma_px).
+constexpr double kKnownSigmaPx = 0.1;
+
+/// Rows that are off by more than this, the median of a keyframe, in so many keyframes on end, say
+/// that the camera has changed.
+constexpr double kContradictionPx = 0.5;
+constexpr int kMaxContradictions = 10;
+
+/// Adjustments come at 2, 3, 4, 6, 9, 13.. keyframes, until half of those that move are new.
+constexpr double kAdjustmentGrowth = 1.5;
+
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
 
@@ -25,15 +37,17 @@ void GlobalMapOptions::Check() const {
   solver.Check();
   Require(min_observations >= 2, "global.min_observations must be at least 2");
   Require(max_keyframes >= 2, "global.max_keyframes must be at least 2");
-  Require(stereo_correction_sigma_px >= 0,
-          "global.stereo_correction_sigma_px must not be negative");
-  Require(stereo_correction_confidence > 0 && stereo_correction_confidence < 1,
-          "global.stereo_correction_confidence must be in (0, 1)");
   loops.Check();
 }
 
-GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options)
-    : camera_(camera), options_(options), detector_(camera, options.loops) {
+GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options,
+                     const CorrectionBelief& correction)
+    : camera_(camera),
+      options_(options),
+      detector_(camera, options.loops),
+      prior_(correction),
+      correction_(correction),
+      is_learning_(options.learn_correction && correction.MaxColumnSigma(camera) > kKnownSigmaPx) {
   camera.Check();
   options.Check();
 }
@@ -41,6 +55,7 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
 void GlobalMap::Add(const KeyframeRecord& keyframe) {
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
+  CheckCorrection(keyframe);
   const int newest = num_keyframes();
   store_.keyframes.push_back({keyframe.id, keyframe.camera_from_world * map_from_odom_.Inverse(),
                               keyframe.observations, FirstLandmark(keyframe)});
@@ -62,10 +77,35 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
     if (const auto loop = detector_.Detect(store_)) Close(*loop);
   }
   if (num_keyframes() <= options_.NumMoving()) return;
-  SettleCorrection();
+  is_learning_ = false;  // a drive that did not tell more so far: the rest would count twice
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
                 options_.loops.enabled);
+}
+
+bool GlobalMap::IsAdjustmentDue() const {
+  return num_keyframes() >= next_adjustment_ || has_new_loops_;
+}
+
+/// Where the correction is held, the rows of the new observations must agree with it.
+void GlobalMap::CheckCorrection(const KeyframeRecord& keyframe) {
+  if (is_learning_ || !options_.learn_correction) return;
+  std::vector<double> deviations;
+  for (const LandmarkObservation& observation : keyframe.observations) {
+    if (!observation.has_right) continue;
+    const Eigen::Vector2d right = observation.pixels.tail<2>();
+    const double off = correction_.mean.At(camera_, right).y();
+    deviations.push_back(std::abs(right.y() - observation.pixels.y() - off));
+  }
+  if (deviations.empty()) return;
+  const auto middle = deviations.begin() + deviations.size() / 2;
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  num_contradictions_ = *middle > kContradictionPx ? num_contradictions_ + 1 : 0;
+  if (num_contradictions_ < kMaxContradictions) return;
+  num_contradictions_ = 0;
+  first_telling_ = num_keyframes() - kMaxContradictions;
+  prior_ = correction_ = CorrectionBelief::OfCalibration(camera_);
+  is_learning_ = true;
 }
 
 int GlobalMap::FirstMoving() const {
@@ -121,9 +161,8 @@ void GlobalMap::BendOntoLoops() {
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
-  problem.correction = correction_;
-  problem.correction_sigma_px = options_.stereo_correction_sigma_px;
-  problem.correction_prior = correction_prior_;
+  problem.correction = correction_.mean;
+  if (is_learning_) problem.correction_prior = prior_;
   const int first_moving = FirstMoving();
   for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
@@ -146,7 +185,8 @@ BundleProblem GlobalMap::MakeProblem() {
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       is_tied |= landmark->second.first_keyframe < k;
       problem.observations.push_back({pose, landmark->second.row, observation.pixels,
-                                      observation.has_right, observation.sigma_px});
+                                      observation.has_right && k >= first_telling_,
+                                      observation.sigma_px});
     }
     problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
@@ -162,80 +202,52 @@ BundleProblem GlobalMap::MakeProblem() {
   return problem;
 }
 
-BundleResult GlobalMap::Solve(BundleProblem problem, const BundleCallback& progress) {
-  BundleResult result = AdjustBundle(problem, options_.solver, progress);
+void GlobalMap::LearnCorrection(const BundleResult& result) {
   const bool is_whole =
       result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
-  if (problem.correction_sigma_px == 0 || !is_whole) return result;
-  RememberCorrection(problem, result);
-  const auto& coefficients = result.correction.coefficients_px;
-  const double squared_significance =
-      coefficients.dot(result.correction_covariance.ldlt().solve(coefficients));
-  if (squared_significance >=
-      ChiSquareQuantile(StereoCorrection::kSize, options_.stereo_correction_confidence)) {
-    return result;
-  }
-  problem.correction = {};
-  problem.correction_sigma_px = 0;
-  return AdjustBundle(problem, options_.solver, progress);
-}
-
-/// What the adjusted keyframes say of the correction; they take it along when they move no more.
-void GlobalMap::RememberCorrection(const BundleProblem& problem, const BundleResult& result) {
-  using Information = CorrectionPrior::Information;
-  const Information prior =
-      problem.correction_prior.information +
-      Information::Identity() / (problem.correction_sigma_px * problem.correction_sigma_px);
-  const Information difference = result.correction_covariance.inverse() - prior;
-  if (!difference.allFinite()) return;
-  const Eigen::SelfAdjointEigenSolver<Information> told(difference);
-  told_.mean_px = result.correction.coefficients_px;
-  told_.information = told.eigenvectors() * told.eigenvalues().cwiseMax(0).asDiagonal() *
-                      told.eigenvectors().transpose();
-  num_telling_ = num_keyframes() - FirstMoving();
-}
-
-/// A keyframe moves no more: its share of what the last adjustment told joins the prior.
-void GlobalMap::SettleCorrection() {
-  if (num_telling_ == 0) return;
-  CorrectionPrior& prior = correction_prior_;
-  const CorrectionPrior::Information share = told_.information / num_telling_;
-  const CorrectionPrior::Information sum = prior.information + share;
-  prior.mean_px = sum.completeOrthogonalDecomposition().solve(prior.information * prior.mean_px +
-                                                              share * told_.mean_px);
-  prior.information = sum;
+  if (!is_whole || result.correction_covariance.isZero(0)) return;
+  correction_ = {result.correction, result.correction_covariance};
+  is_learning_ = correction_.MaxColumnSigma(camera_) > kKnownSigmaPx;
 }
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
+  next_adjustment_ = std::clamp(static_cast<int>(kAdjustmentGrowth * num_keyframes()),
+                                num_keyframes() + 1, num_keyframes() + options_.NumMoving() / 2);
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
-  if (has_new_loops_) BendOntoLoops();
+  const bool is_bent = has_new_loops_;
+  if (is_bent) BendOntoLoops();
   BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
-  const BundleResult result = Solve(std::move(problem), progress);
+  const BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
+  if (is_learning_) LearnCorrection(result);
+  MapUpdate update = TakeResult(result, is_bent);
+  map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
+  return update;
+}
 
+MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   MapUpdate update;
+  update.num_keyframes = num_keyframes();
+  update.correction = correction_;
+  const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
   for (int k = 0; k < num_keyframes(); ++k) {
     MapStore::Keyframe& keyframe = store_.keyframes[k];
     if (k >= store_.first_seeing) {
       keyframe.camera_from_map = result.camera_from_world[k - store_.first_seeing];
     }
-    update.keyframes.push_back({keyframe.id, keyframe.camera_from_map});
+    if (k >= first) update.keyframes.push_back({keyframe.id, keyframe.camera_from_map});
   }
-  map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
-  correction_ = result.correction;
   for (auto& [id, point] : store_.landmarks) {
     if (point.row >= 0) {
       if (!result.point_is_used[point.row]) continue;
       point.x_in_map = result.points[point.row];
-    } else if (point.num_observations < options_.min_observations) {
+    } else if (!is_bent || point.num_observations < options_.min_observations) {
       continue;
     }
     update.landmarks.push_back({id, point.x_in_map});
   }
-  update.stereo_correction = result.correction;
-  update.stereo_correction_sigma_px = result.correction_covariance.diagonal().cwiseSqrt();
   return update;
 }
 

@@ -22,23 +22,28 @@ void LocalOdometryOptions::Check() const {
   Require(bundle.num_keyframes <= map.max_keyframes,
           "odometry.bundle.num_keyframes must not exceed odometry.map.max_keyframes");
   Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
+  Require(restart_after_lost_s >= 0, "odometry.restart_after_lost_s must not be negative");
 }
 
 class LocalOdometry::Implementation {
  public:
-  Implementation(const StereoCamera& camera, const LocalOdometryOptions& options)
+  Implementation(const StereoCamera& camera, const LocalOdometryOptions& options,
+                 const CorrectionBelief& correction)
       : camera_(camera),
+        correction_(correction),
         options_(options),
         tracker_(camera, options.tracker),
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive) {
     options.Check();
+    tracker_.SetCorrection(correction.mean);
+    drift_.SetCorrection(correction);
   }
 
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images) {
     Stopwatch stopwatch;
-    const StereoFrame frame = Corrected(measured, camera_, correction_);
+    const StereoFrame frame = Corrected(measured, camera_, correction_.mean);
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.median_row_residual_px = MedianRowResidual(frame.points);
@@ -59,8 +64,10 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     FinishBundle();
-    correction_ = update.stereo_correction;
-    tracker_.SetCorrection(correction_);
+    const bool is_new = correction_.mean.coefficients_px != update.correction.mean.coefficients_px;
+    if (is_new) drift_.SetCorrection(update.correction);
+    correction_ = update.correction;
+    tracker_.SetCorrection(correction_.mean);
     // The newest keyframe that both know stays: odom_from_map there undoes the correction.
     const Keyframe* anchor = nullptr;
     Rigid3 anchor_in_map;
@@ -99,7 +106,7 @@ class LocalOdometry::Implementation {
   struct AdjustedWindow {
     LocalBundle bundle;
     BundleResult result;
-    Eigen::MatrixXd information;  ///< FindPoseInformation
+    PoseInformation information;
   };
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
@@ -173,12 +180,15 @@ class LocalOdometry::Implementation {
                                     landmark->second.keypoint.laplacian_sign,
                                     landmark->second.descriptor});
     }
-    drift_.Add(keyframe.id, update.covariance_from_start);
+    const auto& keyframes = map_.keyframes();
+    const Keyframe& beside = keyframes[keyframes.size() < 2 ? 0 : keyframes.size() - 2];
+    drift_.Add(keyframe.id, update.covariance_from_start, beside.id,
+               keyframe.camera_from_world * beside.camera_from_world.Inverse());
     drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     // The map stays as it is until FinishBundle.
     pending_ = std::async(std::launch::async, [this] {
-      return Adjust(MakeLocalBundle(camera_, correction_, map_, options_.bundle.num_keyframes),
+      return Adjust(MakeLocalBundle(camera_, correction_.mean, map_, options_.bundle.num_keyframes),
                     options_.bundle.solver);
     });
   }
@@ -208,7 +218,7 @@ class LocalOdometry::Implementation {
   }
 
   StereoCamera camera_;
-  StereoCorrection correction_;
+  CorrectionBelief correction_;
   LocalOdometryOptions options_;
   FrameTracker tracker_;
   LocalMap map_;
@@ -220,8 +230,9 @@ class LocalOdometry::Implementation {
   std::future<AdjustedWindow> pending_;
 };
 
-LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options)
-    : implementation_(std::make_unique<Implementation>(camera, options)) {}
+LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options,
+                             const CorrectionBelief& correction)
+    : implementation_(std::make_unique<Implementation>(camera, options, correction)) {}
 LocalOdometry::~LocalOdometry() = default;
 
 OdometryUpdate LocalOdometry::Process(const StereoFrame& frame, const StereoImages& images) {

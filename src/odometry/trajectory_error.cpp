@@ -9,10 +9,10 @@
 namespace arfm_vo {
 namespace {
 
-std::string FormatLine(const char* key, double value) {
-  char line[100];
-  std::snprintf(line, sizeof(line), "%s: %.5f\n", key, value);
-  return std::isnan(value) ? std::string(key) + ": nan\n" : line;
+std::string FormatLine(const std::string& key, double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.5f", value);
+  return key + ": " + (std::isnan(value) ? "nan" : text) + "\n";
 }
 
 }  // namespace
@@ -43,14 +43,14 @@ TrajectoryError ComputeTrajectoryError(std::vector<Rigid3> truth, std::vector<Ri
   return error;
 }
 
-std::string FormatTrajectoryError(const TrajectoryError& error) {
-  return FormatLine("t_rel_percent", error.kitti.translation_percent) +
-         FormatLine("r_rel_deg_per_100m", 100 * error.kitti.rotation_deg_per_m) +
-         FormatLine("t_rel_short_percent", error.brief.translation_percent) +
-         FormatLine("r_rel_short_deg_per_m", error.brief.rotation_deg_per_m) +
-         FormatLine("ate_rmse_m", error.ate_rmse_m) +
-         FormatLine("end_error_percent", error.end_error_percent) +
-         FormatLine("length_ratio", error.length_ratio);
+std::string FormatTrajectoryError(const TrajectoryError& error, const std::string& prefix) {
+  return FormatLine(prefix + "t_rel_percent", error.kitti.translation_percent) +
+         FormatLine(prefix + "r_rel_deg_per_100m", 100 * error.kitti.rotation_deg_per_m) +
+         FormatLine(prefix + "t_rel_short_percent", error.brief.translation_percent) +
+         FormatLine(prefix + "r_rel_short_deg_per_m", error.brief.rotation_deg_per_m) +
+         FormatLine(prefix + "ate_rmse_m", error.ate_rmse_m) +
+         FormatLine(prefix + "end_error_percent", error.end_error_percent) +
+         FormatLine(prefix + "length_ratio", error.length_ratio);
 }
 
 }  // namespace arfm_vo

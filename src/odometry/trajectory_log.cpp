@@ -5,8 +5,11 @@
 namespace arfm_vo {
 
 void TrajectoryLog::Add(const OdometryUpdate& update, const LocalMap& map) {
-  for (const Keyframe& keyframe : map.keyframes())
-    keyframes_[keyframe.id].camera_from_world = keyframe.camera_from_world;
+  for (const Keyframe& keyframe : map.keyframes()) {
+    const auto [place, is_new] = keyframes_.try_emplace(keyframe.id);
+    if (is_new) place->second.frame = first_frame_ + frames_.size();
+    place->second.camera_from_world = keyframe.camera_from_world;
+  }
   if (!update.pose.IsTracked() || map.keyframes().empty()) return AddLost(update.stamp_s);
   const Keyframe& keyframe = map.keyframes().back();
   frames_.push_back({update.stamp_s, true, keyframe.id,
@@ -18,6 +21,11 @@ void TrajectoryLog::Apply(const MapUpdate& update) {
     const auto known = keyframes_.find(keyframe.id);
     if (known != keyframes_.end()) known->second.camera_from_map = keyframe.camera_from_world;
   }
+}
+
+size_t TrajectoryLog::FrameOf(KeyframeId keyframe) const {
+  const auto known = keyframes_.find(keyframe);
+  return known == keyframes_.end() ? first_frame_ : known->second.frame;
 }
 
 Rigid3 TrajectoryLog::MapFromWorld() const {

@@ -12,6 +12,10 @@ const char* ToString(PoseStatus status) {
       return "too few matches";
     case PoseStatus::kNoConsensus:
       return "no consensus";
+    case PoseStatus::kNoTransform:
+      return "no transform";
+    case PoseStatus::kHeadSlewing:
+      return "head slewing";
   }
   return "unknown";
 }

@@ -26,7 +26,7 @@ SimulatedSight::SimulatedSight(const SimulatedSightOptions& options,
 Glimpse SimulatedSight::Look(double now_s, const Rigid3& world_from_base) {
   images_ = renderer_.RenderPair(camera_, world_from_base * base_from_camera_, num_pairs_, now_s);
   ++num_pairs_;
-  const PoseEstimate estimate = odometry_.Process(images_).pose;
+  const PoseEstimate estimate = odometry_.Process(images_).update.pose;
   Glimpse glimpse;
   glimpse.taken_s = now_s;
   glimpse.told_s = now_s + options_.latency_s;

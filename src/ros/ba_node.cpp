@@ -7,6 +7,8 @@
 #include <boost/make_shared.hpp>
 
 #include "arfm_vo/base/process_usage.h"
+#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/landmark_cloud.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/trigger_service.h"
 
@@ -16,8 +18,8 @@ using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
 
-/// Between adjustments: small maps would else be adjusted many times a second.
-const ros::WallDuration kPause(0.5);
+/// Without a new keyframe for so long, the newest ones are adjusted too, for the map as it is seen.
+const ros::WallDuration kSettled(3);
 
 GlobalMapOptions Paced(GlobalMapOptions options, double max_time_share) {
   options.solver.max_time_share = std::min(options.solver.max_time_share, max_time_share);
@@ -55,13 +57,12 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
   keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,
                                                [this](const KeyframeStampedConstPtr& keyframe) {
                                                  worker_.Post([this, keyframe] { Add(*keyframe); });
-                                                 worker_.PostLossy([this] { AdjustIfDue(); });
                                                });
   save_ = OfferTrigger(private_node, "save_trajectory",
                        [this] { return trajectory_output_.Save(trajectory_.Get()); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     diagnostics_.force_update();
-    worker_.PostLossy([this] { AdjustIfDue(); });
+    worker_.PostLossy([this] { AdjustIfSettled(); });
   });
   if (options_.publish_tf)
     tf_timer_ = node.createTimer(ros::Duration(1 / options_.tf_rate_hz),
@@ -86,6 +87,20 @@ void BaNode::Add(const KeyframeStamped& message) {
   figures_.num_loops = map_.num_loops();
   figures_.refusal.clear();
   Tell();
+  settles_ = ros::WallTime::now() + kSettled;
+  if (!options_.algorithm.adjust_globally || !map_.IsAdjustmentDue()) return;
+  if (const std::optional<MapUpdate> update = Adjust()) {
+    const auto told = boost::make_shared<MapUpdateStamped>(ToMessage(*update));
+    told->header.stamp = newest_.stamp;
+    told->header.frame_id = options_.map_frame;
+    told->epoch = map_.epoch();
+    updates_.publish(told);
+  }
+}
+
+/// The odometry is not told: what it does must not depend on when its pairs come.
+void BaNode::AdjustIfSettled() {
+  if (is_dirty_ && options_.algorithm.adjust_globally && ros::WallTime::now() > settles_) Adjust();
 }
 
 void BaNode::Tell() {
@@ -94,12 +109,11 @@ void BaNode::Tell() {
   trajectory_.Set(map_.MakeTrajectory());
 }
 
-void BaNode::AdjustIfDue() {
+std::optional<MapUpdate> BaNode::Adjust() {
   const ros::WallTime start = ros::WallTime::now();
-  if (!options_.algorithm.adjust_globally || !is_dirty_ || start < next_adjustment_) return;
   is_dirty_ = false;
   figures_.is_adjusting = true;
-  const std::optional<MapUpdate> update = map_.Adjust([this](const BundleProgress& progress) {
+  std::optional<MapUpdate> update = map_.Adjust([this](const BundleProgress& progress) {
     figures_.iteration = progress.iteration;
     figures_.cost = progress.cost;
     told_.Set(figures_);
@@ -107,20 +121,14 @@ void BaNode::AdjustIfDue() {
   });
   ReturnFreeMemory();
   const double seconds = (ros::WallTime::now() - start).toSec();
-  next_adjustment_ = ros::WallTime::now() + kPause;
   figures_.is_adjusting = false;
   figures_.last_ms = 1e3 * seconds;
   figures_.longest_ms = std::max(figures_.longest_ms, figures_.last_ms);
   ++figures_.num_adjustments;
   if (!update && map_.num_keyframes() > 1) ++figures_.num_failed;
   Tell();
-  if (!update) return;
-  const auto message = boost::make_shared<MapUpdateStamped>(ToMessage(*update));
-  message->header.stamp = newest_.stamp;
-  message->header.frame_id = options_.map_frame;
-  message->world = map_.world();
-  updates_.publish(message);
-  PublishMap();
+  if (update) PublishMap();
+  return update;
 }
 
 void BaNode::PublishMap() {

@@ -47,11 +47,21 @@ std::vector<LandmarkRecord> ImportLandmarks(const KeyframeStamped& message) {
   return landmarks;
 }
 
-StereoCorrection::Coefficients ImportCoefficients(const std::vector<double>& coefficients,
-                                                  const std::string& name) {
-  RequireSize(coefficients, StereoCorrection::kSize, name);
-  RequireFinite(coefficients, name);
-  return Eigen::Map<const StereoCorrection::Coefficients>(coefficients.data());
+CorrectionBelief ImportCorrection(const MapUpdateStamped& message) {
+  const std::string name = "MapUpdateStamped: ";
+  constexpr size_t kSize = StereoCorrection::kSize;
+  RequireSize(message.correction_px, kSize, name + "correction_px");
+  RequireFinite(message.correction_px, name + "correction_px");
+  RequireSize(message.correction_covariance, kSize * kSize, name + "correction_covariance");
+  RequireFinite(message.correction_covariance, name + "correction_covariance");
+  CorrectionBelief correction;
+  correction.mean.coefficients_px =
+      Eigen::Map<const StereoCorrection::Coefficients>(message.correction_px.data());
+  correction.covariance =
+      Eigen::Map<const CorrectionBelief::Matrix>(message.correction_covariance.data());
+  Require(correction.covariance.diagonal().minCoeff() > 0,
+          name + "correction_covariance has a variance that is not positive");
+  return correction;
 }
 
 }  // namespace
@@ -60,7 +70,7 @@ KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
   const KeyframeRecord& record = keyframe.record;
   KeyframeStamped message;
   message.header.stamp.fromSec(record.stamp_s);
-  message.world = keyframe.world;
+  message.epoch = keyframe.epoch;
   message.camera = ToMessage(keyframe.camera);
   message.odom_from_world = ToTransformMessage(keyframe.odom_from_world);
   message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
@@ -86,7 +96,7 @@ KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
 
 PlacedKeyframe FromMessage(const KeyframeStamped& message) {
   PlacedKeyframe keyframe;
-  keyframe.world = message.world;
+  keyframe.epoch = message.epoch;
   keyframe.camera = FromMessage(message.camera);
   keyframe.odom_from_world =
       FromMessage(message.odom_from_world, "KeyframeStamped: odom_from_world");
@@ -111,10 +121,11 @@ MapUpdateStamped ToMessage(const MapUpdate& update) {
     message.landmark_id.push_back(landmark.id);
     for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
   }
-  for (int i = 0; i < StereoCorrection::kSize; ++i) {
-    message.stereo_correction_px.push_back(update.stereo_correction.coefficients_px[i]);
-    message.stereo_correction_sigma_px.push_back(update.stereo_correction_sigma_px[i]);
-  }
+  const auto& mean = update.correction.mean.coefficients_px;
+  const auto& covariance = update.correction.covariance;
+  message.correction_px.assign(mean.data(), mean.data() + mean.size());
+  message.correction_covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  message.num_keyframes = update.num_keyframes;
   return message;
 }
 
@@ -134,10 +145,11 @@ MapUpdate FromMessage(const MapUpdateStamped& message) {
   for (size_t i = 0; i < message.landmark_id.size(); ++i)
     update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
                                                             &message.landmark_position[3 * i])});
-  update.stereo_correction.coefficients_px =
-      ImportCoefficients(message.stereo_correction_px, name + "stereo_correction_px");
-  update.stereo_correction_sigma_px =
-      ImportCoefficients(message.stereo_correction_sigma_px, name + "stereo_correction_sigma_px");
+  update.correction = ImportCorrection(message);
+  update.num_keyframes = message.num_keyframes;
+  Require(!update.keyframes.empty(), name + "keyframe_id is empty");
+  Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
+          name + "num_keyframes is less than there are");
   return update;
 }
 

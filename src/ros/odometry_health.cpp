@@ -22,7 +22,7 @@ OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
   options.Check();
 }
 
-void OdometryHealth::Count(const StereoFrame& frame, const RoverEstimate& pose, double ms) {
+void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, double ms) {
   RunningMedian row_residual_px(frame.points.size());
   for (const StereoPoint& point : frame.points)
     row_residual_px.Add(std::abs(point.row_residual_px));
@@ -64,7 +64,7 @@ void OdometryHealth::ReportOdometry(Status& status) {
   status.add("pairs without a pose", num_lost_);
   status.add("pairs dropped", num_dropped_);
   status.add("pairs refused", num_refused_);
-  status.add("world", last_.world);
+  status.add("map epoch", last_.epoch);
   status.add("matches", last_.update.pose.num_matches);
   status.add("inliers", last_.update.pose.num_inliers);
   status.addf("reprojection error rms (px)", "%.2f", last_.update.pose.rms_px);

@@ -5,6 +5,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/image_conversion.h"
+#include "arfm_vo/ros/mounted_session.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/stereo_input.h"
 #include "arfm_vo/ros/trigger_service.h"
@@ -23,7 +24,6 @@ void PoseNodeOptions::Check() const {
   output.Check();
   health.Check();
   Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
-  Require(restart_after_lost_s >= 0, "restart_after_lost_s must not be negative");
 }
 
 PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
@@ -32,8 +32,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
       mount_(buffer_, options_.mount),
       trajectory_output_(options_.trajectory_dir),
       outputs_(node, options_.output, options_.mount.base_frame),
-      rover_(std::make_unique<RoverOdometry>(options_.algorithm.odometry, mount_,
-                                             options_.restart_after_lost_s, 1)),
+      session_(std::make_unique<Session>(options_.algorithm.odometry)),
       health_(options_.health),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs,
@@ -65,9 +64,9 @@ void PoseNode::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
     worker_.Post([this] { diagnostics_.force_update(); });
   });
   reset_ = OfferTrigger(private_node, "reset", [this] {
-    worker_.RunAndWait([this] { rover_->StartWorld(); });
-    ROS_WARN("reset: the next pair starts a new world where the base stands");
-    return std::string("the next pair starts a new world where the base stands");
+    worker_.RunAndWait([this] { session_->StartEpoch(); });
+    ROS_WARN("reset: the next pair begins a new map where the base stands");
+    return std::string("the next pair begins a new map where the base stands");
   });
   save_ = OfferTrigger(private_node, "save_trajectory", [this] { return Save(); });
 }
@@ -114,7 +113,8 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
   images.Check();
   Require(images.left.cols == camera.width && images.left.rows == camera.height,
           "left/image_rect does not have the size that features tells of the camera");
-  const RoverEstimate pose = rover_->Process(frame, camera, images, message.header);
+  const SessionUpdate pose =
+      ProcessMounted(*session_, mount_, frame, camera, images, message.header);
   outputs_.Publish(pose, message, num_dropped);
   outputs_.PublishPicture(images.left, frame, pose, message.header);
   health_.Count(frame, pose, stopwatch.LapMs());
@@ -125,10 +125,9 @@ bool PoseNode::AcceptStamp(const ros::Time& stamp) {
   if (stamp < last_stamp_) {
     ROS_WARN("time jumped back by %.3f s: starting anew", (last_stamp_ - stamp).toSec());
     if (trajectory_output_.is_enabled())
-      ROS_INFO("%s", trajectory_output_.Save(rover_->MakeTrajectory()).c_str());
+      ROS_INFO("%s", trajectory_output_.Save(session_->MakeTrajectory()).c_str());
     trajectory_output_.StartRun();
-    rover_ = std::make_unique<RoverOdometry>(options_.algorithm.odometry, mount_,
-                                             options_.restart_after_lost_s, rover_->world() + 1);
+    session_ = std::make_unique<Session>(options_.algorithm.odometry, session_->epoch() + 1);
     outputs_.ClearPath();
     health_.Clear();
   }
@@ -148,12 +147,12 @@ uint32_t PoseNode::CountDropped(uint32_t pair_number) {
 }
 
 void PoseNode::ApplyUpdate(const MapUpdateStamped& message) {
-  rover_->Apply(FromMessage(message), message.world);
+  session_->Offer(FromMessage(message), message.epoch);
 }
 
 std::string PoseNode::Save() {
   Trajectory trajectory;
-  worker_.RunAndWait([&] { trajectory = rover_->MakeTrajectory(); });
+  worker_.RunAndWait([&] { trajectory = session_->MakeTrajectory(); });
   return trajectory_output_.Save(trajectory);
 }
 

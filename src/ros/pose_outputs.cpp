@@ -8,18 +8,24 @@
 
 #include <boost/make_shared.hpp>
 
+#include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/match_picture.h"
+#include "arfm_vo/ros/pose_message.h"
 
 namespace arfm_vo {
+
+static_assert(static_cast<uint8_t>(PoseStatus::kTracked) == OdometryStatus::TRACKED &&
+              static_cast<uint8_t>(PoseStatus::kNoConsensus) == OdometryStatus::NO_CONSENSUS &&
+              static_cast<uint8_t>(PoseStatus::kHeadSlewing) == OdometryStatus::HEAD_SLEWING);
 namespace {
 
-OdometryStatus MakeStatus(const RoverEstimate& pose, const StereoFrameStamped& frame,
+OdometryStatus MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
                           uint32_t num_dropped) {
   OdometryStatus status;
-  status.state = pose.state;
+  status.state = static_cast<uint8_t>(pose.update.pose.status);
   status.text = pose.text;
   status.is_keyframe = pose.update.is_keyframe;
-  status.world = pose.world;
+  status.epoch = pose.epoch;
   status.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
   status.num_right_features = frame.num_right_keypoints;
   status.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
@@ -59,7 +65,7 @@ PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
       keyframe_publisher_(node.advertise<KeyframeStamped>("keyframe", 100)),
       picture_publisher_(image_transport::ImageTransport(node).advertise("matches_image", 1)) {}
 
-void PoseOutputs::Publish(const RoverEstimate& pose, const StereoFrameStamped& frame,
+void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& frame,
                           uint32_t num_dropped) {
   std_msgs::Header header;
   header.stamp = frame.header.stamp;
@@ -79,7 +85,7 @@ void PoseOutputs::Publish(const RoverEstimate& pose, const StereoFrameStamped& f
   status_publisher_.publish(status);
 }
 
-void PoseOutputs::PublishOdometry(const RoverEstimate& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header) {
   const auto odometry = boost::make_shared<nav_msgs::Odometry>();
   odometry->header = header;
   odometry->child_frame_id = base_frame_;
@@ -96,7 +102,7 @@ void PoseOutputs::PublishOdometry(const RoverEstimate& pose, const std_msgs::Hea
   odometry_publisher_.publish(odometry);
 }
 
-void PoseOutputs::PublishTransform(const RoverEstimate& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishTransform(const SessionUpdate& pose, const std_msgs::Header& header) {
   geometry_msgs::TransformStamped transform;
   transform.header = header;
   transform.child_frame_id = base_frame_;
@@ -104,12 +110,12 @@ void PoseOutputs::PublishTransform(const RoverEstimate& pose, const std_msgs::He
   broadcaster_.sendTransform(transform);
 }
 
-void PoseOutputs::PublishPath(const RoverEstimate& pose, const std_msgs::Header& header) {
+void PoseOutputs::PublishPath(const SessionUpdate& pose, const std_msgs::Header& header) {
   if (path_.Add(header, ToPoseMessage(pose.odom_from_base))) path_publisher_.publish(path_.path());
 }
 
 void PoseOutputs::PublishPicture(const cv::Mat& left, const StereoFrame& frame,
-                                 const RoverEstimate& pose, const std_msgs::Header& header) {
+                                 const SessionUpdate& pose, const std_msgs::Header& header) {
   if (picture_publisher_.getNumSubscribers() == 0) return;
   const cv_bridge::CvImage picture(header, sensor_msgs::image_encodings::BGR8,
                                    DrawMatches(left, frame, pose.update));

@@ -32,7 +32,8 @@ void RunWindow(const char* name, const BundleOptions& options, double correction
   CorridorOptions corridor;  // 8 poses, 2 of them fixed
   corridor.num_points = 465;
   BundleProblem problem = MakeCorridor(corridor).problem;
-  problem.correction_sigma_px = correction_sigma_px;
+  if (correction_sigma_px > 0)
+    problem.correction_prior = CorrectionBelief::Isotropic(correction_sigma_px);
   constexpr int kRuns = 15;
   double best_s = 1e9;
   BundleResult result;
@@ -76,7 +77,7 @@ void RunGlobal(int num_poses, const BundleOptions& options) {
   corridor.drift_rad = 5e-4;
   corridor.drift_m = 0.01;
   CorridorScene scene = MakeCorridor(corridor);
-  scene.problem.correction_sigma_px = 1;
+  scene.problem.correction_prior = CorrectionBelief::Isotropic(1);
   const double before_mb = PeakMegabytes();
   const double cpu = CpuSeconds();
   const BundleResult result = AdjustBundle(scene.problem, options);

@@ -79,7 +79,7 @@ TEST(BundleAdjustment, OwnSolverAgreesWithCeres) {
     for (size_t i = 0; i < scene.problem.observations.size(); i += 7) {
       scene.problem.observations[i].has_right = false;
     }
-    scene.problem.correction_sigma_px = loss == LossKind::kHuber ? 0 : 0.5;
+    if (loss != LossKind::kHuber) scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
     BundleOptions options = ExactOptions(BundleSolver::kOwn);
     options.loss = loss;
     options.with_newest_pose_covariance = true;
@@ -102,7 +102,7 @@ TEST(BundleAdjustment, SparseSolverAgreesWithCeresOnALongPath) {
   corridor.num_poses = 60;
   corridor.num_points = 1500;
   CorridorScene scene = MakeCorridor(corridor);
-  scene.problem.correction_sigma_px = 0.5;
+  scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
   PoseConstraint loop;  // ties the last pose to the third, as a closed loop does
   loop.first = 2;
   loop.second = 59;
@@ -253,7 +253,7 @@ TEST(BundleAdjustment, GivesTheSameBytesWithAnyNumberOfThreads) {
   corridor.num_poses = 60;
   corridor.num_points = 5000;  // enough to be dealt out to threads
   CorridorScene scene = MakeCorridor(corridor);
-  scene.problem.correction_sigma_px = 0.5;
+  scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
   BundleOptions options;
   const BundleResult one = AdjustBundle(scene.problem, options);
   options.num_threads = 2;
@@ -332,7 +332,7 @@ TEST(BundleAdjustment, NamesWhatIsWrongWithTheProblem) {
   expect("pose 3", [&](auto& p) { p.camera_from_world[3].translation.x() = nan; });
   expect("point 9", [&](auto& p) { p.points[9].x() = nan; });
   expect("baseline", [](auto& p) { p.camera.baseline_m = 0; });
-  expect("correction_sigma_px", [](auto& p) { p.correction_sigma_px = -1; });
+  expect("correction_prior", [](auto& p) { p.correction_prior = CorrectionBelief(); });
   expect("correction is not finite", [&](auto& p) { p.correction.coefficients_px[4] = nan; });
   expect("constraint 0: ties", [](auto& p) { p.constraints.resize(1); });
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "bundle_adjustment/bundle_scene.h"
@@ -22,7 +23,7 @@ TEST(PoseInformation, ItsInverseIsTheCovarianceOfTheNewestPose) {
   BundleOptions options;
   options.with_newest_pose_covariance = true;
   const BundleResult result = AdjustBundle(scene.problem, options);
-  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options);
+  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options).poses;
   const Eigen::MatrixXd covariance = information.bottomRightCorner(24, 24).inverse();  // two held
   const auto& expected = *result.newest_pose_covariance;
   EXPECT_LT((covariance.bottomRightCorner<6, 6>() - expected).norm(), 1e-6 * expected.norm());
@@ -32,7 +33,7 @@ TEST(PoseInformation, SaysNothingOfAMotionOfTheWholeWorld) {
   const CorridorScene scene = MakeScene();
   const BundleOptions options;
   const BundleResult result = AdjustBundle(scene.problem, options);
-  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options);
+  const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options).poses;
   // A shift of the world by d moves each camera's origin by R d.
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(information.rows());
   for (size_t i = 0; i < result.camera_from_world.size(); ++i) {
@@ -41,6 +42,32 @@ TEST(PoseInformation, SaysNothingOfAMotionOfTheWholeWorld) {
   }
   EXPECT_LT((information * shift).norm(), 1e-9 * information.norm());
   EXPECT_LT((information - information.transpose()).norm(), 1e-9 * information.norm());
+}
+
+TEST(PoseInformation, TellsHowThePosesMoveWithTheCorrection) {
+  CorridorScene scene = MakeScene();
+  BundleOptions options;
+  options.function_tolerance = 1e-12;
+  options.max_iterations = 50;
+  options.loss = LossKind::kSquared;
+  const BundleResult held = AdjustBundle(scene.problem, options);
+  const PoseInformation information = FindPoseInformation(scene.problem, held, options);
+  StereoCorrection::Coefficients step = StereoCorrection::Coefficients::Zero();
+  step.head<4>() << 0.02, -0.01, 0.01, 0.015;
+  scene.problem.correction.coefficients_px = step;
+  const BundleResult moved = AdjustBundle(scene.problem, options);
+  constexpr int kFirst = 2, kSize = 6 * 4;  // two poses are held
+  const Eigen::VectorXd expected =
+      -information.poses.bottomRightCorner(kSize, kSize)
+           .ldlt()
+           .solve(information.by_columns.bottomRows(kSize) * step.head<ImageBasis::kNumTerms>());
+  for (int pose = kFirst; pose < 6; ++pose) {
+    const Rigid3 motion = moved.camera_from_world[pose] * held.camera_from_world[pose].Inverse();
+    const Eigen::Vector3d shift = moved.camera_from_world[pose].translation -
+                                  motion.rotation * held.camera_from_world[pose].translation;
+    EXPECT_GT(shift.norm(), 1e-4);
+    EXPECT_LT((shift - expected.segment<3>(6 * (pose - kFirst) + 3)).norm(), 0.05 * shift.norm());
+  }
 }
 
 }  // namespace

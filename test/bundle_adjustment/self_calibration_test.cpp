@@ -42,7 +42,7 @@ CorridorOptions MakeOptions(const Coefficients& displacement) {
 
 BundleResult Calibrate(const CorridorOptions& corridor) {
   BundleProblem problem = MakeCorridor(corridor).problem;
-  problem.correction_sigma_px = 5;  // no help
+  problem.correction_prior = CorrectionBelief::Isotropic(5);  // no help
   return AdjustBundle(problem, {});
 }
 
@@ -111,14 +111,14 @@ TEST(SelfCalibration, AFrozenCorrectionStaysWhereItStartsAndIsUsed) {
 
 TEST(SelfCalibration, ATightPriorHoldsTheCorrection) {
   BundleProblem problem = MakeCorridor(MakeOptions(MakeDisplacement())).problem;
-  problem.correction_sigma_px = 1e-6;
+  problem.correction_prior = CorrectionBelief::Isotropic(1e-6);
   EXPECT_LT(AdjustBundle(problem, {}).correction.coefficients_px.norm(), 1e-5);
 }
 
 TEST(SelfCalibration, PointsTooFarToBePlacedDoNotTakeTheCovarianceAway) {
   CorridorScene scene = MakeCorridor(MakeOptions(MakeDisplacement()));
   BundleProblem& problem = scene.problem;
-  problem.correction_sigma_px = 5;
+  problem.correction_prior = CorrectionBelief::Isotropic(5);
   for (int i = 0; i < 40; ++i) {
     const int point = static_cast<int>(problem.points.size());
     const Eigen::Vector3d star(1e9 * (i - 20), -3e9, 1e11);
@@ -139,11 +139,11 @@ TEST(SelfCalibration, PointsTooFarToBePlacedDoNotTakeTheCovarianceAway) {
 TEST(SelfCalibration, EarlierInformationCountsAsMuchAsTheObservations) {
   const Coefficients truth = MakeDisplacement();
   BundleProblem problem = MakeCorridor(MakeOptions(truth)).problem;
-  problem.correction_sigma_px = 5;
+  problem.correction_prior = CorrectionBelief::Isotropic(5);
   const BundleResult alone = AdjustBundle(problem, {});
   const Coefficients shift = 0.01 * Coefficients::Ones();
-  problem.correction_prior.information = alone.correction_covariance.inverse();
-  problem.correction_prior.mean_px = alone.correction.coefficients_px + shift;
+  problem.correction_prior->covariance = alone.correction_covariance;
+  problem.correction_prior->mean.coefficients_px = alone.correction.coefficients_px + shift;
   for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
     BundleOptions options;
     options.solver = solver;

@@ -162,7 +162,7 @@ TEST_F(OdometryChain, SaysThatItIsLostAndRecovers) {
   tf2_ros::Buffer buffer;
   tf2_ros::TransformListener listener(buffer);
   ASSERT_EQ(Step(0.05).state, OdometryStatus::TRACKED);
-  const uint32_t world = status_.last().world;
+  const uint32_t epoch = status_.last().epoch;
   for (int i = 0; i < 5; ++i) EXPECT_NE(StepInTheDark().state, OdometryStatus::TRACKED);
   EXPECT_FALSE(status_.last().text.empty());
   EXPECT_EQ(odom_.last().pose.covariance[0], 9999);
@@ -170,17 +170,17 @@ TEST_F(OdometryChain, SaysThatItIsLostAndRecovers) {
   EXPECT_FALSE(buffer.canTransform("odom", "base_link", odom_.last().header.stamp));
   ExpectDiagnostic("pose_node", DiagnosticStatus::ERROR, "lost");
   ASSERT_EQ(Step(0.15).state, OdometryStatus::TRACKED);
-  EXPECT_EQ(status_.last().world, world);
+  EXPECT_EQ(status_.last().epoch, epoch);
   EXPECT_NEAR(WayX(), 0.15, 0.02);
   EXPECT_LT(odom_.last().pose.covariance[0], 1);
 }
 
 TEST_F(OdometryChain, AResetStartsANewWorldWithoutAJump) {
   for (int i = 1; i <= 3; ++i) Step(0.05 * i);
-  const uint32_t world = status_.last().world;
+  const uint32_t epoch = status_.last().epoch;
   EXPECT_TRUE(Call("/pose_node/reset").success);
   ASSERT_EQ(Step(0.15).state, OdometryStatus::TRACKED);
-  EXPECT_EQ(status_.last().world, world + 1);
+  EXPECT_EQ(status_.last().epoch, epoch + 1);
   EXPECT_NEAR(WayX(), 0.15, 0.02);
   Step(0.25);
   EXPECT_NEAR(WayX(), 0.25, 0.02);
@@ -188,10 +188,10 @@ TEST_F(OdometryChain, AResetStartsANewWorldWithoutAJump) {
 
 TEST_F(OdometryChain, StartsAnewWhenTimeJumpsBack) {
   for (int i = 1; i <= 3; ++i) Step(0.1 * i);
-  const uint32_t world = status_.last().world;
+  const uint32_t epoch = status_.last().epoch;
   stamp_s_ -= 100;
   ASSERT_EQ(Step(0.3).state, OdometryStatus::TRACKED);
-  EXPECT_EQ(status_.last().world, world + 1);
+  EXPECT_EQ(status_.last().epoch, epoch + 1);
   EXPECT_NEAR(odom_.last().pose.pose.position.x, 0, 1e-9);
   Step(0.4);
   EXPECT_NEAR(odom_.last().pose.pose.position.x, 0.1, 0.02);

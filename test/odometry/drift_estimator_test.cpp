@@ -11,7 +11,7 @@ using Matrix6 = DriftEstimator::Matrix6;
 const Matrix6 kOne = Matrix6::Identity();
 
 /// The information of a chain of poses, `weight` on each step and no lever between them.
-Eigen::MatrixXd Chain(int num_poses, double weight) {
+PoseInformation Chain(int num_poses, double weight) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6 * num_poses, 6 * num_poses);
   for (int i = 0; i + 1 < num_poses; ++i) {
     information.block<6, 6>(6 * i, 6 * i) += weight * kOne;
@@ -19,7 +19,7 @@ Eigen::MatrixXd Chain(int num_poses, double weight) {
     information.block<6, 6>(6 * i, 6 * i + 6) -= weight * kOne;
     information.block<6, 6>(6 * i + 6, 6 * i) -= weight * kOne;
   }
-  return information;
+  return {information, Eigen::MatrixXd::Zero(6 * num_poses, ImageBasis::kNumTerms)};
 }
 
 TEST(DriftEstimator, EachStepOfAChainAddsItsVariance) {
@@ -53,8 +53,32 @@ TEST(DriftEstimator, HeldKeyframesThatErrAlikeDoNotHelpEachOther) {
   information.bottomRightCorner<6, 6>() = 2 * kOne;
   information.block<6, 6>(12, 0) = information.block<6, 6>(12, 6) = -kOne;
   information.block<6, 6>(0, 12) = information.block<6, 6>(6, 12) = -kOne;
-  drift.Update({1, 2, 3}, {1, 1, 0}, information);
+  drift.Update({1, 2, 3}, {1, 1, 0}, {information, Eigen::MatrixXd::Zero(18, 10)});
   EXPECT_NEAR((drift.Covariance(3) - 1.5 * kOne).norm(), 0, 1e-6);
+}
+
+/// Each step is too long by 0.01 m a pixel of the first coefficient: errors that add up, unlike
+/// noise.
+TEST(DriftEstimator, AnUnknownCorrectionErrsAlikeInEachStep) {
+  DriftEstimator drift;
+  CorrectionBelief correction = CorrectionBelief::Isotropic(0.5);
+  drift.SetCorrection(correction);
+  drift.Add(0, Matrix6::Zero());
+  const auto drive = [&](int first, int last) {
+    for (int k = first; k <= last; ++k) {
+      drift.Add(k, kOne, k - 1, Rigid3());
+      PoseInformation step = Chain(2, 1e12);
+      step.by_columns(6 + 5, 0) = -1e12 * 0.01;
+      drift.Update({k - 1, k}, {1, 0}, step);
+    }
+  };
+  drive(1, 10);
+  EXPECT_NEAR(std::sqrt(drift.Covariance(10)(5, 5)), 10 * 0.01 * 0.5, 1e-6);
+  correction = CorrectionBelief::Isotropic(0.1);
+  drift.SetCorrection(correction);  // known better: what was driven so far stays as unsure
+  EXPECT_NEAR(std::sqrt(drift.Covariance(10)(5, 5)), 10 * 0.01 * 0.5, 1e-6);
+  drive(11, 20);
+  EXPECT_NEAR(drift.Covariance(20)(5, 5), std::pow(0.05, 2) + std::pow(10 * 0.01 * 0.1, 2), 1e-6);
 }
 
 TEST(DriftEstimator, WhatIsForgottenLeavesTheRestAsItWas) {
@@ -71,7 +95,7 @@ TEST(DriftEstimator, ChangesNothingWhereTheInformationDoesNotFixThePoses) {
   DriftEstimator drift;
   drift.Add(0, Matrix6::Zero());
   drift.Add(1, kOne);
-  drift.Update({0, 1}, {1, 0}, Eigen::MatrixXd::Zero(12, 12));
+  drift.Update({0, 1}, {1, 0}, {Eigen::MatrixXd::Zero(12, 12), Eigen::MatrixXd::Zero(12, 10)});
   EXPECT_EQ(drift.Covariance(1), kOne);
 }
 

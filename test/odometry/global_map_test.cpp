@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <stdexcept>
 
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
 namespace {
+
+const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kBundleCamera);
 
 constexpr int kNumKeyframes = 60;
 
@@ -52,17 +55,20 @@ CorridorScene MakeDrive() {
 /// The keyframes' poses after a drive in which the map was adjusted each `interval` keyframes.
 std::vector<Rigid3> Drive(const CorridorScene& scene, const GlobalMapOptions& options, int interval,
                           int* num_landmarks = nullptr) {
-  GlobalMap map(kBundleCamera, options);
-  std::optional<MapUpdate> update;
+  GlobalMap map(kBundleCamera, options, kCalibration);
+  std::vector<Rigid3> poses;
   for (const KeyframeRecord& record : MakeRecords(scene)) {
     map.Add(record);
-    if (map.num_keyframes() % interval == 0) update = map.Adjust();
+    poses.push_back(record.camera_from_world * map.MapFromOdom().Inverse());
+    if (map.num_keyframes() % interval != 0) continue;
+    const auto update = map.Adjust();
+    if (!update) return {};
+    for (const auto& keyframe : update->keyframes) {
+      poses[keyframe.id] = keyframe.camera_from_world;
+    }
   }
   EXPECT_EQ(map.num_keyframes(), kNumKeyframes);
   if (num_landmarks != nullptr) *num_landmarks = map.num_landmarks();
-  std::vector<Rigid3> poses;
-  if (!update) return poses;
-  for (const auto& keyframe : update->keyframes) poses.push_back(keyframe.camera_from_world);
   return poses;
 }
 
@@ -74,7 +80,7 @@ double ErrorAtEnd(const CorridorScene& scene, const std::vector<Rigid3>& poses) 
 TEST(GlobalMap, ABoundedMapFindsThePathAlmostAsTheWholeDoes) {
   const CorridorScene scene = MakeDrive();
   GlobalMapOptions whole, bounded;
-  whole.stereo_correction_sigma_px = bounded.stereo_correction_sigma_px = 0;
+  whole.learn_correction = bounded.learn_correction = false;
   bounded.max_keyframes = 20;
   int num_whole = 0, num_bounded = 0;
   const auto by_whole = Drive(scene, whole, kNumKeyframes, &num_whole);
@@ -94,63 +100,82 @@ TEST(GlobalMap, KeyframesThatMoveNoMoreStayWhereTheyAre) {
   const CorridorScene scene = MakeDrive();
   GlobalMapOptions options;
   options.max_keyframes = 20;
-  GlobalMap map(kBundleCamera, options);
-  std::vector<std::vector<MapUpdate::KeyframePose>> history;
+  options.learn_correction = false;
+  GlobalMap map(kBundleCamera, options, kCalibration);
+  std::map<KeyframeId, Rigid3> settled;
   for (const KeyframeRecord& record : MakeRecords(scene)) {
     map.Add(record);
     if (map.num_keyframes() % 10 != 0) continue;
     const auto update = map.Adjust();
     ASSERT_TRUE(update);
-    history.push_back(update->keyframes);
-  }
-  for (size_t i = 1; i < history.size(); ++i) {
-    for (size_t k = 0; k + 20 < history[i].size(); ++k) {
-      EXPECT_EQ(history[i][k].camera_from_world.translation,
-                history[i - 1][k].camera_from_world.translation);
+    EXPECT_EQ(update->num_keyframes, map.num_keyframes());
+    ASSERT_LE(update->keyframes.size(), 21u);  // those that move, and the one that holds them
+    EXPECT_EQ(update->keyframes.back().id, record.id);
+    const auto& held = update->keyframes.front();
+    if (settled.count(held.id)) {
+      EXPECT_EQ(held.camera_from_world.translation, settled[held.id].translation);
     }
+    for (const auto& keyframe : update->keyframes)
+      settled[keyframe.id] = keyframe.camera_from_world;
   }
 }
 
-/// Windows of 20 keyframes: what those that move no more said of the displacement is not lost.
-TEST(GlobalMap, RemembersWhatForgottenKeyframesSaidOfTheStereoCorrection) {
+/// Records of a drive in which the right image is displaced as `correction` says.
+std::vector<KeyframeRecord> MakeDisplacedRecords(double du_px, double dv_px) {
   CorridorOptions corridor;
   corridor.num_poses = kNumKeyframes;
   corridor.num_points = 40 * kNumKeyframes;
   corridor.num_fixed = 1;
   corridor.noise_px = 0.2;
-  corridor.correction.coefficients_px[0] = 0.3;
-  corridor.correction.coefficients_px[10] = -0.3;
-  const CorridorScene scene = MakeCorridor(corridor);
-  const auto adjust_at_end = [&](int max_keyframes, int interval) {
-    GlobalMapOptions options;
-    options.max_keyframes = max_keyframes;
-    GlobalMap map(kBundleCamera, options);
-    std::optional<MapUpdate> update;
-    for (const KeyframeRecord& record : MakeRecords(scene)) {
-      map.Add(record);
-      if (map.num_keyframes() % interval == 0) update = map.Adjust();
-    }
-    return *update;
-  };
-  const MapUpdate whole = adjust_at_end(200, kNumKeyframes);
-  const MapUpdate bounded = adjust_at_end(20, 10);
-  for (const int k : {0, 10}) {
-    const double truth = corridor.correction.coefficients_px[k];
-    const double sigma = bounded.stereo_correction_sigma_px[k];
-    EXPECT_LT(sigma, 1.3 * whole.stereo_correction_sigma_px[k]) << k;
-    EXPECT_NEAR(bounded.stereo_correction.coefficients_px[k], truth, 4 * sigma) << k;
+  corridor.correction.coefficients_px[0] = du_px;
+  corridor.correction.coefficients_px[10] = dv_px;
+  return MakeRecords(MakeCorridor(corridor));
+}
+
+TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenHoldsIt) {
+  GlobalMap map(kBundleCamera, {}, kCalibration);
+  std::vector<CorrectionBelief> told;
+  for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
+    map.Add(record);
+    if (!map.IsAdjustmentDue()) continue;
+    const auto update = map.Adjust();
+    ASSERT_TRUE(update);
+    told.push_back(update->correction);
   }
+  ASSERT_GE(told.size(), 6u);
+  for (const int k : {0, 10}) {
+    const double truth = k == 0 ? 0.3 : -0.3;
+    const double sigma = std::sqrt(told.back().covariance(k, k));
+    EXPECT_NEAR(told.back().mean.coefficients_px[k], truth, 4 * sigma) << k;
+    EXPECT_LT(sigma, std::sqrt(told.front().covariance(k, k))) << k;
+  }
+  EXPECT_LT(told.back().MaxColumnSigma(kBundleCamera), 0.1);
+  EXPECT_EQ(told.back().mean.coefficients_px, told[told.size() - 2].mean.coefficients_px);
+}
+
+TEST(GlobalMap, ForgetsACorrectionThatTheRowsContradict) {
+  CorrectionBelief wrong = CorrectionBelief::Isotropic(0.01);  // as from another camera's drive
+  wrong.mean.coefficients_px[10] = 0.8;
+  GlobalMap map(kBundleCamera, {}, wrong);
+  std::optional<MapUpdate> update;
+  for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
+    map.Add(record);
+    if (map.IsAdjustmentDue()) update = map.Adjust();
+  }
+  ASSERT_TRUE(update);
+  EXPECT_NEAR(update->correction.mean.coefficients_px[0], 0.3, 0.1);
+  EXPECT_NEAR(update->correction.mean.coefficients_px[10], -0.3, 0.1);
 }
 
 TEST(GlobalMap, RefusesAnOlderKeyframeAndBoundsThatLeaveNothing) {
-  GlobalMap map(kBundleCamera, {});
+  GlobalMap map(kBundleCamera, {}, kCalibration);
   KeyframeRecord record;
   record.id = 5;
   map.Add(record);
   EXPECT_THROW(map.Add(record), std::invalid_argument);
   GlobalMapOptions options;
   options.max_keyframes = 1;
-  EXPECT_THROW(GlobalMap(kBundleCamera, options), std::invalid_argument);
+  EXPECT_THROW(GlobalMap(kBundleCamera, options, kCalibration), std::invalid_argument);
 }
 
 }  // namespace

@@ -18,8 +18,10 @@ class VisualOdometryTest : public ::testing::Test {
   static Rigid3 Truth(int i) {
     return {ExpSO3({0, 0.005 * i, 0}), Eigen::Vector3d(-0.1 * i, 0, 0.01 * i)};
   }
-  PoseEstimate See(int i) { return odometry_.Process(wall_.Render(0.1 * i, Truth(i))).pose; }
-  PoseEstimate SeeNothing(int i) { return odometry_.Process(wall_.RenderDark(0.1 * i)).pose; }
+  PoseEstimate See(int i) { return odometry_.Process(wall_.Render(0.1 * i, Truth(i))).update.pose; }
+  PoseEstimate SeeNothing(int i) {
+    return odometry_.Process(wall_.RenderDark(0.1 * i)).update.pose;
+  }
 
   static double ErrorIn(const Rigid3& camera_from_world, int i) {
     return (camera_from_world * Truth(i).Inverse()).translation.norm();
@@ -55,7 +57,7 @@ TEST_F(VisualOdometryTest, FindsItsWayAgainAfterTenBlackPairs) {
 
 TEST_F(VisualOdometryTest, FindsItsWayAfterItWasCarriedBack) {
   for (int i = 0; i < 12; ++i) ASSERT_TRUE(See(i).IsTracked());
-  const PoseEstimate pose = odometry_.Process(wall_.Render(1.2, Truth(3))).pose;
+  const PoseEstimate pose = odometry_.Process(wall_.Render(1.2, Truth(3))).update.pose;
   ASSERT_TRUE(pose.IsTracked());
   EXPECT_LT(ErrorIn(pose.camera_from_world, 3), 0.02);
 }
@@ -70,7 +72,7 @@ TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
       random.fill(noise, cv::RNG::NORMAL, 0, 2);
       cv::add(*image, noise, *image, cv::noArray(), CV_8U);
     }
-    const PoseEstimate pose = odometry_.Process(noisy).pose;
+    const PoseEstimate pose = odometry_.Process(noisy).update.pose;
     ASSERT_TRUE(pose.IsTracked());
     EXPECT_LT(pose.camera_from_world.translation.norm(), 1e-3) << i;
     EXPECT_LT(pose.camera_from_world.Angle(), 0.01 * M_PI / 180) << i;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
+#include "arfm_vo/ros/pose_message.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {
@@ -45,7 +46,7 @@ PlacedKeyframe MakeKeyframe() {
   landmark.laplacian_sign = -1;
   for (int i = 0; i < 64; ++i) landmark.descriptor[i] = 0.5f * i;
   keyframe.record.landmarks.push_back(landmark);
-  keyframe.world = 3;
+  keyframe.epoch = 3;
   keyframe.camera = kCamera;
   keyframe.odom_from_world = kMotion.Inverse();
   keyframe.base_from_camera = kMotion * kMotion;
@@ -56,8 +57,9 @@ MapUpdate MakeUpdate() {
   MapUpdate update;
   update.keyframes = {{2, kMotion}, {5, kMotion.Inverse()}};
   update.landmarks = {{7, {1, 2, 3}}, {9, {4, 5, 6}}};
-  update.stereo_correction.coefficients_px.setLinSpaced(0.1, 0.9);
-  update.stereo_correction_sigma_px.setLinSpaced(0.01, 0.02);
+  update.correction = CorrectionBelief::Isotropic(0.5);
+  update.correction.mean.coefficients_px.setLinSpaced(0.1, 0.9);
+  update.num_keyframes = 6;
   return update;
 }
 
@@ -108,7 +110,7 @@ TEST(Conversions, ACameraSurvives) {
 TEST(Conversions, AKeyframeSurvives) {
   const PlacedKeyframe keyframe = MakeKeyframe();
   const PlacedKeyframe back = FromMessage(ToMessage(keyframe));
-  EXPECT_EQ(back.world, 3u);
+  EXPECT_EQ(back.epoch, 3u);
   EXPECT_EQ(back.record.id, 4);
   EXPECT_EQ(back.record.stamp_s, 12.5);
   ExpectEqual(back.record.camera_from_world, keyframe.record.camera_from_world);
@@ -136,8 +138,9 @@ TEST(Conversions, AMapUpdateSurvives) {
   ASSERT_EQ(back.landmarks.size(), 2u);
   EXPECT_EQ(back.landmarks[1].id, 9);
   EXPECT_EQ(back.landmarks[1].x_in_world, Eigen::Vector3d(4, 5, 6));
-  EXPECT_EQ(back.stereo_correction.coefficients_px, update.stereo_correction.coefficients_px);
-  EXPECT_EQ(back.stereo_correction_sigma_px, update.stereo_correction_sigma_px);
+  EXPECT_EQ(back.correction.mean.coefficients_px, update.correction.mean.coefficients_px);
+  EXPECT_EQ(back.correction.covariance, update.correction.covariance);
+  EXPECT_EQ(back.num_keyframes, 6);
 }
 
 /// Spoils a good message and expects an error with `text` from its conversion.
@@ -195,8 +198,14 @@ TEST(Conversions, AMalformedMapUpdateIsRefusedByName) {
                 [](auto& message) { message.keyframe_id[1] = 2; });
   ExpectRefused(good, "landmark_position[5] is not a finite number",
                 [](auto& message) { message.landmark_position[5] = kNaN; });
-  ExpectRefused(good, "stereo_correction_px[3] is not a finite number",
-                [](auto& message) { message.stereo_correction_px[3] = kNaN; });
+  ExpectRefused(good, "correction_px[3] is not a finite number",
+                [](auto& message) { message.correction_px[3] = kNaN; });
+}
+
+TEST(Conversions, ACovarianceMessageIsRowByRow) {
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance(1, 3) = 7;
+  EXPECT_EQ(ToCovarianceMessage(covariance)[9], 7);
 }
 
 }  // namespace

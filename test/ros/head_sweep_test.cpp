@@ -6,7 +6,7 @@
 
 #include "arfm_vo/odometry/stereo_frontend.h"
 #include "arfm_vo/ros/conversions.h"
-#include "arfm_vo/ros/rover_odometry.h"
+#include "arfm_vo/ros/mounted_session.h"
 #include "arfm_vo/simulation/scene.h"
 
 namespace arfm_vo {
@@ -39,7 +39,7 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   mount_options.max_slew_dps = max_slew_dps;
   const CameraMount mount(buffer, mount_options);
   StereoFrontend frontend(scene.camera(), {});
-  RoverOdometry rover({}, mount, 0, 1);
+  Session session({});
   Drift drift;
   std::optional<Rigid3> first_from_odom;
   for (int i = 0; i < scene.num_pairs(); i += kStride) {
@@ -48,8 +48,8 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
     std_msgs::Header header;
     header.stamp.fromSec(images.stamp_s);
     header.frame_id = "left_camera_optical";
-    const RoverEstimate pose =
-        rover.Process(frontend.Process(images), scene.camera(), images, header);
+    const SessionUpdate pose =
+        ProcessMounted(session, mount, frontend.Process(images), scene.camera(), images, header);
     drift.num_slewing += !pose.IsTried();
     if (!pose.IsTracked()) continue;
     ++drift.num_tracked;

@@ -1,6 +1,5 @@
 #include "arfm_vo/ros/odometry_health.h"
 
-#include <arfm_vo/OdometryStatus.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,14 +21,14 @@ StereoFrame FrameWithRows(double row_residual_px) {
   return frame;
 }
 
-RoverEstimate PoseWithState(uint8_t state, const std::string& text) {
-  RoverEstimate pose;
-  pose.state = state;
+SessionUpdate PoseWithStatus(PoseStatus status, const std::string& text) {
+  SessionUpdate pose;
+  pose.update.pose.status = status;
   pose.text = text;
   return pose;
 }
 
-const RoverEstimate kTracked = PoseWithState(OdometryStatus::TRACKED, "tracked");
+const SessionUpdate kTracked = PoseWithStatus(PoseStatus::kTracked, "tracked");
 
 int LevelOfRows(double row_residual_px) {
   OdometryHealth health{OdometryHealthOptions()};
@@ -64,11 +63,11 @@ TEST(OdometryHealth, LostIsAnError) {
   health.Count({}, kTracked, 1);
   EXPECT_EQ(report().level, DiagnosticStatus::OK);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // none since
-  health.Count({}, PoseWithState(OdometryStatus::TOO_FEW_MATCHES, "too few matches"), 1);
+  health.Count({}, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), 1);
   const Wrapper lost = report();
   EXPECT_EQ(lost.level, DiagnosticStatus::ERROR);
   EXPECT_THAT(lost.message, testing::HasSubstr("too few matches"));
-  health.Count({}, PoseWithState(OdometryStatus::HEAD_SLEWING, "head slewing"), 1);
+  health.Count({}, PoseWithStatus(PoseStatus::kHeadSlewing, "head slewing"), 1);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);
   health.CountRefused("left/image_rect: the image is empty");
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
@@ -78,7 +77,7 @@ TEST(OdometryHealth, AScaleThatDisagreesWithTheTracksIsTold) {
   OdometryHealth health{OdometryHealthOptions()};
   for (int i = 0; i < 200; ++i) {
     health.scale().AddTrack(0.1 * i, {0.1 * i, 0, 0});
-    RoverEstimate pose = kTracked;
+    SessionUpdate pose = kTracked;
     pose.update.stamp_s = 0.1 * i - 0.05;
     pose.odom_from_base.translation = {0.13 * i, 0, 0};
     health.Count({}, pose, 1);

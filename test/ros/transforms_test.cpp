@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "arfm_vo/ros/base_motion.h"
+#include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/ros/conversions.h"
 #include "ros/expect_throw.h"
 
@@ -121,7 +121,7 @@ TEST(BaseMotion, ANewWorldContinuesWhereTheBaseStands) {
   motion.Move(Rigid3(), mount);
   motion.Move(Rigid3(ExpSO3({0, 0.3, 0}), Eigen::Vector3d(0.5, 0, -2)), mount);
   const Rigid3 before = motion.odom_from_base();
-  motion.StartWorld();
+  motion.StartEpoch();
   const Rigid3 turned = BaseFromCamera(30 * kDegree, 0);
   const Rigid3 after = motion.Move(Rigid3(), turned);
   EXPECT_LT((before.Inverse() * after).translation.norm(), 1e-12);

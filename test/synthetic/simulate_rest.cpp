@@ -77,7 +77,7 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
       random.fill(noise, cv::RNG::NORMAL, 0, arguments.noise_grey_levels);
       cv::add(*image, noise, *image, cv::noArray(), CV_8U);
     }
-    const PoseEstimate pose = odometry.Process(images).pose;
+    const PoseEstimate pose = odometry.Process(images).update.pose;
     if (!pose.IsTracked()) throw std::runtime_error("pair " + std::to_string(pair) + " is lost");
     drift.metres = std::max(drift.metres, pose.camera_from_world.translation.norm());
     drift.degrees = std::max(drift.degrees, pose.camera_from_world.Angle() * 180 / M_PI);

@@ -22,11 +22,12 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
     const StereoFrame frame =
         MakeStereoFrame(camera, *seen, stamp_s, sigma_px, options.descriptor_noise, simulator);
     Stopwatch stopwatch;
-    const OdometryUpdate update = odometry.Process(frame, no_images);
+    const SessionUpdate pose = odometry.Process(frame, no_images);
+    const OdometryUpdate& update = pose.update;
     run.odometry_s += 1e-3 * stopwatch.LapMs();
     run.num_lost += !update.pose.IsTracked();
     run.num_keyframes += update.is_keyframe;
-    run.online.push_back(update.pose.camera_from_world.Inverse());
+    run.online.push_back(pose.odom_from_base);
     run.covariances.push_back(update.covariance_from_start);
   }
   Stopwatch stopwatch;

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/geometry/stereo_correction.h"
 
 namespace arfm_vo {
 
@@ -27,14 +28,6 @@ struct PoseConstraint {
   Eigen::Matrix<double, 6, 6> information;  ///< (rad, m)^-2; symmetric, positive semi-definite
 };
 
-/// What other observations say of the correction: its coefficients are about `mean_px`, with an
-/// `information`, px^-2, that is symmetric and positive semi-definite.
-struct CorrectionPrior {
-  using Information = Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>;
-  StereoCorrection::Coefficients mean_px = StereoCorrection::Coefficients::Zero();
-  Information information = Information::Zero();
-};
-
 /// Poses, points and what the poses saw, to be brought into agreement.
 struct BundleProblem {
   StereoCamera camera;
@@ -45,10 +38,8 @@ struct BundleProblem {
   std::vector<PoseConstraint> constraints;
 
   StereoCorrection correction;  ///< where to start
-  /// Prior of each coefficient of the correction: a standard deviation about zero; 0 = the
-  /// correction stays where it starts.
-  double correction_sigma_px = 0;
-  CorrectionPrior correction_prior;  ///< on top of that, where the correction is free
+  /// What is known of the correction without these observations; nothing: it stays where it starts.
+  std::optional<CorrectionBelief> correction_prior;
 
   /// Throws std::invalid_argument naming what is wrong: sizes that differ, an index out of range,
   /// a value that is not finite, a sigma that is not positive, no observation or no fixed pose.

@@ -7,10 +7,18 @@
 namespace arfm_vo {
 
 /// What the observations of an adjusted bundle say of its poses, fixed ones too, with the points
-/// eliminated (the Schur complement): [6P x 6P], (rad, m)^-2, in the steps of BoxPlus, at the
-/// result and with the weights of `options`. The block of some poses is the inverse of their
-/// covariance given all others; the whole is singular, as nothing ties it to the world.
-Eigen::MatrixXd FindPoseInformation(const BundleProblem& problem, const BundleResult& result,
+/// eliminated (the Schur complement), in the steps of BoxPlus, (rad, m).
+struct PoseInformation {
+  /// [6P x 6P]. The block of some poses is the inverse of their covariance given all others; the
+  /// whole is singular, as nothing ties it to the world.
+  Eigen::MatrixXd poses;
+  /// [6P x 10], px^-1: the same between the poses and the coefficients of the columns' displacement
+  /// (StereoCorrection), which the adjustment holds.
+  Eigen::MatrixXd by_columns;
+};
+
+/// At the result and with the weights of `options`.
+PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleResult& result,
                                     const BundleOptions& options);
 
 }  // namespace arfm_vo

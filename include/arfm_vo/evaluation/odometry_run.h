@@ -7,7 +7,7 @@
 
 #include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/stereo_sequence.h"
-#include "arfm_vo/odometry/odometry_update.h"
+#include "arfm_vo/odometry/session.h"
 #include "arfm_vo/odometry/trajectory.h"
 
 namespace arfm_vo {
@@ -15,7 +15,7 @@ namespace arfm_vo {
 /// What an odometry made of a recording, and what it took.
 struct OdometryRun {
   Trajectory trajectory;  ///< as known in the end
-  Trajectory online;      ///< as known at once, before later corrections; lost frames interpolated
+  Trajectory online;      ///< as known at once, live; where a pair is lost, the last pose
   std::vector<std::optional<Rigid3>> truth;  ///< [pairs], world_from_camera
   std::vector<double> pair_ms;               ///< [pairs], wall time without loading
   std::vector<StageTimes> stage_ms;          ///< [pairs]
@@ -42,14 +42,11 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
   const double cpu_before_s = GetProcessCpuSeconds() - sequence.loading_cpu_s();
   while (const std::optional<SequencePair> pair = sequence.Next()) {
     const Clock::time_point start = Clock::now();
-    const auto update = odometry.Process(pair->images);
+    const SessionUpdate pose = odometry.Process(pair->images);
     run.pair_ms.push_back(to_ms(Clock::now() - start));
-    run.stage_ms.push_back(update.stage_ms);
+    run.stage_ms.push_back(pose.update.stage_ms);
     run.memory_mb.push_back(GetMemoryMb());
-    const bool is_tracked = update.pose.IsTracked();
-    run.online.push_back({pair->images.stamp_s,
-                          is_tracked ? update.pose.camera_from_world.Inverse() : Rigid3(),
-                          is_tracked});
+    run.online.push_back({pair->images.stamp_s, pose.odom_from_base, pose.IsTracked()});
     run.truth.push_back(pair->true_world_from_camera);
     report_progress(static_cast<int>(run.online.size()), sequence.size());
   }
@@ -57,7 +54,6 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
   run.trajectory = odometry.Finish();
   run.finish_ms = to_ms(Clock::now() - start);
   run.cpu_s = GetProcessCpuSeconds() - sequence.loading_cpu_s() - cpu_before_s;
-  InterpolateLostPoses(run.online);
   return run;
 }
 

@@ -6,13 +6,15 @@
 
 namespace arfm_vo {
 
-/// The poses of the frames whose truth is known; where none is, all estimates and no truth.
+/// The poses of `trajectory` (the run's live or final one) at the frames whose truth is known;
+/// where none is, all estimates and no truth.
 struct PathComparison {
   std::vector<Rigid3> estimate, truth;  ///< world_from_camera
 };
-PathComparison CompareWithTruth(const OdometryRun& run);
+PathComparison CompareWithTruth(const OdometryRun& run, const Trajectory& trajectory);
 
-/// Lines `key: value` from pairs to, where the recording has the truth, length_ratio. Frames
+/// Lines `key: value` from pairs to, where the recording has the truth, the errors: those of the
+/// poses as known at once (live_t_rel_percent ..), then of the trajectory after the drive. Frames
 /// without truth are left out of the comparison.
 std::string FormatRun(const OdometryRun& run);
 

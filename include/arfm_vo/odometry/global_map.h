@@ -17,9 +17,9 @@ struct GlobalMapOptions {
   /// The newest so many move. Older ones are held where they are, poses alone but for what they saw
   /// of the same landmarks: this bounds the memory and the time that an adjustment takes.
   int max_keyframes = 110;
-  /// Prior of the displacement that rectification left in the right image; 0: none is looked for.
-  double stereo_correction_sigma_px = 1;
-  double stereo_correction_confidence = 0.99;  ///< it is taken over where it is that certain
+  /// Learn what rectification left undone, until it is known; false: take the calibration, or what
+  /// was learnt in an earlier drive, as it is.
+  bool learn_correction = true;
 
   LoopOptions loops;  ///< places known again; off unless enabled
 
@@ -37,21 +37,27 @@ struct GlobalMapOptions {
     visit("solver", solver);
     visit("min_observations", min_observations);
     visit("max_keyframes", max_keyframes);
-    visit("stereo_correction_sigma_px", stereo_correction_sigma_px);
-    visit("stereo_correction_confidence", stereo_correction_confidence);
+    visit("learn_correction", learn_correction);
     visit("loops", loops);
   }
 };
 
 /// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
-/// What ba_node runs. To be adjusted at least each NumMoving() / 2 keyframes.
+/// Adjustments find the stereo correction too until it is known better than any single observation
+/// is trusted; from then on it is held, and learnt anew only where the rows contradict it.
 class GlobalMap {
  public:
-  GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options);
+  /// `correction`: what is known of it before.
+  GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options,
+            const CorrectionBelief& correction);
 
   /// Takes the next keyframe, which must be newer than all before, and looks whether it closes a
   /// loop.
   void Add(const KeyframeRecord& keyframe);
+
+  /// Whether the newest keyframe calls for an adjustment: the more rarely the more there are, and
+  /// where it closed a loop.
+  bool IsAdjustmentDue() const;
 
   /// Adjusts everything; where loops were closed since the last time, the path is bent onto them
   /// first (pose graph). Nothing where there are fewer than two keyframes or no solution.
@@ -73,9 +79,9 @@ class GlobalMap {
   void Close(const Loop& loop);
   void BendOntoLoops();
   BundleProblem MakeProblem();
-  BundleResult Solve(BundleProblem problem, const BundleCallback& progress);
-  void RememberCorrection(const BundleProblem& problem, const BundleResult& result);
-  void SettleCorrection();
+  void LearnCorrection(const BundleResult& result);
+  void CheckCorrection(const KeyframeRecord& keyframe);
+  MapUpdate TakeResult(const BundleResult& result, bool is_bent);
 
   StereoCamera camera_;
   GlobalMapOptions options_;
@@ -84,10 +90,12 @@ class GlobalMap {
   LoopDetector detector_;
   std::vector<PoseConstraint> loops_;
   bool has_new_loops_ = false;
-  CorrectionPrior correction_prior_;  ///< from keyframes that move no more
-  StereoCorrection correction_;       ///< of the last adjustment
-  CorrectionPrior told_;              ///< by the keyframes that moved in the last adjustment
-  int num_telling_ = 0;               ///< those keyframes
+  int next_adjustment_ = 2;      ///< at this number of keyframes
+  CorrectionBelief prior_;       ///< of the correction, without the keyframes
+  CorrectionBelief correction_;  ///< with them
+  bool is_learning_;             ///< the correction is free
+  int num_contradictions_ = 0;   ///< keyframes in a row whose rows contradict the correction
+  int first_telling_ = 0;        ///< right images of keyframes before are of another correction
 };
 
 }  // namespace arfm_vo

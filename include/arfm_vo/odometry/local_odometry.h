@@ -24,8 +24,9 @@ struct LocalOdometryOptions {
   LocalBundleOptions bundle;
   StandstillOptions standstill;
   KeyframeArchiveOptions archive;
-  bool predict_motion = true;    ///< constant velocity; never required
-  int min_points_to_start = 30;  ///< stereo points of the first frame
+  bool predict_motion = true;       ///< constant velocity; never required
+  int min_points_to_start = 30;     ///< stereo points of the first frame
+  double restart_after_lost_s = 3;  ///< without a pose: then a new map is begun; 0: never
 
   void Check() const;
   template <class Visitor>
@@ -38,17 +39,20 @@ struct LocalOdometryOptions {
     visit("archive", archive);
     visit("predict_motion", predict_motion);
     visit("min_points_to_start", min_points_to_start);
+    visit("restart_after_lost_s", restart_after_lost_s);
   }
 };
 
 /// The pose of each frame against the local map, which it keeps up and refines by windowed bundle
 /// adjustment on a thread of its own (floors pose to bundle_adjustment). A frame that the map does
 /// not know is looked for in the keyframes that left it; where it is found the map begins anew.
-/// What pose_node runs.
+/// What Session runs.
 /// The world is the left camera of the first frame after construction or Reset.
 class LocalOdometry {
  public:
-  LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options);
+  /// `correction`: what is known of it at first.
+  LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options,
+                const CorrectionBelief& correction);
   ~LocalOdometry();
 
   /// Localises the next frame, later than the one before; `images` are those it was made from.

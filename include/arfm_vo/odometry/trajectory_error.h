@@ -21,8 +21,8 @@ struct TrajectoryError {
 /// Throws std::invalid_argument where fewer than 2 frames are common.
 TrajectoryError ComputeTrajectoryError(std::vector<Rigid3> truth, std::vector<Rigid3> estimate);
 
-/// Lines `key: value`, from t_rel_percent to length_ratio.
-std::string FormatTrajectoryError(const TrajectoryError& error);
+/// Lines `key: value`, from t_rel_percent to length_ratio, each key after `prefix`.
+std::string FormatTrajectoryError(const TrajectoryError& error, const std::string& prefix = "");
 
 /// `path` moved so that its first pose is the identity.
 std::vector<Rigid3> RebaseToFirst(const std::vector<Rigid3>& path);

@@ -11,10 +11,13 @@
 
 namespace arfm_vo {
 
-/// Remembers each frame of one world relative to its keyframe, so that what is found out later
+/// Remembers each frame of one epoch relative to its keyframe, so that what is found out later
 /// about the keyframe moves the frame too.
 class TrajectoryLog {
  public:
+  /// `first_frame` numbers the frames.
+  explicit TrajectoryLog(size_t first_frame = 0) : first_frame_(first_frame) {}
+
   /// Takes a frame and where the keyframes of `map` are after it.
   void Add(const OdometryUpdate& update, const LocalMap& map);
 
@@ -23,6 +26,9 @@ class TrajectoryLog {
 
   /// Takes what a global adjustment found; the newest one counts.
   void Apply(const MapUpdate& update);
+
+  /// The number of the frame that became a keyframe; that of the first frame for an unknown one.
+  size_t FrameOf(KeyframeId keyframe) const;
 
   /// The pose of each frame in the adjusted world. Keyframes newer than the last adjustment hang on
   /// the newest one that took part. Lost frames are not interpolated.
@@ -40,10 +46,12 @@ class TrajectoryLog {
     Rigid3 camera_from_keyframe;
   };
   struct KeyframePlace {
+    size_t frame = 0;
     Rigid3 camera_from_world;
     std::optional<Rigid3> camera_from_map;
   };
 
+  size_t first_frame_;
   std::vector<Frame> frames_;
   std::map<KeyframeId, KeyframePlace> keyframes_;
 };

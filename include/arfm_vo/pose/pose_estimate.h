@@ -12,6 +12,8 @@ enum class PoseStatus {
   kTooFewFeatures,  ///< too few keypoints or stereo points in the pair
   kTooFewMatches,   ///< too few of the map's points were found again
   kNoConsensus,     ///< matches, but no motion that enough of them agree with
+  kNoTransform,     ///< not tried: where the camera sat on the rover is not known
+  kHeadSlewing,     ///< not tried: the head turned faster than the limit
 };
 
 /// The name of a status as messages and files show it, such as "too few matches".

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/ros/placed_map.h"
 #include "arfm_vo/ros/trajectory_output.h"
 #include "arfm_vo/ros/worker.h"
 
@@ -63,7 +63,8 @@ class BaNode {
 
   // On the worker's thread:
   void Add(const KeyframeStamped& message);
-  void AdjustIfDue();
+  std::optional<MapUpdate> Adjust();
+  void AdjustIfSettled();
   void PublishMap();
   void Tell();
 
@@ -78,7 +79,7 @@ class BaNode {
   PlacedMap map_;
   std_msgs::Header newest_;
   bool is_dirty_ = false;  // a keyframe came since the last adjustment
-  ros::WallTime next_adjustment_;
+  ros::WallTime settles_;
   Figures figures_;
   Shared<Figures> told_;
   Shared<Trajectory> trajectory_;  // of the keyframes

@@ -34,20 +34,11 @@ StereoCamera FromMessage(const RectifiedStereo& message);
 StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camera);
 StereoFrame FromMessage(const StereoFrameStamped& message);
 
-/// A keyframe and where its world lies.
-struct PlacedKeyframe {
-  KeyframeRecord record;
-  uint32_t world = 0;  ///< counts the worlds of the odometry
-  StereoCamera camera;
-  Rigid3 odom_from_world;
-  Rigid3 base_from_camera;  ///< at the keyframe's stamp
-};
-
 /// Fills header.stamp, not frame_id.
 KeyframeStamped ToMessage(const PlacedKeyframe& keyframe);
 PlacedKeyframe FromMessage(const KeyframeStamped& message);
 
-/// Fills the fields of the update; header and world are the caller's.
+/// Fills the fields of the update; header and epoch are the caller's.
 MapUpdateStamped ToMessage(const MapUpdate& update);
 MapUpdate FromMessage(const MapUpdateStamped& message);
 

@@ -2,16 +2,11 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include <Eigen/Core>
 #include <vector>
 
-namespace arfm_vo {
+#include "arfm_vo/odometry/placed_map.h"
 
-/// A landmark for display.
-struct LandmarkPoint {
-  Eigen::Vector3d x_in_map;
-  float depth_m = 0;  ///< from the camera that saw it first
-};
+namespace arfm_vo {
 
 /// A cloud with the fields x, y, z, rgb (blue near, red far) and depth; header is the caller's.
 sensor_msgs::PointCloud2 MakeLandmarkCloud(const std::vector<LandmarkPoint>& points);

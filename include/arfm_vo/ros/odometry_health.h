@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "arfm_vo/odometry/session.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
-#include "arfm_vo/ros/rover_odometry.h"
 #include "arfm_vo/ros/running_median.h"
 #include "arfm_vo/ros/scale_check.h"
 #include "arfm_vo/ros/wall_rate.h"
@@ -37,7 +37,7 @@ class OdometryHealth {
 
   explicit OdometryHealth(const OdometryHealthOptions& options);
 
-  void Count(const StereoFrame& frame, const RoverEstimate& pose, double ms);
+  void Count(const StereoFrame& frame, const SessionUpdate& pose, double ms);
   void CountRefused(const std::string& why);
   void CountDropped(uint32_t num_dropped) { num_dropped_ = num_dropped; }
   ScaleCheck& scale() { return scale_; }
@@ -53,7 +53,7 @@ class OdometryHealth {
   RunningMedian row_residual_px_;
   ScaleCheck scale_;
   WallRate rate_;
-  RoverEstimate last_;
+  SessionUpdate last_;
   bool is_new_ = false;  ///< a pair came since the last report
   std::string refusal_;
   double ms_ = 0;

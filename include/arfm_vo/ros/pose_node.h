@@ -17,8 +17,8 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/odometry_health.h"
 #include "arfm_vo/ros/pose_outputs.h"
-#include "arfm_vo/ros/rover_odometry.h"
 #include "arfm_vo/ros/trajectory_output.h"
+#include "arfm_vo/ros/transforms.h"
 #include "arfm_vo/ros/worker.h"
 
 namespace arfm_vo {
@@ -28,9 +28,8 @@ struct PoseNodeOptions {
   CameraMountOptions mount;   ///< its keys stand beside those of the node
   PoseOutputOptions output;   ///< its keys stand beside those of the node
   OdometryHealthOptions health;
-  int max_waiting_pairs = 4;        ///< older ones are dropped
-  double restart_after_lost_s = 3;  ///< without a pose: then the map is given up; 0: never
-  std::string trajectory_dir;       ///< the trajectory is saved here at the end; empty: nowhere
+  int max_waiting_pairs = 4;   ///< older ones are dropped
+  std::string trajectory_dir;  ///< the trajectory is saved here at the end; empty: nowhere
 
   void Check() const;
   template <class Visitor>
@@ -40,7 +39,6 @@ struct PoseNodeOptions {
     output.VisitFields(visit);
     visit("health", health);
     visit("max_waiting_pairs", max_waiting_pairs);
-    visit("restart_after_lost_s", restart_after_lost_s);
     visit("trajectory_dir", trajectory_dir);
   }
 };
@@ -75,7 +73,7 @@ class PoseNode {
   TrajectoryOutput trajectory_output_;
   PoseOutputs outputs_;
   // Of the worker's thread:
-  std::unique_ptr<RoverOdometry> rover_;
+  std::unique_ptr<Session> session_;
   OdometryHealth health_;
   ros::Time last_stamp_;
   uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "arfm_vo/odometry/session.h"
 #include "arfm_vo/ros/bounded_path.h"
-#include "arfm_vo/ros/rover_odometry.h"
 
 namespace arfm_vo {
 
@@ -34,18 +34,18 @@ class PoseOutputs {
   /// Publishes what a pair said, with the stamp of its image. Where it is not tracked there is no
   /// tf, and odom has a large covariance; without the camera's tf or with the head slewing there is
   /// no odom either.
-  void Publish(const RoverEstimate& pose, const StereoFrameStamped& frame, uint32_t num_dropped);
+  void Publish(const SessionUpdate& pose, const StereoFrameStamped& frame, uint32_t num_dropped);
 
   /// Only where somebody looks at it.
-  void PublishPicture(const cv::Mat& left, const StereoFrame& frame, const RoverEstimate& pose,
+  void PublishPicture(const cv::Mat& left, const StereoFrame& frame, const SessionUpdate& pose,
                       const std_msgs::Header& header);
 
   void ClearPath() { path_.Clear(); }
 
  private:
-  void PublishOdometry(const RoverEstimate& pose, const std_msgs::Header& header);
-  void PublishTransform(const RoverEstimate& pose, const std_msgs::Header& header);
-  void PublishPath(const RoverEstimate& pose, const std_msgs::Header& header);
+  void PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header);
+  void PublishTransform(const SessionUpdate& pose, const std_msgs::Header& header);
+  void PublishPath(const SessionUpdate& pose, const std_msgs::Header& header);
 
   PoseOutputOptions options_;
   std::string base_frame_;

@@ -14,7 +14,7 @@ class BaseMotion {
   const Rigid3& Move(const Rigid3& camera_from_world, const Rigid3& base_from_camera);
 
   /// The next frame starts a new world; the base stays where it is.
-  void StartWorld() { has_world_ = false; }
+  void StartEpoch() { has_world_ = false; }
   bool has_world() const { return has_world_; }
 
   const Rigid3& odom_from_world() const { return odom_from_world_; }  ///< set by Move

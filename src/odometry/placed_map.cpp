@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/placed_map.h"
+#include "arfm_vo/odometry/placed_map.h"
 
 #include <iterator>
 
@@ -12,14 +12,18 @@ constexpr int kMaxSettledLandmarks = 20000;  ///< for display
 bool PlacedMap::IsRestarted(const PlacedKeyframe& keyframe) const {
   if (places_.empty()) return false;
   const auto& [newest_id, newest] = *places_.rbegin();
-  return keyframe.world < world_ || keyframe.record.stamp_s < newest.stamp_s ||
-         (keyframe.world == world_ && keyframe.record.id <= newest_id);
+  return keyframe.epoch < epoch_ || keyframe.record.stamp_s < newest.stamp_s ||
+         (keyframe.epoch == epoch_ && keyframe.record.id <= newest_id);
 }
 
 bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   const bool is_restarted = IsRestarted(keyframe);
-  if (is_restarted) *this = PlacedMap(options_);
-  if (!global_ || keyframe.world != world_) StartWorld(keyframe);
+  if (is_restarted) {
+    const auto correction = correction_;
+    *this = PlacedMap(options_);
+    correction_ = correction;
+  }
+  if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
   const KeyframeRecord& record = keyframe.record;
   global_->Add(record);
   places_[record.id] = {record.stamp_s, record.camera_from_world, keyframe.base_from_camera};
@@ -29,21 +33,25 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   return !is_restarted;
 }
 
-void PlacedMap::StartWorld(const PlacedKeyframe& keyframe) {
+void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
   closed_landmarks_ = Landmarks();
   closed_places_ = Places();
   places_.clear();
   first_depths_m_.clear();
   adjusted_.clear();
-  world_ = keyframe.world;
-  global_.emplace(keyframe.camera, options_);
-  frame_.StartWorld(keyframe.odom_from_world);
+  epoch_ = keyframe.epoch;
+  if (global_ && !(keyframe.camera == camera_)) correction_.reset();
+  if (!correction_) correction_ = CorrectionBelief::OfCalibration(keyframe.camera);
+  camera_ = keyframe.camera;
+  global_.emplace(keyframe.camera, options_, *correction_);
+  frame_.StartEpoch(keyframe.odom_from_world);
 }
 
 std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
   if (!global_) return std::nullopt;
   std::optional<MapUpdate> update = global_->Adjust(progress);
   if (!update) return std::nullopt;
+  correction_ = update->correction;
   frame_.Adjust(global_->MapFromOdom());
   for (const MapUpdate::KeyframePose& keyframe : update->keyframes) {
     Place& place = places_.at(keyframe.id);

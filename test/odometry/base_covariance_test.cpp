@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/pose_covariance.h"
+#include "arfm_vo/odometry/base_covariance.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(DriftCovariance, AnUnsureHeadingMakesThePlaceUnsureWithTheWay) {
   DriftCovariance drift;
   Matrix6 base = Matrix6::Zero();
   base(5, 5) = 1e-4;  // heading, 0.01 rad
-  drift.StartWorld(Rigid3(), base, Matrix6::Zero());
+  drift.StartEpoch(Rigid3(), base, Matrix6::Zero());
   const Rigid3 ahead(Eigen::Quaterniond::Identity(), Eigen::Vector3d(10, 0, 0));
   const Matrix6 covariance = drift.At(ahead, Matrix6::Zero());
   EXPECT_NEAR(covariance(1, 1), 1e-2, 1e-12);  // (10 m * 0.01 rad)^2
@@ -69,15 +69,9 @@ TEST(DriftCovariance, KeepsWhatWasUnsureWhenTheWorldBegan) {
   DriftCovariance drift;
   const Matrix6 base = Matrix6::Identity() * 1e-6;
   EXPECT_NEAR(drift.At(Rigid3(), base)(0, 0), 1e-6, 1e-15);
-  drift.StartWorld(Rigid3(), drift.At(Rigid3(), base), 4 * base);
+  drift.StartEpoch(Rigid3(), drift.At(Rigid3(), base), 4 * base);
   EXPECT_NEAR(drift.At(Rigid3(), base)(0, 0), 6e-6, 1e-15);
   EXPECT_NEAR(drift.At(Rigid3(), base)(0, 0), 6e-6, 1e-15);
-}
-
-TEST(PoseCovariance, TheMessageIsRowByRow) {
-  Matrix6 covariance = Matrix6::Zero();
-  covariance(1, 3) = 7;
-  EXPECT_EQ(ToCovarianceMessage(covariance)[9], 7);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/pose_covariance.h"
+#include "arfm_vo/odometry/base_covariance.h"
 
 namespace arfm_vo {
 
@@ -23,16 +23,10 @@ Matrix6 DriftCovariance::At(const Rigid3& odom_from_base, const Matrix6& base_co
          turned * base_covariance * turned.transpose();
 }
 
-void DriftCovariance::StartWorld(const Rigid3& odom_from_base, const Matrix6& covariance,
+void DriftCovariance::StartEpoch(const Rigid3& odom_from_base, const Matrix6& covariance,
                                  const Matrix6& gap_covariance) {
   covariance_ = covariance + gap_covariance;
   odom_from_start_ = odom_from_base;
-}
-
-boost::array<double, 36> ToCovarianceMessage(const Matrix6& covariance) {
-  boost::array<double, 36> message;
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
-  return message;
 }
 
 }  // namespace arfm_vo

@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/base_motion.h"
+#include "arfm_vo/odometry/base_motion.h"
 
 namespace arfm_vo {
 

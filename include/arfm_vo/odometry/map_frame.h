@@ -8,7 +8,7 @@ namespace arfm_vo {
 /// global adjustment moves odom in the map, and the next world continues from there.
 class MapFrame {
  public:
-  void StartWorld(const Rigid3& odom_from_world) {
+  void StartEpoch(const Rigid3& odom_from_world) {
     odom_from_world_ = odom_from_world;
     map_from_world_ = map_from_odom_ * odom_from_world;
   }

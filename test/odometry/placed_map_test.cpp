@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/placed_map.h"
+#include "arfm_vo/odometry/placed_map.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ const Rigid3 kBaseFromCamera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Ve
 
 /// Keyframes of a camera that goes forward `step_m` a keyframe, and says that it went `scale` times
 /// as far; all see the same exact points.
-PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t world, double z, double said_z) {
+PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t epoch, double z, double said_z) {
   PlacedKeyframe keyframe;
-  keyframe.world = world;
+  keyframe.epoch = epoch;
   keyframe.camera = kCamera;
   keyframe.odom_from_world = kBaseFromCamera;
   keyframe.base_from_camera = kBaseFromCamera;
@@ -31,14 +31,14 @@ PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t world, double z, do
   return keyframe;
 }
 
-void AddWorld(PlacedMap& map, uint32_t world, double start_s, double step_m, double said_step_m) {
+void AddEpoch(PlacedMap& map, uint32_t epoch, double start_s, double step_m, double said_step_m) {
   for (int i = 0; i < 4; ++i)
-    EXPECT_TRUE(map.Add(MakeKeyframe(i, start_s + i, world, step_m * i, said_step_m * i)));
+    EXPECT_TRUE(map.Add(MakeKeyframe(i, start_s + i, epoch, step_m * i, said_step_m * i)));
 }
 
 TEST(PlacedMap, AdjustsThePathAndMovesOdomInTheMap) {
   PlacedMap map{GlobalMapOptions()};
-  AddWorld(map, 1, 0, 0.5, 0.55);
+  AddEpoch(map, 1, 0, 0.5, 0.55);
   EXPECT_NEAR(map.BasePoses().back().map_from_base.translation.x(), 1.65, 1e-9);
   EXPECT_TRUE(map.Landmarks().empty());
   const auto update = map.Adjust({});
@@ -55,7 +55,7 @@ TEST(PlacedMap, AdjustsThePathAndMovesOdomInTheMap) {
 
 TEST(PlacedMap, ShowsLandmarksInTheMapWithTheDepthOfTheFirstSight) {
   PlacedMap map{GlobalMapOptions()};
-  AddWorld(map, 1, 0, 0.5, 0.5);
+  AddEpoch(map, 1, 0, 0.5, 0.5);
   map.Adjust({});
   const std::vector<LandmarkPoint> points = map.Landmarks();
   ASSERT_EQ(points.size(), 60u);
@@ -82,7 +82,7 @@ PlacedKeyframe MakeStep(int id) {
 TEST(PlacedMap, ShowsALongDriveWithABoundedNumberOfLandmarks) {
   GlobalMapOptions options;
   options.max_keyframes = 8;
-  options.stereo_correction_sigma_px = 0;
+  options.learn_correction = false;
   PlacedMap map{options};
   constexpr int kLong = 400;  // 24,000 landmarks
   size_t most = 0;
@@ -104,14 +104,14 @@ TEST(PlacedMap, ShowsALongDriveWithABoundedNumberOfLandmarks) {
   EXPECT_LT(points.front().x_in_map.x(), 30);  // from the start on, thinned
 }
 
-TEST(PlacedMap, ANewWorldContinuesFromWhereOdomLiesInTheMap) {
+TEST(PlacedMap, ANewEpochContinuesFromWhereOdomLiesInTheMap) {
   PlacedMap map{GlobalMapOptions()};
-  AddWorld(map, 1, 0, 0.5, 0.55);
+  AddEpoch(map, 1, 0, 0.5, 0.55);
   map.Adjust({});
   PlacedKeyframe next = MakeKeyframe(0, 10, 2, 0, 0);
   next.odom_from_world.translation.x() += 1.65;  // the base stands where it stood
   EXPECT_TRUE(map.Add(next));
-  EXPECT_EQ(map.world(), 2u);
+  EXPECT_EQ(map.epoch(), 2u);
   EXPECT_EQ(map.num_keyframes(), 1);
   ASSERT_EQ(map.BasePoses().size(), 5u);
   EXPECT_NEAR(map.BasePoses().back().map_from_base.translation.x(), 1.5, 1e-3);
@@ -122,7 +122,7 @@ TEST(PlacedMap, ANewWorldContinuesFromWhereOdomLiesInTheMap) {
 TEST(PlacedMap, ARestartedOdometryIsAMapOfItsOwn) {
   for (const auto& [id, stamp_s, world] : {std::tuple(0, 20., 2u), {0, 1., 9u}, {0, 20., 1u}}) {
     PlacedMap map{GlobalMapOptions()};
-    AddWorld(map, 2, 10, 0.5, 0.55);
+    AddEpoch(map, 2, 10, 0.5, 0.55);
     map.Adjust({});
     EXPECT_FALSE(map.Add(MakeKeyframe(id, stamp_s, world, 0, 0)));
     EXPECT_EQ(map.BasePoses().size(), 1u);
@@ -134,7 +134,7 @@ TEST(PlacedMap, ARestartedOdometryIsAMapOfItsOwn) {
 TEST(PlacedMap, CanBeCancelled) {
   PlacedMap map{GlobalMapOptions()};
   EXPECT_FALSE(map.Adjust({}));
-  AddWorld(map, 1, 0, 0.5, 0.55);
+  AddEpoch(map, 1, 0, 0.5, 0.55);
   int calls = 0;
   map.Adjust([&](const BundleProgress&) { return ++calls < 1; });
   EXPECT_EQ(calls, 1);

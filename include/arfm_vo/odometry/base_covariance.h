@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/array.hpp>
 
 #include "arfm_vo/geometry/rigid3.h"
 
@@ -27,15 +26,12 @@ class DriftCovariance {
 
   /// A world begins at a pose that had `covariance` in odom, after a gap of `gap_covariance` (both
   /// as of At).
-  void StartWorld(const Rigid3& odom_from_base, const Matrix6& covariance,
+  void StartEpoch(const Rigid3& odom_from_base, const Matrix6& covariance,
                   const Matrix6& gap_covariance);
 
  private:
   Rigid3 odom_from_start_;
   Matrix6 covariance_ = Matrix6::Zero();  // where this world began, axes of odom
 };
-
-/// Row by row, as nav_msgs/Odometry holds it.
-boost::array<double, 36> ToCovarianceMessage(const Matrix6& covariance);
 
 }  // namespace arfm_vo

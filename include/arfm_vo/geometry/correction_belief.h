@@ -1,0 +1,33 @@
+#pragma once
+
+#include "arfm_vo/geometry/stereo_correction.h"
+
+namespace arfm_vo {
+
+/// What is known of a StereoCorrection: a normal distribution of its coefficients.
+struct CorrectionBelief {
+  using Matrix = Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>;
+
+  StereoCorrection mean;
+  Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
+
+  /// Each coefficient zero within `sigma_px`, independently of the others.
+  static CorrectionBelief Isotropic(double sigma_px);
+  /// What a calibration may be off by. A field is as likely as the errors of the right camera
+  /// against the left that would cause it: rotation, focal length, centre and the distortion of
+  /// Brown and Conrady (k1..k3, p1, p2), which move columns and rows together, so that rows tell
+  /// of columns; 0.1 px a coefficient is left for what that model does not know, and the whole
+  /// field is no more than about a pixel, as a calibration makes it.
+  static CorrectionBelief OfCalibration(const StereoCamera& camera);
+
+  Matrix Information() const;
+  using Columns = Eigen::Matrix<double, ImageBasis::kNumTerms, ImageBasis::kNumTerms>;
+  /// Of the coefficients of the columns' displacement, which moves points in space.
+  Columns ColumnCovariance() const {
+    return covariance.topLeftCorner<ImageBasis::kNumTerms, ImageBasis::kNumTerms>();
+  }
+  /// Largest standard deviation of the columns' displacement over the image, px.
+  double MaxColumnSigma(const StereoCamera& camera) const;
+};
+
+}  // namespace arfm_vo

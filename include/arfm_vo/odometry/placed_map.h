@@ -1,0 +1,89 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/odometry/global_map.h"
+#include "arfm_vo/odometry/map_frame.h"
+#include "arfm_vo/odometry/trajectory.h"
+
+namespace arfm_vo {
+
+/// A landmark for display.
+struct LandmarkPoint {
+  Eigen::Vector3d x_in_map;
+  float depth_m = 0;  ///< from the camera that saw it first
+};
+
+/// A base pose in the map.
+struct MapPose {
+  double stamp_s = 0;
+  Rigid3 map_from_base;
+};
+
+/// The global map in the map frame: keyframes of one epoch after another, the newest epoch under
+/// adjustment, those before as they were left. What ba_node runs.
+class PlacedMap {
+ public:
+  explicit PlacedMap(const GlobalMapOptions& options) : options_(options) {}
+
+  /// Takes the next keyframe. One of a new epoch ends the adjustment of the one before. Returns
+  /// false where the keyframe is of a restarted odometry (its epoch or stamp is before what came):
+  /// then all that was before is forgotten.
+  bool Add(const PlacedKeyframe& keyframe);
+  /// Whether the newest keyframe calls for an adjustment.
+  bool IsAdjustmentDue() const { return global_ && global_->IsAdjustmentDue(); }
+  /// Adjusts the newest epoch. Nothing where there is nothing to adjust or no solution.
+  std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
+  /// What is known of the stereo correction before the first keyframe, for that camera.
+  void SetCorrection(const CorrectionBelief& correction) { correction_ = correction; }
+  /// What is known now.
+  const std::optional<CorrectionBelief>& correction() const { return correction_; }
+
+  const Rigid3& map_from_odom() const { return frame_.map_from_odom(); }
+  uint32_t epoch() const { return epoch_; }
+  int num_keyframes() const { return global_ ? global_->num_keyframes() : 0; }  ///< of this epoch
+  int num_landmarks() const { return global_ ? global_->num_landmarks() : 0; }  ///< of this epoch
+  int num_loops() const { return global_ ? global_->num_loops() : 0; }          ///< of this epoch
+
+  /// All keyframes' bases, of all epochs.
+  std::vector<MapPose> BasePoses() const;
+  /// The adjusted landmarks of all epochs; of those that are adjusted no more, a bounded number.
+  std::vector<LandmarkPoint> Landmarks() const;
+  /// All keyframes' left cameras, in the first one's.
+  Trajectory MakeTrajectory() const;
+
+ private:
+  struct Place {
+    double stamp_s;
+    Rigid3 camera_from_world;  ///< the odometry's until adjusted, then the map's
+    Rigid3 base_from_camera;
+    bool is_adjusted = false;
+  };
+  /// A keyframe of an epoch that is over.
+  struct ClosedPlace {
+    double stamp_s;
+    Rigid3 map_from_camera, base_from_camera;
+  };
+
+  bool IsRestarted(const PlacedKeyframe& keyframe) const;
+  void StartEpoch(const PlacedKeyframe& keyframe);
+  void TakeLandmarks(const MapUpdate& update);
+  std::vector<ClosedPlace> Places() const;
+  Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
+
+  GlobalMapOptions options_;
+  std::optional<GlobalMap> global_;
+  StereoCamera camera_;
+  std::optional<CorrectionBelief> correction_;
+  MapFrame frame_;
+  uint32_t epoch_ = 0;
+  std::map<KeyframeId, Place> places_;
+  std::map<LandmarkId, float> first_depths_m_;
+  std::map<LandmarkId, Eigen::Vector3d> adjusted_;  // in this epoch
+  std::vector<ClosedPlace> closed_places_;
+  std::vector<LandmarkPoint> closed_landmarks_;
+};
+
+}  // namespace arfm_vo

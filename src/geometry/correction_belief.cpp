@@ -1,0 +1,92 @@
+#include "arfm_vo/geometry/correction_belief.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kNumTerms = ImageBasis::kNumTerms;
+
+/// Small differences between two cameras that a calibration may leave: wx, wy, wz (rad), relative
+/// focal length, its aspect, centre (px), k1, k2, k3, p1, p2. Far wider than calibrations are, as
+/// their errors make up for each other; the size of the field is bounded on its own.
+constexpr int kNumErrors = 12;
+constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,
+                                            20,   0.01, 0.01,  0.01, 0.01,  0.01};
+/// What no such error explains, and the size of the whole field, px a coefficient.
+constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
+
+using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
+
+/// Displacement (du, dv) of a pixel by a unit of each error.
+void DisplaceByErrors(const StereoCamera& camera, const Eigen::Vector2d& pixel, ErrorRow& du,
+                      ErrorRow& dv) {
+  const double x = (pixel.x() - camera.cx) / camera.fx, y = (pixel.y() - camera.cy) / camera.fy;
+  const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  du << x * y, 1 + x * x, y, x, x, 0, 0, x * r2, x * r4, x * r6, 2 * x * y, r2 + 2 * x * x;
+  dv << 1 + y * y, x * y, -x, y, -y, 0, 0, y * r2, y * r4, y * r6, r2 + 2 * y * y, 2 * x * y;
+  du *= camera.fx;
+  dv *= camera.fy;
+  du[5] = dv[6] = 1;
+}
+
+/// Coefficients of ImageBasis by a unit of each error: the least squares fit over the image.
+Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
+    const StereoCamera& camera) {
+  constexpr int kGrid = 21;
+  Eigen::Matrix<double, kNumTerms, kNumTerms> gram;
+  Eigen::Matrix<double, kNumTerms, kNumErrors> along_u, along_v;
+  gram.setZero();
+  along_u.setZero();
+  along_v.setZero();
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const Eigen::Vector2d pixel((i % kGrid + 0.5) * camera.width / kGrid,
+                                (i / kGrid + 0.5) * camera.height / kGrid);
+    const ImageBasis basis(camera, pixel);
+    ErrorRow du, dv;
+    DisplaceByErrors(camera, pixel, du, dv);
+    gram += basis.values * basis.values.transpose();
+    along_u += basis.values * du;
+    along_v += basis.values * dv;
+  }
+  Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> coefficients;
+  coefficients << gram.ldlt().solve(along_u), gram.ldlt().solve(along_v);
+  return coefficients;
+}
+
+}  // namespace
+
+CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
+  CorrectionBelief belief;
+  belief.covariance = sigma_px * sigma_px * Matrix::Identity();
+  return belief;
+}
+
+CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
+  const auto by_errors = CoefficientsByErrors(camera);
+  const Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>> sigma(kErrorSigma);
+  const Matrix explained = by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose() +
+                           Isotropic(kUnmodelledSigmaPx).covariance;
+  CorrectionBelief belief;
+  belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
+  return belief;
+}
+
+CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
+
+double CorrectionBelief::MaxColumnSigma(const StereoCamera& camera) const {
+  constexpr int kGrid = 9;
+  double largest = 0;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const Eigen::Vector2d edge(camera.width - 1, camera.height - 1);
+    const Eigen::Vector2d place(i % kGrid, i / kGrid);
+    const ImageBasis basis(camera, edge.cwiseProduct(place) / (kGrid - 1));
+    largest = std::max(largest, basis.values.dot(ColumnCovariance() * basis.values));
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,85 @@
+#include "arfm_vo/geometry/correction_belief.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{700, 710, 600, 180, 0.5, 1226, 370};
+constexpr int kNumTerms = ImageBasis::kNumTerms;
+
+/// Coefficients fitted to a field given at pixels (u, v): its columns first.
+template <class Field>
+StereoCorrection Fit(Field&& field) {
+  Eigen::Matrix<double, kNumTerms, kNumTerms> gram;
+  Eigen::Matrix<double, kNumTerms, 2> along;
+  gram.setZero();
+  along.setZero();
+  for (int i = 0; i < 900; ++i) {
+    const Eigen::Vector2d pixel(kCamera.width * (i % 30) / 29.0, kCamera.height * (i / 30) / 29.0);
+    const ImageBasis basis(kCamera, pixel);
+    gram += basis.values * basis.values.transpose();
+    along += basis.values * field(pixel).transpose();
+  }
+  StereoCorrection fitted;
+  const Eigen::Matrix<double, kNumTerms, 2> solution = gram.ldlt().solve(along);
+  fitted.coefficients_px << solution.col(0), solution.col(1);
+  return fitted;
+}
+
+/// What is left to be known of `truth` where its rows are known.
+Eigen::VectorXd ColumnsByRows(const CorrectionBelief& prior, const StereoCorrection& truth) {
+  const auto& covariance = prior.covariance;
+  return covariance.topRightCorner<kNumTerms, kNumTerms>() *
+         covariance.bottomRightCorner<kNumTerms, kNumTerms>().ldlt().solve(
+             truth.coefficients_px.tail<kNumTerms>());
+}
+
+TEST(CorrectionBelief, IsotropicHasTheSigmaThatItSays) {
+  const CorrectionBelief belief = CorrectionBelief::Isotropic(0.5);
+  EXPECT_EQ(belief.covariance(3, 3), 0.25);
+  EXPECT_EQ(belief.covariance(3, 4), 0);
+  EXPECT_NEAR(belief.Information()(7, 7), 4, 1e-12);
+}
+
+TEST(CorrectionBelief, OfACalibrationIsAboutAPixelWide) {
+  const CorrectionBelief belief = CorrectionBelief::OfCalibration(kCamera);
+  EXPECT_TRUE(belief.mean.IsZero());
+  EXPECT_EQ(belief.covariance.llt().info(), Eigen::Success);
+  EXPECT_NEAR(std::sqrt(belief.covariance(0, 0)), 1, 0.2);
+  EXPECT_GT(belief.MaxColumnSigma(kCamera), 1);
+}
+
+/// A roll of 1 mrad: rows by 0.6 px at the edges, columns by 0.2 px at top and bottom.
+TEST(CorrectionBelief, RowsThatShowARollTellOfColumns) {
+  const CorrectionBelief prior = CorrectionBelief::OfCalibration(kCamera);
+  const StereoCorrection roll = Fit([](const Eigen::Vector2d& pixel) {
+    return Eigen::Vector2d(1e-3 * (pixel.y() - kCamera.cy), -1e-3 * (pixel.x() - kCamera.cx));
+  });
+  EXPECT_NEAR(ColumnsByRows(prior, roll)[2], roll.coefficients_px[2], 0.05);
+}
+
+/// Tangential distortion against rotation: rows by x y alone, columns by x^2 and y^2, as seen on
+/// every KITTI drive.
+TEST(CorrectionBelief, RowsByXyTellOfColumnsByXSquaredAndYSquared) {
+  const CorrectionBelief prior = CorrectionBelief::OfCalibration(kCamera);
+  const double yaw = 0.026, p2 = -0.0083;
+  const StereoCorrection field = Fit([&](const Eigen::Vector2d& pixel) {
+    const double x = (pixel.x() - kCamera.cx) / kCamera.fx;
+    const double y = (pixel.y() - kCamera.cy) / kCamera.fy;
+    return Eigen::Vector2d(kCamera.fx * (yaw * x * x + p2 * (3 * x * x + y * y)),
+                           kCamera.fy * (yaw + 2 * p2) * x * y);
+  });
+  ASSERT_GT(std::abs(field.coefficients_px[14]), 1);
+  const Eigen::VectorXd columns = ColumnsByRows(prior, field);
+  for (const int k : {3, 5}) {
+    EXPECT_GT(std::abs(field.coefficients_px[k]), 0.3) << k;
+    EXPECT_NEAR(columns[k], field.coefficients_px[k], 0.15) << k;
+  }
+  EXPECT_LT(std::abs(columns[0]), 0.1);  // a shift of all columns shows in no row
+}
+
+}  // namespace
+}  // namespace arfm_vo
