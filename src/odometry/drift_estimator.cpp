@@ -33,33 +33,47 @@ void PutBlocks(const MatrixXd& blocks, const std::vector<int>& rows,
   }
 }
 
+/// [6 x 6] the step of BoxPlus(b_from_world, .) by that of a_from_world with b_from_a exact.
+Eigen::Matrix<double, 6, 6> CarryStep(const Rigid3& b_from_a) {
+  const Eigen::Matrix3d rotation = b_from_a.RotationMatrix();
+  Eigen::Matrix<double, 6, 6> carried = Eigen::Matrix<double, 6, 6>::Zero();
+  carried.topLeftCorner<3, 3>() = rotation;
+  carried.bottomRightCorner<3, 3>() = rotation;
+  carried.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation) * rotation;
+  return carried;
+}
+
 }  // namespace
 
-void DriftEstimator::Add(KeyframeId keyframe, const Matrix6& covariance, KeyframeId beside,
-                         const Rigid3& keyframe_from_beside) {
+void DriftEstimator::Add(KeyframeId keyframe, const PoseDrift& drift) {
   Require(keyframes_.empty() || keyframe > keyframes_.back(),
           "drift: keyframe " + std::to_string(keyframe) + " is not newer than the last");
-  const int known = Find(beside);
   keyframes_.push_back(keyframe);
   const Eigen::Index size = covariance_.rows();
   MatrixXd larger = MatrixXd::Zero(size + 6, size + 6);
   larger.topLeftCorner(size, size) = covariance_;
-  larger.bottomRightCorner<6, 6>() = covariance;
+  larger.bottomRightCorner<6, 6>() = drift.covariance;
   covariance_ = std::move(larger);
   by_columns_.conservativeResize(size + 6, ImageBasis::kNumTerms);
-  by_columns_.bottomRows<6>().setZero();
-  if (known < 0) return;
-  by_columns_.bottomRows<6>() =
-      CarryStep(keyframe_from_beside) * by_columns_.middleRows<6>(6 * known);
-  const auto errs = by_columns_.bottomRows<6>();  // part of what the pose is unsure of already
-  Matrix6 own = covariance - errs * columns_ * errs.transpose();
-  covariance_.bottomRightCorner<6, 6>() = own;
+  by_columns_.bottomRows<6>() = drift.by_columns;
+}
+
+PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
+                                 const PoseDrift& own) const {
+  const Matrix6 carried = CarryStep(pose_from_keyframe);
+  const PoseDrift drift = Drift(keyframe);
+  return {own.covariance + carried * drift.covariance * carried.transpose(),
+          own.by_columns + carried * drift.by_columns};
 }
 
 void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
-  covariance_ += by_columns_ * columns_ * by_columns_.transpose();
-  by_columns_.setZero();
-  columns_ = correction.ColumnCovariance();
+  const CorrectionBelief::Columns columns = correction.ColumnCovariance();
+  const bool is_learnt = columns.trace() <= columns_.trace();
+  // What is learnt is independent of what stays unknown; another camera is all new.
+  const CorrectionBelief::Columns settled = is_learnt ? columns_ - columns : columns_;
+  covariance_ += by_columns_ * settled * by_columns_.transpose();
+  if (!is_learnt) by_columns_.setZero();
+  columns_ = columns;
 }
 
 void DriftEstimator::Forget(KeyframeId oldest) {
@@ -124,20 +138,10 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
   PutBlocks((free_by_free + free_by_free.transpose()) / 2, free_known, free_known, covariance_);
 }
 
-DriftEstimator::Matrix6 DriftEstimator::Covariance(KeyframeId keyframe) const {
+PoseDrift DriftEstimator::Drift(KeyframeId keyframe) const {
   const int i = Find(keyframe);
-  if (i < 0) return Matrix6::Zero();
-  const auto errs = by_columns_.middleRows<6>(6 * i);
-  return covariance_.block<6, 6>(6 * i, 6 * i) + errs * columns_ * errs.transpose();
-}
-
-Eigen::Matrix<double, 6, 6> CarryStep(const Rigid3& b_from_a) {
-  const Eigen::Matrix3d rotation = b_from_a.RotationMatrix();
-  Eigen::Matrix<double, 6, 6> carried = Eigen::Matrix<double, 6, 6>::Zero();
-  carried.topLeftCorner<3, 3>() = rotation;
-  carried.bottomRightCorner<3, 3>() = rotation;
-  carried.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation) * rotation;
-  return carried;
+  if (i < 0) return {};
+  return {covariance_.block<6, 6>(6 * i, 6 * i), by_columns_.middleRows<6>(6 * i)};
 }
 
 Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,

@@ -20,6 +20,11 @@ constexpr int kHeldShare = 5;
 /// observation is trusted more (LandmarkAlignerOptions::min_sigma_px).
 constexpr double kKnownSigmaPx = 0.1;
 
+/// The same observations place the points that the odometry then goes by, so their errors count
+/// again in each pose: so much larger a variance makes the poses' covariance consistent on
+/// simulated drives (simulated_run_test: NEES).
+constexpr double kTrackCorrelation = 3;
+
 /// Rows that are off by more than this, the median of a keyframe, in so many keyframes on end, say
 /// that the camera has changed.
 constexpr double kContradictionPx = 0.5;
@@ -30,6 +35,10 @@ constexpr double kAdjustmentGrowth = 1.5;
 
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
+
+bool IsKnown(const CorrectionBelief& correction, const StereoCamera& camera) {
+  return correction.MaxColumnSigma(camera) <= std::sqrt(kTrackCorrelation) * kKnownSigmaPx;
+}
 
 }  // namespace
 
@@ -206,8 +215,8 @@ void GlobalMap::LearnCorrection(const BundleResult& result) {
   const bool is_whole =
       result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
   if (!is_whole || result.correction_covariance.isZero(0)) return;
-  correction_ = {result.correction, result.correction_covariance};
-  is_learning_ = correction_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  correction_ = {result.correction, kTrackCorrelation * result.correction_covariance};
+  is_learning_ = !IsKnown(correction_, camera_);
 }
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {

@@ -1,5 +1,6 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <future>
 
@@ -119,6 +120,8 @@ class LocalOdometry::Implementation {
     update.pose.covariance.setIdentity();
     update.pose.covariance *= 1e-12;  // the world is this camera
     update.covariance_from_start = update.pose.covariance;
+    pose_drift_ = {update.pose.covariance, {}};
+    pose_drift_.by_columns.setZero();
     update.is_keyframe = true;
     motion_.Reset();
     motion_.Add(frame.stamp_s, update.pose.camera_from_world);
@@ -157,6 +160,8 @@ class LocalOdometry::Implementation {
     map_.Clear();
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
+    pose_drift_ = {place->covariance_from_start, {}};
+    pose_drift_.by_columns.setZero();
     update.is_keyframe = true;
     motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
@@ -180,10 +185,7 @@ class LocalOdometry::Implementation {
                                     landmark->second.keypoint.laplacian_sign,
                                     landmark->second.descriptor});
     }
-    const auto& keyframes = map_.keyframes();
-    const Keyframe& beside = keyframes[keyframes.size() < 2 ? 0 : keyframes.size() - 2];
-    drift_.Add(keyframe.id, update.covariance_from_start, beside.id,
-               keyframe.camera_from_world * beside.camera_from_world.Inverse());
+    drift_.Add(keyframe.id, pose_drift_);
     drift_.Forget(map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     // The map stays as it is until FinishBundle.
@@ -200,12 +202,45 @@ class LocalOdometry::Implementation {
     return window;
   }
 
-  void AddDrift(OdometryUpdate& update) const {
+  void AddDrift(OdometryUpdate& update) {
     const Keyframe& newest = map_.keyframes().back();
-    update.covariance_from_start =
-        update.pose.covariance +
-        CarryCovariance(update.pose.camera_from_world * newest.camera_from_world.Inverse(),
-                        drift_.Covariance(newest.id));
+    const PoseDrift own{update.pose.covariance, DriftByColumns(newest, update)};
+    pose_drift_ = drift_.Beside(
+        newest.id, update.pose.camera_from_world * newest.camera_from_world.Inverse(), own);
+    update.covariance_from_start = drift_.Covariance(pose_drift_);
+  }
+
+  /// How the frame's pose against the newest keyframe errs with the correction: by the points that
+  /// both see.
+  Eigen::Matrix<double, 6, ImageBasis::kNumTerms> DriftByColumns(
+      const Keyframe& newest, const OdometryUpdate& update) const {
+    BundleProblem problem;
+    problem.camera = camera_;
+    BundleResult result;
+    result.correction = correction_.mean;
+    result.camera_from_world = {newest.camera_from_world, update.pose.camera_from_world};
+    auto seen = newest.observations.begin();
+    for (const LandmarkObservation& observation : update.observations) {
+      while (seen != newest.observations.end() && seen->landmark < observation.landmark) ++seen;
+      if (seen == newest.observations.end()) break;
+      if (seen->landmark != observation.landmark) continue;
+      const int point = static_cast<int>(result.points.size());
+      result.points.push_back(map_.landmarks().at(observation.landmark).x_in_world);
+      for (const auto* sighting : {&*seen, &observation}) {
+        problem.observations.push_back({sighting == &*seen ? 0 : 1, point, sighting->pixels,
+                                        sighting->has_right, sighting->sigma_px});
+      }
+    }
+    problem.points = result.points;
+    result.point_is_used.assign(result.points.size(), 1);
+    const PoseInformation information =
+        FindPoseInformation(problem, result, options_.bundle.solver);
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(
+        information.poses.bottomRightCorner<6, 6>());
+    if (!factor.isPositive() || factor.rcond() < 1e-12) {
+      return Eigen::Matrix<double, 6, ImageBasis::kNumTerms>::Zero();
+    }
+    return -factor.solve(information.by_columns.bottomRows<6>());
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
@@ -227,6 +262,7 @@ class LocalOdometry::Implementation {
   MotionModel motion_;
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
+  PoseDrift pose_drift_;  ///< of the last tracked frame
   std::future<AdjustedWindow> pending_;
 };
 

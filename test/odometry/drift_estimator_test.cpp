@@ -10,6 +10,12 @@ namespace {
 using Matrix6 = DriftEstimator::Matrix6;
 const Matrix6 kOne = Matrix6::Identity();
 
+PoseDrift Noise(const Matrix6& covariance) {
+  PoseDrift drift;
+  drift.covariance = covariance;
+  return drift;
+}
+
 /// The information of a chain of poses, `weight` on each step and no lever between them.
 PoseInformation Chain(int num_poses, double weight) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6 * num_poses, 6 * num_poses);
@@ -24,9 +30,9 @@ PoseInformation Chain(int num_poses, double weight) {
 
 TEST(DriftEstimator, EachStepOfAChainAddsItsVariance) {
   DriftEstimator drift;
-  drift.Add(0, Matrix6::Zero());
+  drift.Add(0, Noise(Matrix6::Zero()));
   for (int k = 1; k <= 5; ++k) {
-    drift.Add(k, 99 * kOne);  // until the window is adjusted
+    drift.Add(k, Noise(99 * kOne));  // until the window is adjusted
     drift.Update({k - 1, k}, {1, 0}, Chain(2, 4));
   }
   EXPECT_NEAR((drift.Covariance(5) - 5 * 0.25 * kOne).norm(), 0, 1e-12);
@@ -34,7 +40,7 @@ TEST(DriftEstimator, EachStepOfAChainAddsItsVariance) {
 
 TEST(DriftEstimator, AWindowOfManyIsTheSameAsItsSteps) {
   DriftEstimator drift;
-  for (int k = 0; k < 4; ++k) drift.Add(k, k * kOne);
+  for (int k = 0; k < 4; ++k) drift.Add(k, Noise(k * kOne));
   drift.Update({0, 1, 2, 3}, {1, 0, 0, 0}, Chain(4, 2));
   for (int k = 0; k < 4; ++k) {
     EXPECT_NEAR((drift.Covariance(k) - k * 0.5 * kOne).norm(), 0, 1e-12);
@@ -43,12 +49,12 @@ TEST(DriftEstimator, AWindowOfManyIsTheSameAsItsSteps) {
 
 TEST(DriftEstimator, HeldKeyframesThatErrAlikeDoNotHelpEachOther) {
   DriftEstimator drift;
-  drift.Add(0, Matrix6::Zero());
-  drift.Add(1, kOne);
-  drift.Add(2, kOne);
+  drift.Add(0, Noise(Matrix6::Zero()));
+  drift.Add(1, Noise(kOne));
+  drift.Add(2, Noise(kOne));
   drift.Update({0, 1}, {1, 0}, Chain(2, 1));     // 1: variance 1
   drift.Update({1, 2}, {1, 0}, Chain(2, 1e12));  // 2 errs just as 1 does
-  drift.Add(3, kOne);
+  drift.Add(3, Noise(kOne));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(18, 18);  // 3 hangs from 1 and from 2
   information.bottomRightCorner<6, 6>() = 2 * kOne;
   information.block<6, 6>(12, 0) = information.block<6, 6>(12, 6) = -kOne;
@@ -63,10 +69,10 @@ TEST(DriftEstimator, AnUnknownCorrectionErrsAlikeInEachStep) {
   DriftEstimator drift;
   CorrectionBelief correction = CorrectionBelief::Isotropic(0.5);
   drift.SetCorrection(correction);
-  drift.Add(0, Matrix6::Zero());
+  drift.Add(0, Noise(Matrix6::Zero()));
   const auto drive = [&](int first, int last) {
     for (int k = first; k <= last; ++k) {
-      drift.Add(k, kOne, k - 1, Rigid3());
+      drift.Add(k, drift.Beside(k - 1, Rigid3(), Noise(kOne)));
       PoseInformation step = Chain(2, 1e12);
       step.by_columns(6 + 5, 0) = -1e12 * 0.01;
       drift.Update({k - 1, k}, {1, 0}, step);
@@ -78,31 +84,36 @@ TEST(DriftEstimator, AnUnknownCorrectionErrsAlikeInEachStep) {
   drift.SetCorrection(correction);  // known better: what was driven so far stays as unsure
   EXPECT_NEAR(std::sqrt(drift.Covariance(10)(5, 5)), 10 * 0.01 * 0.5, 1e-6);
   drive(11, 20);
-  EXPECT_NEAR(drift.Covariance(20)(5, 5), std::pow(0.05, 2) + std::pow(10 * 0.01 * 0.1, 2), 1e-6);
+  const double settled = std::pow(10 * 0.01, 2) * (0.5 * 0.5 - 0.1 * 0.1);
+  EXPECT_NEAR(drift.Covariance(20)(5, 5), settled + std::pow(20 * 0.01 * 0.1, 2), 1e-6);
+  drift.SetCorrection(CorrectionBelief::Isotropic(0.5));  // of a camera that has changed
+  const double before = drift.Covariance(20)(5, 5);
+  drive(21, 30);
+  EXPECT_NEAR(drift.Covariance(30)(5, 5), before + std::pow(10 * 0.01 * 0.5, 2), 1e-6);
 }
 
 TEST(DriftEstimator, WhatIsForgottenLeavesTheRestAsItWas) {
   DriftEstimator drift;
-  for (int k = 0; k < 4; ++k) drift.Add(k, k * kOne);
+  for (int k = 0; k < 4; ++k) drift.Add(k, Noise(k * kOne));
   drift.Forget(2);
   EXPECT_EQ(drift.Covariance(1), Matrix6(Matrix6::Zero()));
   EXPECT_EQ(drift.Covariance(3), Matrix6(3 * kOne));
-  drift.Add(4, kOne);
+  drift.Add(4, Noise(kOne));
   EXPECT_EQ(drift.Covariance(4), kOne);
 }
 
 TEST(DriftEstimator, ChangesNothingWhereTheInformationDoesNotFixThePoses) {
   DriftEstimator drift;
-  drift.Add(0, Matrix6::Zero());
-  drift.Add(1, kOne);
+  drift.Add(0, Noise(Matrix6::Zero()));
+  drift.Add(1, Noise(kOne));
   drift.Update({0, 1}, {1, 0}, {Eigen::MatrixXd::Zero(12, 12), Eigen::MatrixXd::Zero(12, 10)});
   EXPECT_EQ(drift.Covariance(1), kOne);
 }
 
 TEST(DriftEstimator, RefusesKeyframesItDoesNotKnow) {
   DriftEstimator drift;
-  drift.Add(3, kOne);
-  EXPECT_THROW(drift.Add(3, kOne), std::invalid_argument);
+  drift.Add(3, Noise(kOne));
+  EXPECT_THROW(drift.Add(3, Noise(kOne)), std::invalid_argument);
   EXPECT_THROW(drift.Update({2, 3}, {1, 0}, Chain(2, 1)), std::invalid_argument);
 }
 

@@ -159,6 +159,10 @@ std::optional<SimulatedObservation> ObservationSimulator::Observe(int id) {
 /// half another place in both.
 void ObservationSimulator::Disturb(SimulatedObservation& observation) {
   Eigen::Vector3d& pixels = observation.pixels;
+  const Eigen::Vector2d displaced =
+      options_.displacement.At(camera_, {pixels.z(), observation.v_right});
+  pixels.z() += displaced.x();
+  observation.v_right += displaced.y();
   observation.is_outlier = RandomUnit(engine_) < options_.outlier_fraction;
   if (!observation.is_outlier) {
     for (int i = 0; i < 3; ++i) pixels[i] += options_.noise_px * DrawNormal(engine_);

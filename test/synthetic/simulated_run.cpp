@@ -14,6 +14,11 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
   odometry_options.odometry = WithoutImages(odometry_options.odometry, sigma_px);
   ObservationSimulator simulator(camera, path, options.simulator);
   VisualOdometry odometry(camera, odometry_options);
+  if (options.is_calibrated) {
+    CorrectionBelief known = CorrectionBelief::Isotropic(1e-4);
+    known.mean = options.simulator.displacement;
+    odometry.SetCorrection(known);
+  }
   const StereoImages no_images;
   SimulatedRun run;
   run.truth = RebaseToFirst(path);

@@ -12,6 +12,7 @@ struct SimulatedRunOptions {
   ObservationSimulatorOptions simulator;
   double descriptor_noise = 0.3;  ///< ObservationSimulator::Describe
   double rate_hz = 10;
+  bool is_calibrated = true;  ///< the odometry knows the right image's displacement
 };
 
 /// An odometry without images along a path, and how it did.

@@ -10,6 +10,16 @@
 
 namespace arfm_vo {
 
+/// How unsure a pose is against the first camera of all, in the steps of BoxPlus(camera_from_world,
+/// .), (rad, m): noise, and how it errs with what is unknown of the stereo correction, which is the
+/// same for all poses.
+struct PoseDrift {
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by noise
+  /// Step by the coefficients of the columns' displacement, px^-1.
+  Eigen::Matrix<double, 6, ImageBasis::kNumTerms> by_columns =
+      Eigen::Matrix<double, 6, ImageBasis::kNumTerms>::Zero();
+};
+
 /// How unsure the poses of the window's keyframes are against the first camera of all: what each
 /// adjustment of the window leaves open, given the keyframes it holds, on top of what is unsure of
 /// those, and what is unknown of the stereo correction, which errs alike in all of them. All
@@ -18,10 +28,8 @@ class DriftEstimator {
  public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-  /// A keyframe newer than all known, localised with `covariance` (against the first camera).
-  /// It errs with the correction as `beside`, an earlier one (if known), does.
-  void Add(KeyframeId keyframe, const Matrix6& covariance, KeyframeId beside = -1,
-           const Rigid3& keyframe_from_beside = Rigid3());
+  /// A keyframe newer than all known.
+  void Add(KeyframeId keyframe, const PoseDrift& drift);
   /// Forgets the keyframes older than `oldest`.
   void Forget(KeyframeId oldest);
 
@@ -36,11 +44,18 @@ class DriftEstimator {
   void SetCorrection(const CorrectionBelief& correction);
 
   /// Covariance of a known keyframe, zero of an unknown one.
-  Matrix6 Covariance(KeyframeId keyframe) const;
-
+  Matrix6 Covariance(KeyframeId keyframe) const { return Covariance(Drift(keyframe)); }
+  /// Covariance of a pose, all told.
+  Matrix6 Covariance(const PoseDrift& drift) const {
+    return drift.covariance + drift.by_columns * columns_ * drift.by_columns.transpose();
+  }
+  /// Of a pose beside a keyframe (no drift where that is unknown); `own` is its drift against it.
+  PoseDrift Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
+                   const PoseDrift& own) const;
   void Clear();
 
  private:
+  PoseDrift Drift(KeyframeId keyframe) const;
   int Find(KeyframeId keyframe) const;
 
   std::vector<KeyframeId> keyframes_;  ///< ascending
@@ -49,8 +64,6 @@ class DriftEstimator {
   CorrectionBelief::Columns columns_ = CorrectionBelief::Columns::Zero();
 };
 
-/// [6 x 6] the step of BoxPlus(b_from_world, .) by that of a_from_world with b_from_a exact.
-Eigen::Matrix<double, 6, 6> CarryStep(const Rigid3& b_from_a);
 /// `covariance` of a pose a_from_world as that of b_from_world = b_from_a * a_from_world with
 /// b_from_a exact.
 Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
