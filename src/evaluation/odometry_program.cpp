@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "arfm_vo/calibration/learned_correction_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/evaluation/odometry_run.h"
@@ -16,7 +17,7 @@ namespace {
 namespace po = boost::program_options;
 
 struct Arguments {
-  std::string input, config, output;
+  std::string input, config, output, learned_calibration;
   bool print_config = false, close_loops = false;
   PairSelection selection;
 };
@@ -28,8 +29,10 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
       "print all options with their values and leave")(
       "loop-closing", po::bool_switch(&arguments.close_loops),
       "know places again in the global adjustment (global.loops.enabled)")(
-      "pairs", po::value(&arguments.selection.max_pairs)->value_name("N"),
-      "stop after N pairs (counted after --stride)")(
+      "learned-calibration", po::value(&arguments.learned_calibration)->value_name("FILE"),
+      "what earlier drives told of the rectification: read where the file is there, written at "
+      "the end")("pairs", po::value(&arguments.selection.max_pairs)->value_name("N"),
+                 "stop after N pairs (counted after --stride)")(
       "stride", po::value(&arguments.selection.stride)->value_name("K"), "take every K-th pair")(
       "output", po::value(&arguments.output)->value_name("DIR"),
       "write poses.txt, poses_online.txt, trajectory.tum, timing.csv and "
@@ -49,12 +52,21 @@ void Run(const OdometryProgram& program, const Arguments& arguments) {
   if (!arguments.output.empty()) CheckCanWriteRun(arguments.output);
   const auto sequence = program.open(arguments.input, arguments.selection);
   VisualOdometry odometry(sequence->camera(), options);
+  const std::string& learned = arguments.learned_calibration;
+  if (!learned.empty()) {
+    if (const auto known = ReadLearnedCorrection(learned, sequence->camera())) {
+      odometry.SetCorrection(*known);
+    }
+  }
   OdometryRun run;
   {
     ProgressBar bar(stderr);
     run = RunOdometry(*sequence, odometry, [&](int done, int all) { bar.Show(done, all); });
   }
   Require(!run.trajectory.empty(), arguments.input + ": holds no stereo pairs");
+  if (!learned.empty() && odometry.correction()) {
+    WriteLearnedCorrection(learned, sequence->camera(), *odometry.correction());
+  }
   const std::string complaint = arguments.output.empty() ? "" : WriteRun(run, arguments.output);
   if (!complaint.empty()) std::cerr << program.name << ": " << complaint << "\n";
   std::cout << FormatRun(run) << sequence->FormatSummary();

@@ -19,9 +19,9 @@ bool PlacedMap::IsRestarted(const PlacedKeyframe& keyframe) const {
 bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   const bool is_restarted = IsRestarted(keyframe);
   if (is_restarted) {
-    const auto correction = correction_;
-    *this = PlacedMap(options_);
-    correction_ = correction;
+    PlacedMap anew(options_);
+    if (correction_) anew.SetCorrection(camera_, *correction_);
+    *this = std::move(anew);
   }
   if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
   const KeyframeRecord& record = keyframe.record;
@@ -40,9 +40,9 @@ void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
   first_depths_m_.clear();
   adjusted_.clear();
   epoch_ = keyframe.epoch;
-  if (global_ && !(keyframe.camera == camera_)) correction_.reset();
-  if (!correction_) correction_ = CorrectionBelief::OfCalibration(keyframe.camera);
-  camera_ = keyframe.camera;
+  if (!correction_ || !(camera_ == keyframe.camera)) {
+    SetCorrection(keyframe.camera, CorrectionBelief::OfCalibration(keyframe.camera));
+  }
   global_.emplace(keyframe.camera, options_, *correction_);
   frame_.StartEpoch(keyframe.odom_from_world);
 }

@@ -26,12 +26,11 @@ Session::Session(const LocalOdometryOptions& options, uint32_t first_epoch)
 
 void Session::PrepareFor(const StereoCamera& camera) {
   if (odometry_ && camera == camera_) return;
-  if (odometry_) {
-    StartEpoch();
-    correction_.reset();
+  if (odometry_) StartEpoch();
+  if (!correction_ || !(correction_camera_ == camera)) {
+    SetCorrection(camera, CorrectionBelief::OfCalibration(camera));
   }
-  odometry_ = std::make_unique<LocalOdometry>(
-      camera, options_, correction_.value_or(CorrectionBelief::OfCalibration(camera)));
+  odometry_ = std::make_unique<LocalOdometry>(camera, options_, *correction_);
   camera_ = camera;
 }
 
@@ -133,7 +132,10 @@ void Session::StartEpoch() {
   ++epoch_;
 }
 
-void Session::SetCorrection(const CorrectionBelief& correction) { correction_ = correction; }
+void Session::SetCorrection(const StereoCamera& camera, const CorrectionBelief& correction) {
+  correction_ = correction;
+  correction_camera_ = camera;
+}
 
 Trajectory Session::MakeTrajectory() const {
   Trajectory trajectory = closed_;

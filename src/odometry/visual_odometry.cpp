@@ -22,8 +22,8 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
 }
 
 void VisualOdometry::SetCorrection(const CorrectionBelief& correction) {
-  session_.SetCorrection(correction);
-  map_.SetCorrection(correction);
+  session_.SetCorrection(camera_, correction);
+  map_.SetCorrection(camera_, correction);
 }
 
 SessionUpdate VisualOdometry::Process(const StereoImages& images) {

@@ -44,6 +44,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
       landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
       trajectory_output_(options_.trajectory_dir),
+      learned_(options_.learned),
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
@@ -79,7 +80,11 @@ BaNode::~BaNode() {
 }
 
 void BaNode::Add(const KeyframeStamped& message) {
-  if (!map_.Add(FromMessage(message))) ROS_WARN("the odometry started anew: the map is forgotten");
+  const PlacedKeyframe keyframe = FromMessage(message);
+  if (const auto known = learned_.ReadFor(keyframe.camera)) {
+    map_.SetCorrection(keyframe.camera, *known);
+  }
+  if (!map_.Add(keyframe)) ROS_WARN("the odometry started anew: the map is forgotten");
   newest_ = message.header;
   is_dirty_ = true;
   figures_.num_keyframes = map_.num_keyframes();
@@ -127,7 +132,10 @@ std::optional<MapUpdate> BaNode::Adjust() {
   ++figures_.num_adjustments;
   if (!update && map_.num_keyframes() > 1) ++figures_.num_failed;
   Tell();
-  if (update) PublishMap();
+  if (update) {
+    learned_.Write(update->correction);
+    PublishMap();
+  }
   return update;
 }
 

@@ -34,6 +34,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
       outputs_(node, options_.output, options_.mount.base_frame),
       session_(std::make_unique<Session>(options_.algorithm.odometry)),
       health_(options_.health),
+      learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs,
               [this](const std::exception& error) {
@@ -113,6 +114,7 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
   images.Check();
   Require(images.left.cols == camera.width && images.left.rows == camera.height,
           "left/image_rect does not have the size that features tells of the camera");
+  if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
   const SessionUpdate pose =
       ProcessMounted(*session_, mount_, frame, camera, images, message.header);
   outputs_.Publish(pose, message, num_dropped);

@@ -36,8 +36,11 @@ class PlacedMap {
   bool IsAdjustmentDue() const { return global_ && global_->IsAdjustmentDue(); }
   /// Adjusts the newest epoch. Nothing where there is nothing to adjust or no solution.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
-  /// What is known of the stereo correction before the first keyframe, for that camera.
-  void SetCorrection(const CorrectionBelief& correction) { correction_ = correction; }
+  /// What is known of a camera's stereo correction before its first keyframe.
+  void SetCorrection(const StereoCamera& camera, const CorrectionBelief& correction) {
+    correction_ = correction;
+    camera_ = camera;
+  }
   /// What is known now.
   const std::optional<CorrectionBelief>& correction() const { return correction_; }
 
@@ -75,7 +78,7 @@ class PlacedMap {
 
   GlobalMapOptions options_;
   std::optional<GlobalMap> global_;
-  StereoCamera camera_;
+  StereoCamera camera_;  ///< of the newest keyframe, and of correction_
   std::optional<CorrectionBelief> correction_;
   MapFrame frame_;
   uint32_t epoch_ = 0;

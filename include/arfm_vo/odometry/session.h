@@ -56,8 +56,8 @@ class Session {
 
   /// Forgets the map; the pose stays where it is.
   void StartEpoch();
-  /// What is known of the stereo correction, from now on in each new map.
-  void SetCorrection(const CorrectionBelief& correction);
+  /// What is known of a camera's stereo correction before its first pair.
+  void SetCorrection(const StereoCamera& camera, const CorrectionBelief& correction);
 
   /// Of the left camera, in the first tracked pair's; lost pairs are interpolated.
   Trajectory MakeTrajectory() const;
@@ -80,7 +80,8 @@ class Session {
   uint32_t epoch_;
   size_t num_frames_ = 0;
   StereoCamera camera_;
-  std::optional<CorrectionBelief> correction_;
+  std::optional<CorrectionBelief> correction_;  // of correction_camera_
+  StereoCamera correction_camera_;
   std::unique_ptr<LocalOdometry> odometry_;
   std::optional<MapUpdate> offer_;  // of this epoch
   BaseMotion base_;

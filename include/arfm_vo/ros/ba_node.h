@@ -9,6 +9,7 @@
 
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/learned_calibration.h"
 #include "arfm_vo/ros/trajectory_output.h"
 #include "arfm_vo/ros/worker.h"
 
@@ -23,7 +24,8 @@ struct BaNodeOptions {
   double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
   double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
   int max_path_poses = 1000;
-  std::string trajectory_dir;  ///< the keyframes are saved here at the end; empty: nowhere
+  std::string trajectory_dir;         ///< the keyframes are saved here at the end; empty: nowhere
+  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
 
   void Check() const;
   template <class Visitor>
@@ -37,6 +39,7 @@ struct BaNodeOptions {
     visit("max_time_share", max_time_share);
     visit("max_path_poses", max_path_poses);
     visit("trajectory_dir", trajectory_dir);
+    learned.VisitFields(visit);
   }
 };
 
@@ -76,6 +79,7 @@ class BaNode {
   tf2_ros::TransformBroadcaster broadcaster_;
   TrajectoryOutput trajectory_output_;
   // Of the worker's thread:
+  LearnedCalibration learned_;
   PlacedMap map_;
   std_msgs::Header newest_;
   bool is_dirty_ = false;  // a keyframe came since the last adjustment

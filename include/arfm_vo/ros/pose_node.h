@@ -15,6 +15,7 @@
 #include <string>
 
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/learned_calibration.h"
 #include "arfm_vo/ros/odometry_health.h"
 #include "arfm_vo/ros/pose_outputs.h"
 #include "arfm_vo/ros/trajectory_output.h"
@@ -28,8 +29,9 @@ struct PoseNodeOptions {
   CameraMountOptions mount;   ///< its keys stand beside those of the node
   PoseOutputOptions output;   ///< its keys stand beside those of the node
   OdometryHealthOptions health;
-  int max_waiting_pairs = 4;   ///< older ones are dropped
-  std::string trajectory_dir;  ///< the trajectory is saved here at the end; empty: nowhere
+  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
+  int max_waiting_pairs = 4;          ///< older ones are dropped
+  std::string trajectory_dir;         ///< the trajectory is saved here at the end; empty: nowhere
 
   void Check() const;
   template <class Visitor>
@@ -37,6 +39,7 @@ struct PoseNodeOptions {
     algorithm.VisitFields(visit);
     mount.VisitFields(visit);
     output.VisitFields(visit);
+    learned.VisitFields(visit);
     visit("health", health);
     visit("max_waiting_pairs", max_waiting_pairs);
     visit("trajectory_dir", trajectory_dir);
@@ -75,6 +78,7 @@ class PoseNode {
   // Of the worker's thread:
   std::unique_ptr<Session> session_;
   OdometryHealth health_;
+  LearnedCalibration learned_;
   ros::Time last_stamp_;
   uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;
   diagnostic_updater::Updater diagnostics_;

@@ -1,0 +1,72 @@
+#include "arfm_vo/calibration/learned_correction_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "arfm_vo/base/whole_file.h"
+
+namespace arfm_vo {
+namespace {
+
+const StereoCamera kCamera{707.0912, 707.0912, 601.8873, 183.1104, 0.537150, 1226, 370};
+
+class LearnedCorrectionFileTest : public testing::Test {
+ protected:
+  LearnedCorrectionFileTest()
+      : folder_(std::filesystem::temp_directory_path() / ("learned." + std::to_string(getpid()))),
+        path_(folder_ / "deep" / "camera.yaml") {
+    belief_ = CorrectionBelief::OfCalibration(kCamera);
+    belief_.mean.coefficients_px.setLinSpaced(-0.3, 1.4);
+  }
+  ~LearnedCorrectionFileTest() override { std::filesystem::remove_all(folder_); }
+
+  void ExpectRefused(const std::string& from, const std::string& to, const std::string& why) {
+    WriteLearnedCorrection(path_, kCamera, belief_);
+    std::string text = ReadWholeFile(path_);
+    const size_t place = text.find(from);
+    ASSERT_NE(place, std::string::npos);
+    WriteWholeFile(path_, text.replace(place, from.size(), to));
+    try {
+      ReadLearnedCorrection(path_, kCamera);
+      FAIL() << "not refused: " << to;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr(path_.string()), testing::HasSubstr(why)));
+    }
+  }
+
+  std::filesystem::path folder_, path_;
+  CorrectionBelief belief_;
+};
+
+TEST_F(LearnedCorrectionFileTest, ComesBackToTheLastBit) {
+  EXPECT_FALSE(ReadLearnedCorrection(path_, kCamera));
+  WriteLearnedCorrection(path_, kCamera, belief_);
+  const auto back = ReadLearnedCorrection(path_, kCamera);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->mean.coefficients_px, belief_.mean.coefficients_px);
+  EXPECT_EQ(back->covariance, belief_.covariance);
+}
+
+TEST_F(LearnedCorrectionFileTest, BelongsToItsCameraAlone) {
+  WriteLearnedCorrection(path_, kCamera, belief_);
+  StereoCamera other = kCamera;
+  other.baseline_m = 0.54;
+  EXPECT_FALSE(ReadLearnedCorrection(path_, other));
+  EXPECT_NE(NameLearnedCorrection(other), NameLearnedCorrection(kCamera));
+  EXPECT_EQ(NameLearnedCorrection(kCamera), NameLearnedCorrection(kCamera));
+}
+
+TEST_F(LearnedCorrectionFileTest, ErrorsNameFileAndKey) {
+  ExpectRefused("mean_px: [", "mean_px: [7, ", "mean_px must be a list of 20 numbers");
+  ExpectRefused("mean_px: [-0.3", "mean_px: [nan", "mean_px");
+  ExpectRefused("mean_px", "mean", "mean_px");
+  ExpectRefused("covariance_px2: [", "covariance_px2: [-", "covariance");
+  ExpectRefused("camera: [", "camera: {", "camera.yaml");
+}
+
+}  // namespace
+}  // namespace arfm_vo
