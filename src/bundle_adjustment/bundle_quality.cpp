@@ -75,6 +75,7 @@ double CovarianceFactor(const BundleProblem& problem, const BundleSelection& sel
     slopes += k * weight + 2 * squared[i] * loss.WeightSlope(squared[i]);
     squares += weight * weight * squared[i];
   }
+  if (!(weights > 0)) return 1;  // a loss that ends, and all beyond its end
   squares = std::max(squares * freedom.Inflation(), kMinScale * kMinScale * weights);
   slopes = std::max(slopes, 0.1 * weights);
   return weights * squares / (slopes * slopes);
@@ -97,8 +98,13 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
   if (options.with_point_covariance) {
     result.point_covariances.assign(problem.points.size(), Eigen::Matrix3d::Zero());
     for (size_t track = 0; track < structure.tracks.size(); ++track) {
-      result.point_covariances[structure.tracks[track].point] =
-          factor * equations.point_blocks()[track].inverse();
+      const int point = structure.tracks[track].point;
+      const Eigen::Matrix3d covariance = factor * equations.point_blocks()[track].inverse();
+      if (covariance.allFinite()) {
+        result.point_covariances[point] = covariance;
+      } else {
+        result.point_is_used[point] = 0;  // no observation with any weight is left
+      }
     }
   }
   const bool with_pose = options.with_newest_pose_covariance && structure.num_free_poses() > 0;

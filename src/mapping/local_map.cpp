@@ -147,7 +147,7 @@ void LocalMap::RemoveOldestKeyframe() {
     const auto found = landmarks_.find(observation.landmark);
     if (found == landmarks_.end()) continue;
     if (--found->second.num_keyframes > 0 && found->second.reference == removed.id) {
-      MoveReference(found->second);
+      MoveReference(found->second, removed.camera_from_world);
     }
   }
   Landmarks::sequence_type all = landmarks_.extract_sequence();  // removes many in one go
@@ -156,11 +156,14 @@ void LocalMap::RemoveOldestKeyframe() {
   landmarks_.adopt_sequence(boost::container::ordered_unique_range, std::move(all));
 }
 
-void LocalMap::MoveReference(Landmark& landmark) const {
+void LocalMap::MoveReference(Landmark& landmark, const Rigid3& old_from_world) const {
   for (const Keyframe& keyframe : keyframes_) {
     const auto* observation = FindObservation(keyframe.observations, landmark.id);
     if (observation == nullptr) continue;
     landmark.reference = keyframe.id;
+    const double old_z = (old_from_world * landmark.x_in_world).z();
+    const double z = (keyframe.camera_from_world * landmark.x_in_world).z();
+    if (old_z > 0 && z > 0) landmark.keypoint.scale *= static_cast<float>(old_z / z);
     landmark.keypoint.x = static_cast<float>(observation->pixels.x());
     landmark.keypoint.y = static_cast<float>(observation->pixels.y());
     return;
@@ -222,7 +225,7 @@ void LocalMap::RemoveObservation(KeyframeId keyframe_id, LandmarkId landmark_id)
     if (--landmark->second.num_keyframes == 0) {
       landmarks_.erase(landmark);
     } else if (landmark->second.reference == keyframe_id) {
-      MoveReference(landmark->second);
+      MoveReference(landmark->second, keyframe.camera_from_world);
     }
   }
 }

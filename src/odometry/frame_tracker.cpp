@@ -99,7 +99,7 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
     if (is_better || !tracked.pose.IsTracked()) tracked = found;
   }
   if (!tracked.pose.IsTracked() || !options_.align_patches) return tracked;
-  return Align(images, map, tracked.pose);
+  return Align(images, map, tracked);
 }
 
 FrameTracker::Correspondences FrameTracker::MatchNear(const StereoFrame& frame, const LocalMap& map,
@@ -192,22 +192,24 @@ std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
 }
 
 TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map,
-                                 const PoseEstimate& coarse) const {
+                                 const TrackedFrame& coarse) const {
   TrackedFrame tracked;
-  tracked.pose = coarse;
-  const auto landmarks = map.LandmarksInView(coarse.camera_from_world, 8);
+  tracked.pose = coarse.pose;
+  const Rigid3& coarse_pose = coarse.pose.camera_from_world;
+  const auto landmarks = map.LandmarksInView(coarse_pose, 8);
   tracked.expected = Ids(landmarks);
   const std::vector<std::optional<LandmarkObservation>> observations =
-      Measure(images, map, landmarks, coarse.camera_from_world);
+      Measure(images, map, landmarks, coarse_pose);
   Correspondences correspondences;
   for (size_t i = 0; i < landmarks.size(); ++i) {
     if (observations[i]) Add(*landmarks[i], *observations[i], correspondences);
   }
   const PoseRefinement refined =
-      RefinePose(camera_, correspondences.points, coarse.camera_from_world, options_.refinement);
-  if (refined.status != RefinementStatus::kConverged) {
-    tracked.pose.status = PoseStatus::kNoConsensus;
-    return tracked;
+      RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
+  const double enough = std::max<double>(
+      options_.pose.min_inliers, options_.pose.min_inlier_share * correspondences.points.size());
+  if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
+    return coarse;  // too few patches are no better than the keypoints that agreed
   }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;

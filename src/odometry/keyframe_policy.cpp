@@ -6,6 +6,9 @@
 namespace arfm_vo {
 namespace {
 
+/// Share of the newest keyframe's points that is fewer than it had.
+constexpr double kFewer = 0.9;
+
 /// How far a pixel of the newest keyframe moves in the frame beyond what the rotation explains.
 double Parallax(const StereoCamera& camera, const Eigen::Matrix3d& frame_from_newest,
                 const Eigen::Vector4d& in_newest, const Eigen::Vector4d& in_frame) {
@@ -21,7 +24,9 @@ double Parallax(const StereoCamera& camera, const Eigen::Matrix3d& frame_from_ne
 bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
                    const Rigid3& camera_from_world, const LandmarkObservations& observations,
                    const KeyframePolicyOptions& options) {
-  if (static_cast<int>(observations.size()) < options.min_tracked_points) return true;
+  // A scene may hold no more: then another keyframe would not help.
+  const bool is_fewer = observations.size() < kFewer * newest.observations.size();
+  if (is_fewer && static_cast<int>(observations.size()) < options.min_tracked_points) return true;
   const Eigen::Matrix3d frame_from_newest =
       (camera_from_world.rotation * newest.camera_from_world.rotation.conjugate())
           .toRotationMatrix();

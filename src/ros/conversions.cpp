@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/conversions.h"
 
+#include <cmath>
 #include <cstring>
 
 #include "arfm_vo/ros/message_checks.h"
@@ -44,6 +45,14 @@ Features ImportFeatures(const StereoFrameStamped& message) {
   RequireFinite(message.keypoint_response, name + "keypoint_response");
   RequireFinite(message.descriptors, name + "descriptors");
 
+  for (size_t i = 0; i < size; ++i) {
+    const float x = message.keypoint_x[i], y = message.keypoint_y[i];
+    Require(x >= 0 && y >= 0 && x < message.camera.width && y < message.camera.height,
+            name + "keypoint " + std::to_string(i) + " lies outside the image");
+    Require(message.keypoint_scale[i] > 0 && message.keypoint_scale[i] < message.camera.width,
+            name + "keypoint_scale[" + std::to_string(i) +
+                "] must be positive and less than the image");
+  }
   Features features;
   features.keypoints.reserve(size);
   for (size_t i = 0; i < size; ++i)
@@ -77,6 +86,10 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
     Require(keypoint >= 0 && static_cast<size_t>(keypoint) < message.keypoint_x.size(),
             name + "point_keypoint[" + std::to_string(i) + "] is " + std::to_string(keypoint) +
                 ", there are " + std::to_string(message.keypoint_x.size()) + " keypoints");
+    Require(message.point_position[3 * i + 2] > 0,
+            name + "point_position[" + std::to_string(i) + "] is behind the camera");
+    Require(std::abs(message.point_row_residual[i]) < message.camera.height,
+            name + "point_row_residual[" + std::to_string(i) + "] is larger than the image");
     points[i].keypoint = keypoint;
     points[i].observation = Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
     points[i].row_residual_px = message.point_row_residual[i];

@@ -35,5 +35,19 @@ TEST(Ransac, IsRepeatable) {
   EXPECT_EQ(FindConstant(values)->model, FindConstant(values)->model);
 }
 
+TEST(Ransac, AnImprovementThatIsWorseIsNotTaken) {
+  const auto report = Ransac<int>(
+      10, 1, RansacOptions(), [](const std::vector<int>&) { return std::optional<int>(5); },
+      [](int model, std::vector<char>& is_inlier) {
+        std::fill(is_inlier.begin(), is_inlier.begin() + model, 1);
+        std::fill(is_inlier.begin() + model, is_inlier.end(), 0);
+        return static_cast<double>(model);
+      },
+      [](int, const std::vector<char>&) { return std::optional<int>(3); });
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->model, 5);
+  EXPECT_EQ(report->num_inliers, 5);
+}
+
 }  // namespace
 }  // namespace arfm_vo

@@ -93,5 +93,12 @@ TEST_F(KeyframeArchiveTest, HoldsNothingAfterClearOrWhereItIsSwitchedOff) {
   EXPECT_THROW(KeyframeArchive(kCamera, options), std::invalid_argument);
 }
 
+/// The bound that a pose must reach can be reached: a sample of points that agree is drawn.
+TEST(RecognitionPose, DrawsEnoughSamplesForTheShareThatItAccepts) {
+  const PoseEstimatorOptions options = RecognitionPose();
+  const double good_sample = std::pow(options.min_inlier_share, options.sample_size);
+  EXPECT_GE(1 - std::pow(1 - good_sample, options.ransac.max_iterations), 0.99);
+}
+
 }  // namespace
 }  // namespace arfm_vo

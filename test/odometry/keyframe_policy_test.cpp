@@ -51,5 +51,13 @@ TEST(NeedsKeyframe, ForSmallOverlap) {
 
 TEST(NeedsKeyframe, ForFewPoints) { EXPECT_TRUE(Needs(Rigid3(), 0, 100)); }
 
+/// A scene that never had more: each frame would become a keyframe, without a baseline.
+TEST(NeedsKeyframe, NotForFewPointsWhereThereNeverWereMore) {
+  Keyframe newest;
+  newest.observations = SeeWall(Rigid3(), 0, 100);
+  EXPECT_FALSE(NeedsKeyframe(kCamera, newest, Rigid3(), SeeWall(Rigid3(), 0, 95), {}));
+  EXPECT_TRUE(NeedsKeyframe(kCamera, newest, Rigid3(), SeeWall(Rigid3(), 0, 80), {}));
+}
+
 }  // namespace
 }  // namespace arfm_vo

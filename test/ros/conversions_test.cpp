@@ -159,6 +159,14 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.descriptors.pop_back(); });
   ExpectRefused(good, "keypoint_x[1] is not a finite number",
                 [](auto& message) { message.keypoint_x[1] = kNaN; });
+  ExpectRefused(good, "keypoint 1 lies outside the image",
+                [](auto& message) { message.keypoint_x[1] = -1e9f; });
+  ExpectRefused(good, "keypoint 2 lies outside the image",
+                [](auto& message) { message.keypoint_y[2] = 1e9f; });
+  ExpectRefused(good, "keypoint_scale[0] must be positive",
+                [](auto& message) { message.keypoint_scale[0] = 0; });
+  ExpectRefused(good, "point_position[1] is behind the camera",
+                [](auto& message) { message.point_position[5] = -1; });
   ExpectRefused(good, "descriptors[70] is not a finite number",
                 [](auto& message) { message.descriptors[70] = kNaN; });
   ExpectRefused(good, "point_keypoint[0] is 3, there are 3 keypoints",

@@ -68,7 +68,7 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
   std::optional<RansacReport<Model>> best;
   double best_score = -1;
   std::vector<int> sample(sample_size);
-  std::vector<char> is_inlier(num_data);
+  std::vector<char> is_inlier(num_data), improved_is_inlier(num_data);
   int needed = options.max_iterations;
   for (int iteration = 0; iteration < needed; ++iteration) {
     for (int i = 0; i < sample_size; ++i) {  // distinct by redraw: samples are tiny
@@ -80,8 +80,12 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
     double score = classify(*model, is_inlier);
     if (score >= best_score / 2) {
       if (std::optional<Model> improved = improve(*model, is_inlier)) {
-        model = std::move(improved);
-        score = classify(*model, is_inlier);
+        const double improved_score = classify(*improved, improved_is_inlier);
+        if (improved_score > score) {
+          model = std::move(improved);
+          score = improved_score;
+          is_inlier.swap(improved_is_inlier);
+        }
       }
     }
     if (score <= best_score) continue;

@@ -71,7 +71,7 @@ class LocalMap {
   void AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe);
   void AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe);
   void RemoveOldestKeyframe();
-  void MoveReference(Landmark& landmark) const;
+  void MoveReference(Landmark& landmark, const Rigid3& old_from_world) const;
 
   StereoCamera camera_;
   LocalMapOptions options_;

@@ -77,7 +77,7 @@ class FrameTracker {
       const StereoImages& images, const LocalMap& map,
       const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world) const;
   TrackedFrame Align(const StereoImages& images, const LocalMap& map,
-                     const PoseEstimate& coarse) const;
+                     const TrackedFrame& coarse) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;

@@ -11,7 +11,7 @@ namespace arfm_vo {
 struct KeyframePolicyOptions {
   double min_parallax_px = 20;       ///< median over the shared points, rotation taken out
   double min_shared_fraction = 0.6;  ///< of the newest keyframe's points still tracked
-  int min_tracked_points = 150;      ///< fewer tracked points call for a keyframe
+  int min_tracked_points = 150;      ///< fewer, and fewer than the newest has, call for one
 
   void Check() const {
     Require(min_parallax_px >= 0, "keyframes.min_parallax_px must not be negative");

@@ -9,6 +9,8 @@ inline PoseEstimatorOptions RecognitionPose() {
   PoseEstimatorOptions options;
   options.min_inliers = 25;
   options.min_inlier_share = 0.25;
+  options.sample_size = 4;
+  options.ransac.max_iterations = 1800;  // finds a quarter that agrees with a probability of 0.999
   return options;
 }
 
