@@ -76,6 +76,8 @@ const char* ToString(StopReason reason) {
       return "rover is outside the fence";
     case StopReason::kOperatorLost:
       return "no operator heartbeat";
+    case StopReason::kHeldUp:
+      return "chassis_node was held up";
     case StopReason::kRemoteLost:
       return "chassis has lost its remote control";
     case StopReason::kForeignCommands:

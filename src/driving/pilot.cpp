@@ -194,7 +194,9 @@ void Pilot::NoteMotion(double now_s, double dt_s, const PlanarMotion& motion) {
 
 DriveCommand Pilot::Tick(double now_s) {
   const double dt_s = std::clamp(now_s - last_tick_s_, 0.0, kMaxTick_s);
+  const bool was_held_up = standby_since_s_ && now_s - last_tick_s_ > options_.max_tick_gap_s;
   last_tick_s_ = now_s;
+  if (was_held_up) Distrust({StopReason::kHeldUp, ""});
   if (!standby_since_s_) standby_since_s_ = now_s;
   JudgePose(now_s);
   UpdateState(now_s);

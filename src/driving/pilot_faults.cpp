@@ -55,7 +55,8 @@ void Pilot::Block(const Fault& fault) {
 }
 
 void Pilot::Distrust(const Fault& fault) {
-  const bool keeps_route = fault.reason == StopReason::kMapStep;
+  const bool keeps_route =
+      fault.reason == StopReason::kMapStep || fault.reason == StopReason::kHeldUp;
   if (!keeps_route) EndRoute(GoalOutcome::kCancelled, fault);
   if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) Block(fault);
 }

@@ -18,6 +18,7 @@ void PilotOptions::Check() const {
   Require(max_pause_s >= 0 && max_pause_s <= 60, "max_pause_s must be in 0..60");
   Require(fresh_command_s >= 0 && fresh_command_s <= 10, "fresh_command_s must be in 0..10");
   Require(warning_s >= 0 && warning_s <= 60, "warning_s must be in 0..60");
+  Require(max_tick_gap_s >= 0.1 && max_tick_gap_s <= 60, "max_tick_gap_s must be in 0.1..60");
   Require(arming_timeout_s >= 0.2 && arming_timeout_s <= 60, "arming_timeout_s must be in 0.2..60");
   Require(max_stall_s >= 1 && max_stall_s <= 1e9, "max_stall_s must be in 1..1e9");
   Require(velocity_timeout_s >= 0.05 && velocity_timeout_s <= 0.18,

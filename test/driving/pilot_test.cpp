@@ -462,6 +462,17 @@ TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
   EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-6);
 }
 
+TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
+  StartDriving();
+  now_s_ += 0.4;
+  EXPECT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  now_s_ += 0.6;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kHeldUp);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
 TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   StartDriving();
   pilot_.ObserveForeignCommand(now_s_);

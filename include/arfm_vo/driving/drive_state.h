@@ -42,6 +42,7 @@ enum class StopReason {
   kTilt,
   kOutsideFence,
   kOperatorLost,     ///< no operator heartbeat
+  kHeldUp,           ///< chassis_node itself did not run for too long
   kRemoteLost,       ///< the chassis has lost its remote control
   kForeignCommands,  ///< another driver sends motion commands on the bus
   kRunaway,          ///< the tracks run faster than commanded

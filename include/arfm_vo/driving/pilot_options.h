@@ -29,6 +29,7 @@ struct PilotOptions {
   double max_pause_s = 3;            ///< after a longer pause a new start is needed
   double fresh_command_s = 2;        ///< a motion that begins later is warned of first
   double warning_s = 2;              ///< lamp and horn before such a motion
+  double max_tick_gap_s = 0.5;       ///< a pilot that was held up for longer needs a new start
   double arming_timeout_s = 2.0;     ///< for the chassis to take commands after start
   double max_stall_s = 20;           ///< driving time in which a goal must come nearer
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
@@ -52,6 +53,7 @@ struct PilotOptions {
     visit("max_pause_s", max_pause_s);
     visit("fresh_command_s", fresh_command_s);
     visit("warning_s", warning_s);
+    visit("max_tick_gap_s", max_tick_gap_s);
     visit("arming_timeout_s", arming_timeout_s);
     visit("max_stall_s", max_stall_s);
     visit("velocity_timeout_s", velocity_timeout_s);
