@@ -32,7 +32,8 @@ class BusTap:
         self.change = lambda frame: frame  # of the feedback; None drops it
         self.lock = threading.Lock()
         self.num_commands = 0
-        self.moving_s = self.stopped_s = 0.0  # the last frame that moves, and the first that stops after it
+        self.moving_s = 0.0  # the last frame that moves
+        self.stops_s = []  # of each frame that stops it
         self.is_moving = False
         self.ways_m = (0.0, 0.0)
         for source, sink, note in ((self.driver, self.chassis, self._note_command),
@@ -64,7 +65,7 @@ class BusTap:
                 if is_moving:
                     self.moving_s = now
                 elif self.is_moving:
-                    self.stopped_s = now
+                    self.stops_s.append(now)
                 self.is_moving = is_moving
         return frame
 

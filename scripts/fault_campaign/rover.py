@@ -1,6 +1,7 @@
 """The running graph of launch/simulation.launch, and a person who drives it."""
 import os
 import signal
+import socket
 import subprocess
 import threading
 import time
@@ -15,16 +16,36 @@ from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
-DRIVER_PORT, CHASSIS_PORT = 4721, 4722
+
+
+def is_free(port, kind):
+    with socket.socket(socket.AF_INET, kind) as end:
+        try:
+            end.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
+
+
+def find_bus_port(first):
+    """The first PORT from `first` on of which UDP ports PORT1 and PORT2 are free."""
+    return next(port for port in range(first, 6500)
+                if all(is_free(10 * port + end, socket.SOCK_DGRAM) for end in (1, 2)))
+
+
+def find_master_port():
+    return next(port for port in range(11411, 12000) if is_free(port, socket.SOCK_STREAM))
 
 
 class Launch:
     """simulation.launch as a user starts it, with an operator, in real time, the bus through the tap."""
 
-    def __init__(self, log):
+    def __init__(self, log, driver_port, chassis_port):
+        port = find_master_port()
+        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         arguments = ["rviz:=false", "head:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
-                     "port:=%d" % CHASSIS_PORT, "chassis_port:=%d" % DRIVER_PORT]
-        self.process = subprocess.Popen(["roslaunch", "arfm_vo", "simulation.launch"] + arguments,
+                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port]
+        self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
                                         stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
 
     def end(self):
