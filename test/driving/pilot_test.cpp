@@ -31,7 +31,7 @@ class PilotTest : public ::testing::Test {
     if (has_operator_) pilot_.ObserveOperator(now_s_);
     pilot_.ObserveEpoch(1, now_s_ - 0.1);
     if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
-    if (has_pose_) pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, 0.01});
+    if (has_pose_) pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, heading_sigma_rad_});
   }
 
   DriveCommand Run(double duration_s) {
@@ -62,7 +62,7 @@ class PilotTest : public ::testing::Test {
   ChassisStatus chassis_;
   bool bus_up_ = true, has_pose_ = true, has_operator_ = true;
   Rigid3 pose_;
-  double sigma_m_ = 0.01;
+  double sigma_m_ = 0.01, heading_sigma_rad_ = 0.01;
 };
 
 TEST_F(PilotTest, SaysNothingAndMovesNothingBeforeStart) {
@@ -256,6 +256,13 @@ TEST_F(PilotTest, AnUncertainPosePauses) {
     EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero()) << sigma_m;
     EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
   }
+}
+
+TEST_F(PilotTest, AnUncertainHeadingPauses) {
+  StartDriving();
+  heading_sigma_rad_ = 0.4;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
 }
 
 TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
