@@ -38,10 +38,15 @@ def attend():
 def main():
     if len(rospy.myargv()) != 1:
         sys.exit(__doc__)
-    rospy.init_node("operator", anonymous=True)
+    # Ctrl-C must find the node alive, so that it can still stop the rover.
+    rospy.init_node("operator", anonymous=True, disable_signals=True)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
-    attend()
-    stop()
+    try:
+        attend()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        stop()
 
 
 if __name__ == "__main__":

@@ -407,6 +407,29 @@ TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
   EXPECT_TRUE(Run(0.2).chassis_motion.IsZero());
 }
 
+TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  pilot_.Stop();
+  pilot_.Start(now_s_);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ALateTickIsNoLeapOfTheSpeed) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  Run(kTick_s);
+  now_s_ += 0.4;
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  const double speed_mps = Run(kTick_s).chassis_motion.forward_mps;
+  EXPECT_GT(speed_mps, 0);
+  EXPECT_LE(speed_mps, 0.1 * SpeedLimiterOptions().max_acceleration_mps2 + 1e-9) << "0.1 s of it";
+}
+
 TEST_F(PilotTest, VelocityNeverExceedsTheCap) {
   chassis_.authority = ChassisAuthority::kUs;
   Run(0.1);
