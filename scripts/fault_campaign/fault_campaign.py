@@ -248,7 +248,7 @@ def kill_and_restart(node):
 def stop_and_continue(node, duration_s):
     def inject(campaign):
         campaign.signal(node, signal.SIGSTOP)
-        time.sleep(duration_s)
+        rospy.sleep(duration_s)  # of simulated time, as the limits are
         campaign.signal(node, signal.SIGCONT)
     return inject
 
@@ -262,7 +262,7 @@ def node_faults():
     rows = []
     for node in "pose_node", "arfm_node":
         rows.append(Fault(node + " killed -9", sent(node, kill), "pose is stale", killed(node), 1))
-        rows.append(Fault(node + " stopped (SIGSTOP) for 8 s", stop_and_continue(node, 8), "pose was away too long", limit_s=1))
+        rows.append(Fault(node + " stopped (SIGSTOP) for 5 s", stop_and_continue(node, 5), "pose was away too long", limit_s=1))
     rows += [
         Fault("pose_node killed -9 and started anew", kill_and_restart("pose_node"), "odometry has started anew", limit_s=1.0,
               mend=lambda c: time.sleep(2)),
