@@ -2,7 +2,6 @@
 
 #include "arfm_vo/ros/arfm_node.h"
 #include "arfm_vo/ros/ba_node.h"
-#include "arfm_vo/ros/chassis_node.h"
 #include "arfm_vo/ros/node_main.h"
 #include "arfm_vo/ros/pan_tilt_node.h"
 #include "arfm_vo/ros/pose_node.h"
@@ -15,7 +14,6 @@ class PoseNodelet : public NodeletOf<PoseNode> {};
 class BaNodelet : public NodeletOf<BaNode> {};
 class StereoCameraNodelet : public NodeletOf<StereoCameraNode> {};
 class PanTiltNodelet : public NodeletOf<PanTiltNode> {};
-class ChassisNodelet : public NodeletOf<ChassisNode> {};
 
 }  // namespace arfm_vo
 
@@ -24,4 +22,3 @@ PLUGINLIB_EXPORT_CLASS(arfm_vo::PoseNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(arfm_vo::BaNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(arfm_vo::StereoCameraNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(arfm_vo::PanTiltNodelet, nodelet::Nodelet)
-PLUGINLIB_EXPORT_CLASS(arfm_vo::ChassisNodelet, nodelet::Nodelet)

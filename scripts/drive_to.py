@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """Starts chassis_node, sends it one goal in the map and waits for what becomes of it.
 
-Usage: drive_to.py X_M Y_M HEADING_DEG [TIMEOUT_S]      exit status 0 where the goal was reached
+Asks before it starts the rover. On a time-out and on Ctrl-C it stops the rover and drops the goal.
+Exit status 0 where the goal was reached.
 """
+import argparse
 import math
 import sys
 import threading
+import time
 
 import rospy
 from arfm_vo.msg import DriveStatus, GoalReport
@@ -17,11 +20,18 @@ from std_srvs.srv import Trigger
 def make_goal(x_m, y_m, heading_deg):
     goal = PoseStamped()
     goal.header.frame_id = "map"
+    goal.header.stamp = rospy.Time.now()
     goal.pose.position.x = x_m
     goal.pose.position.y = y_m
     goal.pose.orientation.z = math.sin(math.radians(heading_deg) / 2)
     goal.pose.orientation.w = math.cos(math.radians(heading_deg) / 2)
     return goal
+
+
+def call(service):
+    answer = rospy.ServiceProxy("chassis_node/" + service, Trigger)()
+    print("%s: %s" % (service, answer.message))
+    return answer.success
 
 
 class Errand:
@@ -32,7 +42,8 @@ class Errand:
         self.has_status, self.has_pose = threading.Event(), threading.Event()
         self.is_sent = False
         self.goal = self.report = self.truth = None
-        self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1, latch=True)
+        # Not latched: a goal is for now, not for whoever comes later.
+        self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
         rospy.Subscriber("base_truth", Odometry, self.take_truth)
         rospy.Subscriber("drive_status", DriveStatus, lambda _: self.has_status.set())
@@ -47,14 +58,23 @@ class Errand:
         self.truth = truth.pose.pose.position
 
     def start(self, timeout_s):
-        # Not before there is a pose: a drive that is started without one waits for it.
+        # Not before there is a pose: a rover that is started without one is blocked soon.
         for event, what in (self.has_status, "drive_status"), (self.has_pose, "odom"):
             if not event.wait(timeout_s):
                 print("start: nothing on %s within %g s" % (what, timeout_s))
                 return False
-        answer = rospy.ServiceProxy("chassis_node/start", Trigger)()
-        print("start:", answer.message)
-        return answer.success
+        end_s = time.monotonic() + timeout_s
+        while self.goals.get_num_connections() == 0:
+            if time.monotonic() > end_s:
+                print("start: nobody takes goals within %g s" % timeout_s)
+                return False
+            time.sleep(0.01)
+        return call("start")
+
+    def send(self, x_m, y_m, heading_deg):
+        self.goal = make_goal(x_m, y_m, heading_deg)
+        self.is_sent = True
+        self.goals.publish(self.goal)
 
     def error_m(self):
         """By the truth, where a simulation tells it."""
@@ -62,13 +82,18 @@ class Errand:
         return math.hypot(position.x - self.truth.x, position.y - self.truth.y)
 
     def run(self, x_m, y_m, heading_deg, timeout_s):
-        if not self.start(timeout_s):
-            return False
-        self.goal = make_goal(x_m, y_m, heading_deg)
-        self.is_sent = True
-        self.goals.publish(self.goal)
-        if not self.done.wait(timeout_s):
-            print("outcome: no answer within %g s" % timeout_s)
+        has_ended = False
+        try:
+            if not self.start(timeout_s):
+                has_ended = True
+                return False
+            self.send(x_m, y_m, heading_deg)
+            has_ended = self.done.wait(timeout_s)
+        finally:  # whatever ends the wait: a time-out, Ctrl-C, a lost master
+            if not has_ended:
+                print("outcome: no answer within %g s, or interrupted" % timeout_s)
+                call("stop")
+        if not has_ended:
             return False
         print("outcome:", self.report.text)
         print("error_by_sight_m: %.3f" % self.report.position_error_m)
@@ -77,13 +102,32 @@ class Errand:
         return self.report.result == GoalReport.ARRIVED
 
 
+def is_agreed():
+    """A person says that the rover may move."""
+    try:
+        return input("The rover will drive. Is the way free, and an operator at the stop? [y/N] ").strip() == "y"
+    except EOFError:
+        return False
+
+
 def main():
-    arguments = [float(argument) for argument in rospy.myargv()[1:]]
-    if len(arguments) not in (3, 4):
-        sys.exit(__doc__)
-    rospy.init_node("drive_to", anonymous=True)
-    timeout_s = arguments[3] if len(arguments) == 4 else 600
-    return 0 if Errand().run(*arguments[:3], timeout_s) else 1
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("x_m", type=float)
+    parser.add_argument("y_m", type=float)
+    parser.add_argument("heading_deg", type=float)
+    parser.add_argument("timeout_s", type=float, nargs="?", default=600)
+    parser.add_argument("--yes", action="store_true", help="do not ask before the rover is started")
+    arguments = parser.parse_args(rospy.myargv()[1:])
+    if not arguments.yes and not is_agreed():
+        print("not started: nobody agreed (see --yes)")
+        return 1
+    # Ctrl-C must reach the wait below, which then stops the rover while the node still lives.
+    rospy.init_node("drive_to", anonymous=True, disable_signals=True)
+    errand = Errand()
+    try:
+        return 0 if errand.run(arguments.x_m, arguments.y_m, arguments.heading_deg, arguments.timeout_s) else 1
+    except KeyboardInterrupt:
+        return 1
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ until (echo > "/dev/tcp/localhost/$ros_port") 2>/dev/null; do
   sleep 0.2
 done
 echo "drives to x $x m, y $y m, heading $heading degrees; log: $output/roslaunch.log"
-scripts/drive_to.py "$x" "$y" "$heading" 1800 || { tail -20 "$output/roslaunch.log"; exit 1; }
+scripts/drive_to.py --yes "$x" "$y" "$heading" 1800 || { tail -20 "$output/roslaunch.log"; exit 1; }
 for _ in $(seq 100); do [ ! -s "$output/drive.png" ] || break; sleep 0.1; done
 [ -s "$output/drive.png" ] || { echo "demo: the simulator wrote no picture" >&2; exit 1; }
 echo "picture: $output/drive.png"

@@ -14,7 +14,11 @@ std::optional<StopReason> ChassisWatch::FindFault(double now_s) const {
     return StopReason::kNoFeedback;
   if (status_->is_emergency_stop) return StopReason::kChassisEmergency;
   if (status_->has_fault) return StopReason::kChassisFault;
+  if (status_->has_motor_fault) return StopReason::kMotorFault;
+  if (foreign_s_ && now_s - *foreign_s_ <= options_.foreign_command_s)
+    return StopReason::kForeignCommands;
   if (IsRemote()) return StopReason::kRemoteControl;
+  if (status_->is_remote_lost && !options_.allows_remote_lost) return StopReason::kRemoteLost;
   return std::nullopt;
 }
 

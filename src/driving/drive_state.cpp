@@ -16,6 +16,8 @@ const char* ToString(DriveState state) {
       return "paused";
     case DriveState::kBlocked:
       return "blocked";
+    case DriveState::kWarning:
+      return "warning";
   }
   return "unknown";
 }
@@ -56,6 +58,38 @@ const char* ToString(StopReason reason) {
       return "pose is stale";
     case StopReason::kPoseUncertain:
       return "pose is too uncertain";
+    case StopReason::kEpochMissing:
+      return "odometry does not tell its epoch";
+    case StopReason::kNewEpoch:
+      return "odometry has started anew";
+    case StopReason::kPoseContradiction:
+      return "pose contradicts the tracks";
+    case StopReason::kSliding:
+      return "rover moves otherwise than its tracks";
+    case StopReason::kMapStep:
+      return "map frame has jumped";
+    case StopReason::kMapStale:
+      return "map frame is no longer told";
+    case StopReason::kTilt:
+      return "rover is tilted too far";
+    case StopReason::kOutsideFence:
+      return "rover is outside the fence";
+    case StopReason::kOperatorLost:
+      return "no operator heartbeat";
+    case StopReason::kHeldUp:
+      return "chassis_node was held up";
+    case StopReason::kRemoteLost:
+      return "chassis has lost its remote control";
+    case StopReason::kForeignCommands:
+      return "another driver commands the chassis";
+    case StopReason::kRunaway:
+      return "tracks run faster than commanded";
+    case StopReason::kTrackJammed:
+      return "a track is jammed";
+    case StopReason::kFeedbackFrozen:
+      return "feedback of the chassis is frozen";
+    case StopReason::kMotorFault:
+      return "motor or its driver reports a fault";
   }
   return "unknown";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -10,7 +11,8 @@ namespace {
 
 /// A late tick is not made up for by a leap of the speed.
 constexpr double kMaxTick_s = 0.1;
-constexpr double kNever_s = -std::numeric_limits<double>::infinity();
+/// More sources of an emergency stop are not told apart.
+constexpr size_t kMaxEmergencySources = 64;
 
 PoseWatchOptions PoseOptionsFor(const PilotOptions& options) {
   PoseWatchOptions pose = options.pose;
@@ -18,97 +20,130 @@ PoseWatchOptions PoseOptionsFor(const PilotOptions& options) {
   return pose;
 }
 
-}  // namespace
-
-void PilotOptions::Check() const {
-  kinematics.Check();
-  limits.Check();
-  goal.Check();
-  stop_look_go.Check();
-  slip.Check();
-  pose.Check();
-  chassis.Check();
-  Require(settle_s >= 0 && settle_s <= 60, "settle_s must be in 0..60");
-  Require(resume_after_s >= 0 && resume_after_s <= 60, "resume_after_s must be in 0..60");
-  Require(max_pause_s >= 0, "max_pause_s must not be negative");
-  Require(arming_timeout_s >= 0.2 && arming_timeout_s <= 60, "arming_timeout_s must be in 0.2..60");
-  Require(max_stall_s >= 1, "max_stall_s must be at least 1");
-  Require(velocity_timeout_s >= 0.05 && velocity_timeout_s <= 0.18,
-          "velocity_timeout_s must be in 0.05..0.18: the rover must stand within 0.2 s");
+std::string InWords(const Fault& fault) {
+  return ToString(fault.reason) + (fault.detail.empty() ? "" : " " + fault.detail);
 }
+
+}  // namespace
 
 Pilot::Pilot(const PilotOptions& options)
     : options_(options),
       kinematics_(options.kinematics),
       limiter_(options.limits, kinematics_),
-      pose_(PoseOptionsFor(options)),
+      pose_(PoseOptionsFor(options), kinematics_),
       chassis_(options.chassis),
+      motion_watch_(options.motion, options.kinematics.gauge_m),
+      operator_(options.operator_watch),
+      goal_limits_(options.goal_limits),
       tracks_(PoseOptionsFor(options).max_pose_age_s + 1),
       slip_(options.slip, kinematics_),
       stop_look_go_(options.stop_look_go),
       progress_(options.max_stall_s),
-      velocity_s_(kNever_s) {
+      velocity_s_(kNeverCommanded_s),
+      commanded_s_(kNeverCommanded_s) {
   options_.Check();
 }
 
 Reply Pilot::Start(double now_s) {
-  if (is_emergency_stop_)
-    return {false, std::string("not started: ") + ToString(StopReason::kEmergencyStop)};
-  if (const auto fault = chassis_.FindFault(now_s))
-    return {false, std::string("not started: ") + ToString(*fault)};
+  if (const auto fault = FindStartFault(now_s)) return {false, "not started: " + InWords(*fault)};
+  commanded_s_ = now_s;
   if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked)
     return {true, "already started"};
+  if (IsInLongStandby()) EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
   state_ = DriveState::kArming;
   reason_ = StopReason::kNone;
+  detail_.clear();
   has_started_ = true;
   armed_s_ = now_s;
   slip_.Reset();
   progress_.Renew();
   stop_look_go_.Reset();
+  motion_watch_.Reset();
   return {true, route_ ? "started, drives to the goal" : "started"};
 }
 
 void Pilot::Stop() {
-  EndRoute(GoalOutcome::kCancelled, StopReason::kStopped);
+  EndRoute(GoalOutcome::kCancelled, {StopReason::kStopped, ""});
   state_ = DriveState::kStandby;
+  standby_since_s_ = last_tick_s_;
   reason_ = StopReason::kStopped;
-  velocity_s_ = kNever_s;
+  detail_.clear();
+  velocity_s_ = kNeverCommanded_s;
 }
 
-void Pilot::SetRoute(Route route) {
+void Pilot::SetEmergencyStop(const std::string& source, bool is_set) {
+  if (!is_set) {
+    emergency_sources_.erase(source);
+  } else if (emergency_sources_.size() < kMaxEmergencySources) {
+    emergency_sources_.insert(source);
+  }
+}
+
+bool Pilot::IsInLongStandby() const {
+  return state_ == DriveState::kStandby && standby_since_s_ &&
+         last_tick_s_ - *standby_since_s_ > options_.goal_limits.max_standby_s;
+}
+
+Reply Pilot::SetRoute(Route route) {
+  if (state_ == DriveState::kBlocked)
+    return {false, "goal refused: the rover is blocked: " + InWords({reason_, detail_})};
+  if (IsInLongStandby()) return {false, "goal refused: the rover is in standby; start it first"};
+  if (!predicted_) return {false, "goal refused: the rover has no pose"};
+  const std::string flaw = goal_limits_.FindFlaw(route, *predicted_);
+  if (!flaw.empty()) return {false, "goal refused: " + flaw};
   GoalController controller(options_.goal, std::move(route));
-  EndRoute(GoalOutcome::kReplaced, StopReason::kNone);
+  EndRoute(GoalOutcome::kReplaced);
   route_ = std::move(controller);
-  velocity_s_ = kNever_s;
+  velocity_s_ = kNeverCommanded_s;
+  commanded_s_ = last_tick_s_;
   progress_.Renew();
   stop_look_go_.Reset();
+  return {true, "goal taken"};
 }
 
-void Pilot::CancelRoute() { EndRoute(GoalOutcome::kCancelled, StopReason::kNone); }
+void Pilot::CancelRoute() { EndRoute(GoalOutcome::kCancelled); }
 
 Reply Pilot::SetVelocity(double now_s, const PlanarMotion& motion) {
   if (!motion.IsFinite()) {
-    velocity_s_ = kNever_s;
+    velocity_s_ = kNeverCommanded_s;
     return {false, "velocity refused: it is not finite"};
   }
   if (route_) return {false, "velocity refused: a goal is being driven to"};
   velocity_ = motion;
-  velocity_s_ = now_s;
+  velocity_s_ = commanded_s_ = now_s;
   return {true, ""};
 }
 
-void Pilot::ObserveOdometry(double taken_s, const Rigid3& odom_from_base) {
-  if (!odom_from_base.IsFinite() || !tracks_.Covers(taken_s)) return;
-  slip_.Add(odom_from_base, *tracks_.At(taken_s));
+Reply Pilot::SetDatum() {
+  if (state_ == DriveState::kDriving || state_ == DriveState::kWarning)
+    return {false, "datum refused: the rover drives"};
+  if (!predicted_) return {false, "datum refused: the rover has no pose"};
+  pose_.SetDatum();
+  char text[96];
+  std::snprintf(text, sizeof(text), "the rover stands at x %.2f m, y %.2f m, heading %.0f deg",
+                predicted_->x_m, predicted_->y_m, predicted_->heading_rad * 180 / M_PI);
+  return {true, text};
+}
+
+void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {
+  if (!pose_.ObserveEpoch(epoch, taken_s)) return;
+  slip_.Reset();
+  Distrust({StopReason::kNewEpoch, "(epoch " + std::to_string(epoch) + ")"});
+  predicted_.reset();
 }
 
 void Pilot::ObserveTracks(double now_s, int left_mm, int right_mm) {
   tracks_.Add(now_s, left_mm, right_mm);
+  motion_watch_.ObserveWays(now_s, *tracks_.At(now_s));
   chassis_.ObserveTrackOdometer(now_s);
 }
 
-void Pilot::Report(GoalOutcome outcome, StopReason reason) {
-  GoalResult result{outcome, reason, route_->Waypoints().back()};
+void Pilot::Report(GoalOutcome outcome, const Fault& fault) {
+  GoalResult result;
+  result.outcome = outcome;
+  result.reason = fault.reason;
+  result.detail = fault.detail;
+  result.goal = route_->Waypoints().back();
   if (predicted_) {
     result.position_error_m =
         std::hypot(result.goal.x_m - predicted_->x_m, result.goal.y_m - predicted_->y_m);
@@ -117,80 +152,34 @@ void Pilot::Report(GoalOutcome outcome, StopReason reason) {
   results_.push_back(result);
 }
 
-void Pilot::EndRoute(GoalOutcome outcome, StopReason reason) {
+void Pilot::EndRoute(GoalOutcome outcome, const Fault& fault) {
   if (!route_) return;
-  Report(outcome, reason);
+  Report(outcome, fault);
   route_.reset();
 }
 
-void Pilot::Block(StopReason reason) {
-  if (route_) Report(GoalOutcome::kBlocked, reason);
-  state_ = DriveState::kBlocked;
-  reason_ = reason;
-  velocity_s_ = kNever_s;
-}
-
-void Pilot::Pause(double now_s, StopReason reason) {
-  if (state_ != DriveState::kPaused) pause_start_s_ = now_s;
-  state_ = DriveState::kPaused;
-  reason_ = reason;
-  flawed_s_ = now_s;
-  stop_look_go_.Reset();
-  if (route_ && now_s - pause_start_s_ > options_.max_pause_s) Block(StopReason::kPoseLost);
-}
-
-std::optional<StopReason> Pilot::FindBlockingFault(double now_s) const {
-  if (is_emergency_stop_) return StopReason::kEmergencyStop;
-  if (const auto fault = chassis_.FindFault(now_s)) return fault;
-  const bool is_arming = state_ == DriveState::kArming;
-  if (!chassis_.IsOurs() && !(is_arming && now_s - armed_s_ <= options_.arming_timeout_s))
-    return StopReason::kModeLost;
-  if (state_ != DriveState::kDriving) return std::nullopt;
-  if (slip_.IsExcessive()) return StopReason::kSlip;
-  if (progress_.IsStalled()) return StopReason::kNoProgress;
-  return std::nullopt;
-}
-
-bool Pilot::IsVelocityFresh(double now_s) const {
-  return now_s - velocity_s_ <= options_.velocity_timeout_s;
-}
-
-void Pilot::UpdateState(double now_s) {
-  if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;
-  if (const auto fault = FindBlockingFault(now_s)) return Block(*fault);
-  if (!chassis_.IsOurs()) return;  // arming
-  const bool needs_pose = route_ || options_.velocity_needs_pose;
-  const auto pose_fault = needs_pose ? pose_.FindFault(now_s) : std::nullopt;
-  if (pose_fault) return Pause(now_s, *pose_fault);
-  if (state_ == DriveState::kPaused && now_s - flawed_s_ < options_.resume_after_s) return;
-  const bool has_work = route_ || IsVelocityFresh(now_s);
-  state_ = has_work ? DriveState::kDriving : DriveState::kReady;
-  reason_ = StopReason::kNone;
-}
-
 RoverPose Pilot::PredictPose(double now_s) const {
-  const PoseObservation& seen = *pose_.Pose();
-  const RoverPose pose = ProjectToPlane(seen.map_from_base);
-  const auto then = tracks_.At(seen.taken_s), now = tracks_.At(now_s);
-  if (!then || !now) return pose;
-  const PlanarMotion way =
-      kinematics_.MotionOf({now->left_m - then->left_m, now->right_m - then->right_m});
-  return Advance(pose, way.forward_mps, way.turn_radps);
+  return pose_.PredictInMap(tracks_.At(now_s).value_or(pose_.LastSighting().ways));
 }
 
 bool Pilot::IsSeenAtRest() const {
-  return pose_.Pose()->taken_s >= at_rest_since_s_ + options_.settle_s;
+  return pose_.HasPose() && pose_.LastSighting().taken_s >= at_rest_since_s_ + options_.settle_s;
 }
 
-PlanarMotion Pilot::RouteMotion(double now_s) {
-  const bool is_at_rest = IsSeenAtRest();
-  const PlanarMotion wanted = route_->Update(*predicted_, is_at_rest);
+void Pilot::FollowRoute() {
   const int stage =
       static_cast<int>(route_->NextWaypoint()) * 8 + static_cast<int>(route_->Phase());
   progress_.Observe(driven_s_, stage, route_->Cost(*predicted_));
-  if (route_->HasArrived()) {
-    EndRoute(GoalOutcome::kArrived, StopReason::kNone);
-    return {};
+  if (route_->HasArrived()) EndRoute(GoalOutcome::kArrived);
+}
+
+PlanarMotion Pilot::WantedMotion(double now_s) {
+  const bool is_at_rest = IsSeenAtRest();
+  PlanarMotion wanted = velocity_;
+  if (route_) {
+    wanted = route_->Update(*predicted_, is_at_rest);
+    FollowRoute();
+    if (!route_) return {};
   }
   return stop_look_go_.Gate(wanted, tracks_.At(now_s).value_or(TrackWays{}), is_at_rest);
 }
@@ -205,26 +194,36 @@ void Pilot::NoteMotion(double now_s, double dt_s, const PlanarMotion& motion) {
 
 DriveCommand Pilot::Tick(double now_s) {
   const double dt_s = std::clamp(now_s - last_tick_s_, 0.0, kMaxTick_s);
+  const bool was_held_up = standby_since_s_ && now_s - last_tick_s_ > options_.max_tick_gap_s;
   last_tick_s_ = now_s;
+  if (was_held_up) Distrust({StopReason::kHeldUp, ""});
+  if (!standby_since_s_) standby_since_s_ = now_s;
+  JudgePose(now_s);
   UpdateState(now_s);
-  predicted_ = pose_.Pose() ? std::optional(PredictPose(now_s)) : std::nullopt;
   PlanarMotion motion;
   if (state_ == DriveState::kDriving) {
-    motion = limiter_.Limit(route_ ? RouteMotion(now_s) : velocity_, dt_s);
+    motion = limiter_.Limit(WantedMotion(now_s), dt_s);
   } else {
     limiter_.Halt();
   }
   NoteMotion(now_s, dt_s, motion);
-  return {has_started_, state_ != DriveState::kStandby, kinematics_.ChassisMotionFor(motion)};
+  const bool is_lamp_on = state_ == DriveState::kWarning || state_ == DriveState::kDriving;
+  const DriveCommand command{has_started_, state_ != DriveState::kStandby,
+                             kinematics_.ChassisMotionFor(motion), is_lamp_on};
+  if (has_started_ && chassis_.IsOurs())
+    motion_watch_.ObserveCommand(now_s, command.chassis_motion);
+  return command;
 }
 
 PilotStatus Pilot::Status() const {
   PilotStatus status;
   status.state = state_;
   status.reason = reason_;
+  status.detail = detail_;
   status.has_goal = route_.has_value();
   status.motion = motion_;
   status.slip = slip_.Estimate();
+  status.is_tilt_near_limit = pose_.IsTiltNearLimit();
   if (route_) {
     status.phase = route_->Phase();
     status.next_waypoint = route_->NextWaypoint();

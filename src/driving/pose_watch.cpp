@@ -1,43 +1,157 @@
 #include "arfm_vo/driving/pose_watch.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/driving/route.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr double kMaxFromFuture_s = 0.2;
+/// Between the clocks that tell when a pose and its covariance were taken.
+constexpr double kClockNoise_s = 0.01;
+
+RoverPose InMap(const Rigid3& map_from_odom, const RoverPose& pose_in_odom) {
+  const Rigid3 odom_from_base(ExpSO3({0, 0, pose_in_odom.heading_rad}),
+                              Eigen::Vector3d(pose_in_odom.x_m, pose_in_odom.y_m, 0));
+  return ProjectToPlane(map_from_odom * odom_from_base);
+}
+
+/// What is left of a standard deviation since the datum.
+double Since(double datum, double sigma) {
+  return sigma >= datum ? std::sqrt(sigma * sigma - datum * datum) : sigma;
+}
+
+double TiltOf(const Rigid3& map_from_base) {
+  const Eigen::Vector3d up = map_from_base.rotation.normalized() * Eigen::Vector3d::UnitZ();
+  return std::acos(std::clamp(up.z(), -1.0, 1.0));
+}
 
 }  // namespace
 
 void PoseWatchOptions::Check() const {
   Require(max_pose_age_s > 0 && max_pose_age_s <= 3600, "pose.max_pose_age_s must be in (0, 3600]");
-  Require(max_position_sigma_m > 0, "pose.max_position_sigma_m must be positive");
-  Require(max_heading_sigma_rad > 0, "pose.max_heading_sigma_rad must be positive");
+  Require(max_position_sigma_m > 0 && max_position_sigma_m <= 1000,
+          "pose.max_position_sigma_m must be in (0, 1000]");
+  Require(max_heading_sigma_rad > 0 && max_heading_sigma_rad <= 10,
+          "pose.max_heading_sigma_rad must be in (0, 10]");
+  Require(max_tilt_deg >= 1 && max_tilt_deg <= 60, "pose.max_tilt_deg must be in 1..60");
+  Require(warn_tilt_deg >= 0 && warn_tilt_deg <= max_tilt_deg,
+          "pose.warn_tilt_deg must be in 0..pose.max_tilt_deg");
+  consistency.Check();
+}
+
+PoseWatch::PoseWatch(const PoseWatchOptions& options, const TrackKinematics& kinematics)
+    : options_(options), consistency_(options.consistency, kinematics) {
+  options_.Check();
 }
 
 void PoseWatch::Observe(double now_s, const PoseObservation& pose) {
-  const bool is_flawed = !FindGoalFlaw(pose.map_from_base).empty() ||
+  const bool is_flawed = !FindGoalFlaw(pose.odom_from_base).empty() ||
+                         !FindGoalFlaw(pose.MapFromBase()).empty() ||
                          !std::isfinite(pose.taken_s) || pose.taken_s > now_s + kMaxFromFuture_s;
   flaw_ = is_flawed ? std::optional(StopReason::kPoseInvalid) : std::nullopt;
-  if (!is_flawed) pose_ = pose;
+  if (is_flawed) return;
+  if (epoch_start_s_ && pose.taken_s < *epoch_start_s_ - kClockNoise_s)
+    return ObserveNone(StopReason::kPoseMissing);
+  told_ = pose;
+}
+
+bool PoseWatch::Observe(double now_s, const PoseUncertainty& uncertainty) {
+  if (!(uncertainty.taken_s <= now_s + kMaxFromFuture_s)) return false;
+  uncertainty_ = uncertainty;
+  return true;
+}
+
+bool PoseWatch::ObserveEpoch(uint32_t epoch, double taken_s) {
+  const bool is_new = epoch_ && *epoch_ != epoch;
+  epoch_ = epoch;
+  if (!is_new) return false;
+  epoch_start_s_ = taken_s;
+  told_.reset();
+  uncertainty_.reset();
+  datum_.reset();
+  sightings_.clear();
+  flaw_ = StopReason::kPoseMissing;
+  return true;
+}
+
+bool PoseWatch::HasCovariance(const PoseObservation& pose) const {
+  if (!options_.requires_covariance) return true;
+  return uncertainty_ && uncertainty_->taken_s >= pose.taken_s - kClockNoise_s;
+}
+
+std::optional<Fault> PoseWatch::CompareWithTracks(const TrackedSighting& sighting) const {
+  if (sightings_.empty()) return std::nullopt;
+  const PoseDifference jump = consistency_.Compare(sightings_.back(), sighting);
+  if (jump.IsExcessive())
+    return Fault{StopReason::kPoseContradiction, "off the tracks by " + jump.ToString()};
+  const PoseDifference slide = consistency_.Compare(sightings_.front(), sighting);
+  if (slide.IsExcessive())
+    return Fault{StopReason::kSliding, "off the tracks by " + slide.ToString()};
+  return std::nullopt;
+}
+
+std::optional<Fault> PoseWatch::TakeMap(const Rigid3& map_from_odom) {
+  const Rigid3 before = map_from_odom_;
+  map_from_odom_ = map_from_odom;
+  if (sightings_.empty()) return std::nullopt;
+  const RoverPose& pose = sightings_.back().pose;
+  const PoseDifference step = consistency_.MapStep(InMap(before, pose), InMap(map_from_odom, pose));
+  if (!step.IsExcessive()) return std::nullopt;
+  return Fault{StopReason::kMapStep, "by " + step.ToString()};
+}
+
+void PoseWatch::Keep(const TrackedSighting& sighting) {
+  sightings_.push_back(sighting);
+  const double start_s = sighting.taken_s - options_.consistency.slide_window_s;
+  while (sightings_.size() > 2 && sightings_[1].taken_s <= start_s) sightings_.pop_front();
+}
+
+std::optional<Fault> PoseWatch::Judge(double now_s, const TrackHistory& tracks) {
+  if (flaw_ || !told_) return std::nullopt;
+  auto fault = TakeMap(told_->map_from_odom);
+  const bool is_new = sightings_.empty() || told_->taken_s > sightings_.back().taken_s;
+  if (!is_new || !HasCovariance(*told_) || IsUncertain(now_s)) return fault;
+  const PoseUncertainty uncertainty = uncertainty_.value_or(PoseUncertainty{});
+  const TrackedSighting sighting{told_->taken_s, ProjectToPlane(told_->odom_from_base),
+                                 uncertainty.position_sigma_m, uncertainty.heading_sigma_rad,
+                                 tracks.At(told_->taken_s).value_or(TrackWays{})};
+  if (const auto contradiction = CompareWithTracks(sighting)) {
+    fault = contradiction;
+    sightings_.clear();
+  }
+  Keep(sighting);
+  last_odom_from_base_ = told_->odom_from_base;
+  tilt_rad_ = TiltOf(told_->MapFromBase());
+  return fault;
+}
+
+void PoseWatch::SetDatum() { datum_ = uncertainty_; }
+
+RoverPose PoseWatch::PredictInMap(const TrackWays& ways) const {
+  return InMap(map_from_odom_, consistency_.Predict(sightings_.back(), ways));
 }
 
 bool PoseWatch::IsUncertain(double now_s) const {
   if (!uncertainty_) return options_.requires_covariance;
   if (options_.requires_covariance && !(now_s - uncertainty_->taken_s <= options_.max_pose_age_s))
     return true;
+  const PoseUncertainty datum = datum_.value_or(PoseUncertainty{});
   // Written so that NaN is uncertain.
-  return !(uncertainty_->position_sigma_m <= options_.max_position_sigma_m &&
-           uncertainty_->heading_sigma_rad <= options_.max_heading_sigma_rad);
+  return !(Since(datum.position_sigma_m, uncertainty_->position_sigma_m) <=
+               options_.max_position_sigma_m &&
+           Since(datum.heading_sigma_rad, uncertainty_->heading_sigma_rad) <=
+               options_.max_heading_sigma_rad);
 }
 
 std::optional<StopReason> PoseWatch::FindFault(double now_s) const {
   if (flaw_) return flaw_;
-  if (now_s - pose_->taken_s > options_.max_pose_age_s) return StopReason::kPoseStale;
+  if (now_s - told_->taken_s > options_.max_pose_age_s) return StopReason::kPoseStale;
   if (IsUncertain(now_s)) return StopReason::kPoseUncertain;
+  if (options_.requires_epoch && !epoch_) return StopReason::kEpochMissing;
+  if (sightings_.empty()) return StopReason::kPoseMissing;
   return std::nullopt;
 }
 

@@ -21,7 +21,7 @@ void SlipOptions::Check() const {
   Require(max_slip_ratio > 0 && max_slip_ratio <= 1, "slip.max_slip_ratio must be in (0, 1]");
   Require(max_turn_slip_ratio > 0 && max_turn_slip_ratio <= 1,
           "slip.max_turn_slip_ratio must be in (0, 1]");
-  Require(max_leap_m > 0, "slip.max_leap_m must be positive");
+  Require(max_leap_m > 0 && max_leap_m <= 100, "slip.max_leap_m must be in (0, 100]");
 }
 
 SlipEstimator::SlipEstimator(const SlipOptions& options, const TrackKinematics& kinematics)

@@ -9,6 +9,9 @@ constexpr int kMaxFramesACall = 500;
 constexpr int kMaxBusyInARow = 4;  // 80 ms of a full queue
 constexpr double kModeRetry_s = 0.2;
 constexpr int kFarewellAttempts = 5;
+constexpr double kLampRepeat_s = 0.5;
+/// The turn in place at which the tracks, 0.583 m apart, run at the speed limit, rounded up.
+constexpr double kMaxChassisTurnRate_radps = 0.35;
 
 }  // namespace
 
@@ -34,6 +37,10 @@ std::vector<ChassisFeedback> ChassisLink::Receive() {
     if (frame->kind == CanFrameKind::kBusOff) was_bus_lost_ = true;
     if (frame->kind != CanFrameKind::kData && frame->kind != CanFrameKind::kOther) {
       ++traffic_.num_error_frames;
+      continue;
+    }
+    if (std::holds_alternative<MotionCommand>(DecodeCommand(*frame))) {
+      ++traffic_.num_foreign_commands;
       continue;
     }
     const ChassisFeedback feedback = DecodeFeedback(*frame);
@@ -67,18 +74,31 @@ void ChassisLink::RequestCanMode(double now_s) {
   SendFrame(EncodeFrame(ControlModeCommand{ControlMode::kCan}));
 }
 
+void ChassisLink::SendLamp(double now_s, bool is_on) {
+  const bool is_due = is_on && now_s - lamp_sent_s_ >= kLampRepeat_s;
+  if (is_on == is_lamp_on_ && !is_due) return;
+  is_lamp_on_ = is_on;
+  lamp_sent_s_ = now_s;
+  SendFrame(EncodeFrame(LightCommand{is_on, num_lamp_frames_++}));
+}
+
 void ChassisLink::Send(double now_s, const DriveCommand& command) {
   was_bus_lost_ = false;
   if (!command.may_speak) return;
   if (command.wants_authority) RequestCanMode(now_s);
   PlanarMotion motion = command.chassis_motion;
   motion.forward_mps = std::clamp(motion.forward_mps, -kMaxSpeed_mps, kMaxSpeed_mps);
+  motion.turn_radps =
+      std::clamp(motion.turn_radps, -kMaxChassisTurnRate_radps, kMaxChassisTurnRate_radps);
   SendFrame(EncodeFrame(MotionCommand{motion}));
+  SendLamp(now_s, command.is_lamp_on);
 }
 
 void ChassisLink::SendFarewell() {
   if (!has_spoken_) return;
-  for (const CanFrame& frame : {EncodeFrame(MotionCommand{}), EncodeFrame(ControlModeCommand{})}) {
+  std::vector<CanFrame> frames = {EncodeFrame(MotionCommand{}), EncodeFrame(ControlModeCommand{})};
+  if (is_lamp_on_) frames.push_back(EncodeFrame(LightCommand{false, num_lamp_frames_}));
+  for (const CanFrame& frame : frames) {
     for (int i = 0; i < kFarewellAttempts && SendFrame(frame) == CanSendStatus::kBusy; ++i) {
     }
   }

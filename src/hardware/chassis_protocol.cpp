@@ -8,6 +8,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr uint32_t kMotionCommandId = 0x111;
+constexpr uint32_t kLightCommandId = 0x121;
 constexpr uint32_t kSystemStateId = 0x211;
 constexpr uint32_t kMotionStateId = 0x221;
 constexpr uint32_t kMotorStateId = 0x251;
@@ -148,6 +149,12 @@ CanFrame EncodeFrame(const ClearErrorsCommand& command) {
   return MakeCanFrame(kClearErrorsId, {command.error});
 }
 
+CanFrame EncodeFrame(const LightCommand& command) {
+  constexpr uint8_t kTakesCommands = 1;
+  const uint8_t mode = command.is_on ? 1 : 0;
+  return MakeCanFrame(kLightCommandId, {kTakesCommands, mode, 0, mode, 0, 0, 0, command.count});
+}
+
 CanFrame EncodeFrame(const SystemState& state) {
   return FieldWriter(kSystemStateId)
       .Put(static_cast<uint8_t>(state.vehicle))
@@ -230,6 +237,9 @@ ChassisCommand DecodeCommand(const CanFrame& frame) {
       break;
     case kClearErrorsId:
       if (HoldsFields(frame, 1)) return ClearErrorsCommand{frame.bytes[0]};
+      break;
+    case kLightCommandId:
+      if (HoldsFields(frame, 8)) return LightCommand{frame.bytes[1] != 0, frame.bytes[7]};
       break;
   }
   return {};

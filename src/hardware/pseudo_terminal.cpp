@@ -18,6 +18,12 @@ namespace {
   throw std::system_error(errno, std::generic_category(), "pseudo terminal: " + what);
 }
 
+/// A link to a pseudo terminal: what an earlier simulation has left behind.
+bool IsOwnLink(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::read_symlink(path, ignored).string().rfind("/dev/pts/", 0) == 0;
+}
+
 }  // namespace
 
 PseudoTerminal::PseudoTerminal(const std::string& link)
@@ -26,21 +32,22 @@ PseudoTerminal::PseudoTerminal(const std::string& link)
   if (!master_.IsOpen() || ::grantpt(master_.Get()) != 0 || ::unlockpt(master_.Get()) != 0 ||
       ::ptsname_r(master_.Get(), name, sizeof(name)) != 0)
     Fail("cannot be made");
-  path_ = name;
+  path_ = slave_ = name;
   keeper_ = FileDescriptor(::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios settings{};
   if (!keeper_.IsOpen() || ::tcgetattr(keeper_.Get(), &settings) != 0) Fail(path_);
   ::cfmakeraw(&settings);
   if (::tcsetattr(keeper_.Get(), TCSANOW, &settings) != 0) Fail(path_);
   if (link_.empty()) return;
-  std::filesystem::remove(link_);
+  if (IsOwnLink(link_)) std::filesystem::remove(link_);
   std::filesystem::create_symlink(path_, link_);
   path_ = link_;
 }
 
 PseudoTerminal::~PseudoTerminal() {
   std::error_code ignored;
-  if (!link_.empty()) std::filesystem::remove(link_, ignored);
+  if (!link_.empty() && std::filesystem::read_symlink(link_, ignored) == slave_)
+    std::filesystem::remove(link_, ignored);
 }
 
 std::string PseudoTerminal::Read(double timeout_s) {

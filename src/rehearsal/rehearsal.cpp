@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kChassisPeriod_ms = 10;
 constexpr int kDriverPeriod_ms = 20;
-constexpr long kStart_ms = 1000;
+constexpr long kGoal_ms = 600, kStart_ms = 1000, kHeartbeatPeriod_ms = 500;
+constexpr uint32_t kEpoch = 1;
 /// Slowest sensible drive: a limit for runs that never end.
 constexpr double kMaxSecondsPerMetre = 60, kMaxSeconds = 300;
 
@@ -28,7 +29,6 @@ class Stage {
         sight_(options.sight, options.odometry, options.shape, scene.terrain()),
         pair_period_ms_(std::lround(1000 * options.sight.pair_period_s)) {
     drive_.goal = goal_;
-    driver_.pilot().SetRoute({goal_});
   }
 
   Drive Run() {
@@ -50,6 +50,8 @@ class Stage {
       Tell(glimpses_.front());
       glimpses_.pop_front();
     }
+    if (now_ms_ % kHeartbeatPeriod_ms == 0) driver_.pilot().ObserveOperator(Now());
+    if (now_ms_ == kGoal_ms) SendGoal();
     if (now_ms_ == kStart_ms) {
       drive_.num_frames_before_start = drive_.num_frames;
       driver_.pilot().Start(Now());
@@ -62,6 +64,11 @@ class Stage {
       if (!drive_.has_arrived) drive_.outcome += std::string(": ") + ToString(result.reason);
     }
     now_ms_ += kChassisPeriod_ms;
+  }
+
+  void SendGoal() {
+    const Reply reply = driver_.pilot().SetRoute({goal_});
+    if (!reply.is_accepted) drive_.outcome = reply.text;
   }
 
   void Look() {
@@ -80,10 +87,10 @@ class Stage {
 
   void Tell(const Glimpse& glimpse) {
     Pilot& pilot = driver_.pilot();
-    pilot.ObserveUncertainty(glimpse.uncertainty);
-    if (!glimpse.map_from_base) return;
-    pilot.ObservePose(Now(), {glimpse.taken_s, *glimpse.map_from_base});
-    pilot.ObserveOdometry(glimpse.taken_s, *glimpse.map_from_base);
+    pilot.ObserveEpoch(kEpoch, glimpse.taken_s);
+    pilot.ObserveUncertainty(Now(), glimpse.uncertainty);
+    if (glimpse.map_from_base)
+      pilot.ObservePose(Now(), {glimpse.taken_s, *glimpse.map_from_base, {}});
   }
 
   void Listen() {

@@ -8,6 +8,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(DriveStatus::BLOCKED == static_cast<int>(DriveState::kBlocked));
+static_assert(DriveStatus::WARNING == static_cast<int>(DriveState::kWarning));
 static_assert(DriveStatus::DRIVING == static_cast<int>(DriveState::kDriving));
 static_assert(GoalReport::REPLACED == static_cast<int>(GoalOutcome::kReplaced));
 static_assert(ChassisState::MODE_REMOTE == static_cast<int>(ControlMode::kRemote));
@@ -43,6 +44,7 @@ DriveStatus ToMessage(const PilotStatus& status) {
   message.state = static_cast<uint8_t>(status.state);
   message.state_text = ToString(status.state);
   message.reason = ToString(status.reason);
+  message.detail = status.detail;
   message.has_goal = status.has_goal;
   if (status.has_goal) message.phase = ToString(status.phase);
   message.next_waypoint = static_cast<uint32_t>(status.next_waypoint);
@@ -60,6 +62,7 @@ GoalReport ToMessage(const GoalResult& result) {
   message.text = ToString(result.outcome);
   if (result.reason != StopReason::kNone)
     message.text += std::string(": ") + ToString(result.reason);
+  if (!result.detail.empty()) message.text += " " + result.detail;
   message.x_m = result.goal.x_m;
   message.y_m = result.goal.y_m;
   message.heading_rad = result.goal.heading_rad.value_or(0);
@@ -160,7 +163,10 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link,
   const bool says_reason = status.reason != StopReason::kNone;
   diagnostics.summary(LevelOf(status), std::string(ToString(status.state)) +
                                            (says_reason ? ": " : "") +
-                                           (says_reason ? ToString(status.reason) : ""));
+                                           (says_reason ? ToString(status.reason) : "") +
+                                           (status.detail.empty() ? "" : " " + status.detail));
+  if (status.is_tilt_near_limit)
+    diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "rover is tilted");
   diagnostics.add("bus", ToString(link.BusState()));
   if (link.BusState() != CanBusState::kUp)
     diagnostics.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::ERROR, "CAN bus is %s",
@@ -179,6 +185,7 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link,
   diagnostics.add("frames dropped, queue full", traffic.num_send_busy);
   diagnostics.add("frames dropped, bus down", traffic.num_send_down);
   diagnostics.add("frames unreadable", traffic.num_unreadable);
+  diagnostics.add("motion commands of other drivers", traffic.num_foreign_commands);
   diagnostics.add("error frames", traffic.num_error_frames);
   diagnostics.add("bus-off events", traffic.num_bus_off);
 }

@@ -12,21 +12,36 @@ namespace {
 
 constexpr double kTick_s = 0.02;
 
+ChassisNodeOptions ReadOptions(const ros::NodeHandle& private_node) {
+  const auto options = ReadParameters<ChassisNodeOptions>(private_node);
+  Require(!ros::Time::isSimTime() || IsSimulatedBus(options.can),
+          "use_sim_time is set, but can '" + options.can +
+              "' is a real bus: simulated time is for udp:.. and vcan.. only");
+  return options;
+}
+
+/// A latched message says nothing of now.
+template <class Event>
+bool IsLatched(const Event& event) {
+  const auto& header = event.getConnectionHeader();
+  const auto latching = header.find("latching");
+  return latching != header.end() && latching->second == "1";
+}
+
 }  // namespace
 
 ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : options_(ReadParameters<ChassisNodeOptions>(private_node)),
-      listener_(buffer_),
+    : options_(ReadOptions(private_node)),
+      lock_(std::in_place, options_.can),
+      transforms_(node, buffer_),
       sight_(buffer_, options_.map_frame, options_.odom_frame, options_.base_frame),
-      goal_reader_(buffer_, options_.map_frame),
+      goal_reader_(buffer_, options_.map_frame, options_.max_goal_age_s),
       driver_(options_.pilot, OpenCanBus(options_.can, ChassisLink::Filters())),
       publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
                  options_.base_frame),
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
-  updater_.add("driving", [this](diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
-    FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
-  });
+  updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
   Listen(node);
   Serve(private_node);
   SetPace(node);
@@ -40,27 +55,46 @@ void ChassisNode::Listen(ros::NodeHandle& node) {
   subscribe("waypoints", &ChassisNode::TakePath);
   subscribe("cmd_vel", &ChassisNode::TakeVelocity);
   subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);
+  subscribe("operator_heartbeat", &ChassisNode::TakeHeartbeat);
   subscribe("odom", &ChassisNode::TakeOdometry);
+  subscribe("status", &ChassisNode::TakeOdometryStatus);
 }
 
 void ChassisNode::Serve(ros::NodeHandle& private_node) {
   const auto serve = [&](const char* name, std::function<Reply()> act) {
-    using Trigger = std_srvs::Trigger;
-    const auto answer = [this, act](Trigger::Request&, Trigger::Response& response) {
+    using Event = ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>;
+    const auto answer = [this, act, name](Event& event) {
       const Reply reply = act();
       Tick();
-      response.success = reply.is_accepted;
-      response.message = reply.text;
+      event.getResponse().success = reply.is_accepted;
+      event.getResponse().message = reply.text;
+      ROS_INFO("%s called by %s: %s", name, event.getCallerName().c_str(), reply.text.c_str());
       return true;
     };
-    servers_.push_back(private_node.advertiseService<Trigger::Request, Trigger::Response>(
-        name, boost::function<bool(Trigger::Request&, Trigger::Response&)>(answer)));
+    ros::AdvertiseServiceOptions options;
+    options.initBySpecType<Event>(private_node.resolveName(name),
+                                  boost::function<bool(Event&)>(answer));
+    servers_.push_back(private_node.advertiseService(options));
   };
   Pilot& pilot = driver_.pilot();
   serve("start", [this, &pilot] { return pilot.Start(clock_.Now()); });
   serve("stop", [&pilot] { return pilot.Stop(), Reply{true, "stopped"}; });
   serve("cancel", [&pilot] { return pilot.CancelRoute(), Reply{true, "no goal"}; });
-  serve("clear_errors", [this] { return driver_.link().SendClearErrors(), Reply{true, "sent"}; });
+  serve("clear_errors", [this] { return ClearErrors(); });
+  serve("set_datum", [&pilot] { return pilot.SetDatum(); });
+  serve("release_emergency_stop", [&pilot] {
+    return pilot.ReleaseEmergencyStops(), Reply{true, "released"};
+  });
+}
+
+Reply ChassisNode::ClearErrors() {
+  const DriveState state = driver_.pilot().Status().state;
+  const auto& measured = driver_.link().Readings().motion;
+  const bool is_at_rest = state != DriveState::kDriving && state != DriveState::kWarning &&
+                          (!measured || measured->motion.IsZero());
+  if (!is_at_rest) return {false, "not sent: the rover moves"};
+  driver_.link().SendClearErrors();
+  return {true, "sent"};
 }
 
 void ChassisNode::SetPace(ros::NodeHandle& node) {
@@ -75,7 +109,7 @@ void ChassisNode::SetPace(ros::NodeHandle& node) {
 
 void ChassisNode::Tick() {
   const double now_s = clock_.Now();
-  if (now_s > last_tick_s_) clock_moved_ = ros::WallTime::now();
+  if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
   last_tick_s_ = now_s;
   Look(now_s);
   driver_.Tick(now_s);
@@ -85,24 +119,34 @@ void ChassisNode::Tick() {
 
 void ChassisNode::Look(double now_s) {
   const bool is_clock_stalled =
-      (ros::WallTime::now() - clock_moved_).toSec() > options_.max_clock_stall_s;
+      (ros::SteadyTime::now() - clock_moved_).toSec() > options_.max_clock_stall_s;
   const auto sighting = sight_.Look();
   if (!sighting || is_clock_stalled) return driver_.pilot().ObserveNoPose();
-  const bool is_new = sighting->stamp != seen_;
-  if (is_new) seen_s_ = clock_.At(sighting->stamp);
+  if (sighting->MapAge(ros::Time::now()) > options_.max_map_age_s)
+    return driver_.pilot().ObserveNoPose(StopReason::kMapStale);
+  if (sighting->stamp != seen_) seen_s_ = clock_.At(sighting->stamp);
   seen_ = sighting->stamp;
-  driver_.pilot().ObservePose(now_s, {seen_s_, sighting->map_from_base});
-  if (is_new) driver_.pilot().ObserveOdometry(seen_s_, sighting->odom_from_base);
+  driver_.pilot().ObservePose(now_s, {seen_s_, sighting->odom_from_base, sighting->map_from_odom});
+}
+
+void ChassisNode::Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const {
+  FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
+  diagnostics.add("tf refused, from the future", transforms_.num_from_future());
+  diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }
 
 template <class Message>
 void ChassisNode::TakeRoute(const Message& message) {
   try {
+    goal_reader_.RequireFresh(message.header, ros::Time::now());
+    Route route;
     if constexpr (std::is_same_v<Message, nav_msgs::Path>) {
-      driver_.pilot().SetRoute(goal_reader_.Read(message));
+      route = goal_reader_.Read(message);
     } else {
-      driver_.pilot().SetRoute({goal_reader_.Read(message)});
+      route = {goal_reader_.Read(message)};
     }
+    const Reply reply = driver_.pilot().SetRoute(std::move(route));
+    Require(reply.is_accepted, reply.text);
     Tick();
   } catch (const std::invalid_argument& error) {
     ROS_WARN("%s", error.what());
@@ -121,13 +165,23 @@ void ChassisNode::TakeVelocity(const geometry_msgs::Twist& twist) {
   if (!reply.is_accepted) ROS_WARN_THROTTLE(1, "%s", reply.text.c_str());
 }
 
-void ChassisNode::TakeEmergencyStop(const std_msgs::Bool& is_set) {
-  driver_.pilot().SetEmergencyStop(is_set.data);
+void ChassisNode::TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event) {
+  driver_.pilot().SetEmergencyStop(event.getPublisherName(), event.getConstMessage()->data);
   Tick();
 }
 
+void ChassisNode::TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event) {
+  if (!IsLatched(event)) driver_.pilot().ObserveOperator(clock_.Now());
+}
+
 void ChassisNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
-  driver_.pilot().ObserveUncertainty(ToUncertainty(odometry, clock_.At(odometry.header.stamp)));
+  const PoseUncertainty uncertainty = ToUncertainty(odometry, clock_.At(odometry.header.stamp));
+  if (!driver_.pilot().ObserveUncertainty(clock_.Now(), uncertainty)) ++num_odometry_refused_;
+}
+
+void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatus>& event) {
+  const double taken_s = clock_.At(event.getConstMessage()->header.stamp);
+  driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
 }
 
 }  // namespace arfm_vo

@@ -1,5 +1,7 @@
 #include "arfm_vo/ros/chassis_publisher.h"
 
+#include <std_msgs/Bool.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -37,6 +39,7 @@ ChassisPublisher::ChassisPublisher(ros::NodeHandle& node, const TrackKinematics&
       base_frame_(std::move(base_frame)),
       status_(node.advertise<DriveStatus>("drive_status", 10, true)),
       report_(node.advertise<GoalReport>("goal_report", 10, true)),
+      warning_(node.advertise<std_msgs::Bool>("motion_warning", 10, true)),
       slip_(node.advertise<TrackSlip>("slip", 10)),
       chassis_(node.advertise<ChassisState>("chassis_state", 10)),
       battery_(node.advertise<sensor_msgs::BatteryState>("battery", 10)),
@@ -47,6 +50,10 @@ void ChassisPublisher::PublishStatus(double now_s, const PilotStatus& status) {
                            last_status_->reason != status.reason ||
                            last_status_->has_goal != status.has_goal;
   last_status_ = status;
+  std_msgs::Bool warning;
+  warning.data = status.state == DriveState::kWarning || status.state == DriveState::kDriving;
+  if (last_warning_ != static_cast<bool>(warning.data)) warning_.publish(warning);
+  last_warning_ = static_cast<bool>(warning.data);
   if (!has_changed && now_s < status_due_s_) return;
   status_due_s_ = now_s + kStatusPeriod_s;
   status_.publish(Stamped(ToMessage(status), map_frame_));

@@ -2,11 +2,22 @@
 
 #include <tf2/exceptions.h>
 
+#include <cmath>
+
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/pose_message.h"
 
 namespace arfm_vo {
+
+void GoalReader::RequireFresh(const std_msgs::Header& header, const ros::Time& now) const {
+  constexpr double kMaxFromFuture_s = 1;
+  Require(!header.stamp.isZero(), "goal refused: it has no stamp");
+  const double age_s = now.toSec() - header.stamp.toSec();
+  Require(age_s >= -kMaxFromFuture_s, "goal refused: its stamp is in the future");
+  Require(age_s <= max_age_s_, "goal refused: it is " + std::to_string(std::lround(age_s)) +
+                                   " s old, older than " + std::to_string(max_age_s_) + " s");
+}
 
 Waypoint GoalReader::Read(const geometry_msgs::PoseStamped& goal) const {
   const std::string& frame = goal.header.frame_id;

@@ -27,11 +27,10 @@ std::optional<Sighting> RoverSight::Look() const {
     Sighting sighting;
     sighting.stamp = base.header.stamp;
     sighting.odom_from_base = FromMessage(base.transform, "tf to " + base_frame_);
-    sighting.map_from_base = sighting.odom_from_base;
     if (map_frame_ != odom_frame_) {
       const auto odom = look_up(map_frame_, odom_frame_);
-      sighting.map_from_base =
-          FromMessage(odom.transform, "tf to " + odom_frame_) * sighting.odom_from_base;
+      sighting.map_from_odom = FromMessage(odom.transform, "tf to " + odom_frame_);
+      sighting.map_stamp = odom.header.stamp;
     }
     return sighting;
   } catch (const tf2::TransformException&) {

@@ -28,8 +28,8 @@ PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
 
 void SimulatorNodeOptions::Check() const {
   Require(!can.empty(), "can must name a bus");
-  Require(max_speed_up > 0, "max_speed_up must be positive");
-  Require(max_latency_s >= 0, "max_latency_s must not be negative");
+  Require(max_speed_up > 0 && max_speed_up <= 1000, "max_speed_up must be in (0, 1000]");
+  Require(max_latency_s >= 0 && max_latency_s <= 600, "max_latency_s must be in 0..600");
   Require(max_wait_s >= 0 && max_wait_s <= 600, "max_wait_s must be in 0..600");
   Require(pair_period_s >= 0.02 && pair_period_s <= 60, "pair_period_s must be in 0.02..60");
   terrain.Check();

@@ -66,11 +66,14 @@ void SimulatedChassis::Obey(double now_s) {
     } else if (std::holds_alternative<ClearErrorsCommand>(command)) {
       has_fault_ = false;
       error_bits_ = 0;
+    } else if (const auto* light = std::get_if<LightCommand>(&command)) {
+      is_lamp_on_ = light->is_on;
     }
   }
 }
 
 PlanarMotion SimulatedChassis::MotionNow(double now_s) const {
+  if (runaway_) return *runaway_;
   if (!is_on_ || is_emergency_stop_ || has_fault_) return {};
   if (mode_ == ControlMode::kRemote) return stick_;
   const bool is_fresh = now_s - commanded_s_ <= kCommandTimeout_s;
@@ -82,7 +85,8 @@ void SimulatedChassis::Tick(double now_s) {
   has_ticked_ = true;
   Obey(now_s);
   const TrackKinematics kinematics(TrackKinematicsOptions{});  // the chassis' own: without slip
-  const TrackSpeeds commanded = kinematics.TracksFor(MotionNow(now_s));
+  TrackSpeeds commanded = kinematics.TracksFor(MotionNow(now_s));
+  if (is_left_jammed_) commanded.left_mps = 0;
   while (last_s_ < now_s) {
     const double dt_s = std::min(kMaxStep_s, now_s - last_s_);
     plant_.Step(commanded, dt_s);
@@ -105,8 +109,12 @@ void SimulatedChassis::SendFeedback(double now_s) {
 }
 
 void SimulatedChassis::SendFastFeedback() {
-  const TrackSpeeds& speeds = plant_.Speeds();
-  const TrackWays& ways = plant_.Ways();
+  if (!is_frozen_) {
+    told_speeds_ = plant_.Speeds();
+    told_ways_ = plant_.Ways();
+  }
+  const TrackSpeeds& speeds = told_speeds_;
+  const TrackWays& ways = told_ways_;
   Send(MotionState{TrackKinematics(TrackKinematicsOptions{}).MotionOf(speeds)});
   Send(MotorOf(ChassisSide::kLeft, speeds.left_mps, ways.left_m));
   Send(MotorOf(ChassisSide::kRight, speeds.right_mps, ways.right_m));
@@ -121,11 +129,11 @@ void SimulatedChassis::SendSlowFeedback() {
                                      : VehicleState::kOk;
   state.mode = mode_;
   state.battery_v = kSupply_v;
-  state.error_bits = error_bits_;
-  state.count = count_++;
+  state.error_bits = error_bits_ | (is_remote_lost_ ? kRemoteLost : 0);
+  state.count = is_frozen_ ? count_ : ++count_;
   Send(state);
   for (const ChassisSide side : {ChassisSide::kLeft, ChassisSide::kRight})
-    Send(MotorDriverState{side, kSupply_v, 35, 30, 0x40});
+    Send(MotorDriverState{side, kSupply_v, 35, 30, motor_status_bits_});
   Send(BatteryState{88, 99, kSupply_v, 2.5, 21.5});
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace arfm_vo {
@@ -17,6 +18,7 @@ class PilotTest : public ::testing::Test {
   static PilotOptions Options() {
     PilotOptions options;
     options.max_stall_s = 1e9;
+    options.motion.jam_s = 3600;  // its tracks stand
     return options;
   }
 
@@ -26,8 +28,10 @@ class PilotTest : public ::testing::Test {
       pilot_.ObserveTracks(now_s_, 0, 0);
     }
     pilot_.ObserveBus(bus_up_);
-    if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_});
-    if (has_pose_) pilot_.ObserveUncertainty({now_s_ - 0.1, sigma_m_, 0.01});
+    if (has_operator_) pilot_.ObserveOperator(now_s_);
+    pilot_.ObserveEpoch(1, now_s_ - 0.1);
+    if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
+    if (has_pose_) pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, heading_sigma_rad_});
   }
 
   DriveCommand Run(double duration_s) {
@@ -56,14 +60,15 @@ class PilotTest : public ::testing::Test {
   Pilot pilot_{Options()};
   double now_s_ = 100;
   ChassisStatus chassis_;
-  bool bus_up_ = true, has_pose_ = true;
+  bool bus_up_ = true, has_pose_ = true, has_operator_ = true;
   Rigid3 pose_;
-  double sigma_m_ = 0.01;
+  double sigma_m_ = 0.01, heading_sigma_rad_ = 0.01;
 };
 
 TEST_F(PilotTest, SaysNothingAndMovesNothingBeforeStart) {
   chassis_.authority = ChassisAuthority::kUs;
-  pilot_.SetRoute({{5, 0, {}}});
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
   for (int i = 0; i < 100; ++i) {
     const DriveCommand command = Run(kTick_s);
     EXPECT_FALSE(command.may_speak);
@@ -74,9 +79,56 @@ TEST_F(PilotTest, SaysNothingAndMovesNothingBeforeStart) {
   EXPECT_EQ(Reason(), StopReason::kNotStarted);
 }
 
-TEST_F(PilotTest, AGoalSentBeforeStartIsDrivenToAfterIt) {
-  pilot_.SetRoute({{5, 0, {}}});
+TEST_F(PilotTest, AGoalSentShortlyBeforeStartIsDrivenToAfterIt) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  Run(9);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, ALongStandbyTakesAndKeepsNoGoal) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  Run(10.1);
+  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kCancelled);
+  EXPECT_FALSE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_TRUE(Run(2).chassis_motion.IsZero());
+  EXPECT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, GoalsThatAreTooFarOrComeWhileBlockedAreRefused) {
   StartDriving();
+  EXPECT_EQ(pilot_.SetRoute({{50.1, 0, {}}}).text,
+            "goal refused: it is 50.1 m away, farther than 50.0 m");
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5, 1e-9);
+  pilot_.SetEmergencyStop("test", true);
+  Run(kTick_s);
+  EXPECT_EQ(pilot_.SetRoute({{1, 0, {}}}).text,
+            "goal refused: the rover is blocked: software emergency stop is set by test");
+}
+
+TEST_F(PilotTest, AGoalWithoutAPoseIsRefused) {
+  has_pose_ = false;
+  Run(0.1);
+  EXPECT_EQ(pilot_.SetRoute({{5, 0, {}}}).text, "goal refused: the rover has no pose");
+}
+
+TEST_F(PilotTest, WithoutAnOperatorTheRoverStopsWithinASecondAndNeedsAStart) {
+  StartDriving();
+  has_operator_ = false;
+  EXPECT_FALSE(Run(0.8).chassis_motion.IsZero());
+  EXPECT_TRUE(Run(0.2).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kOperatorLost);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  has_operator_ = true;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero()) << "went on without being started";
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
 TEST_F(PilotTest, WaitsForTheChassisToTakeCommands) {
@@ -119,18 +171,29 @@ TEST_F(PilotTest, CancelStopsAtOnce) {
 
 TEST_F(PilotTest, EmergencyStopBlocksUntilReleasedAndStarted) {
   StartDriving();
-  pilot_.SetEmergencyStop(true);
+  pilot_.SetEmergencyStop("joystick", true);
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(Reason(), StopReason::kEmergencyStop);
   EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kBlocked);
   EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
-  pilot_.SetEmergencyStop(false);
+  pilot_.SetEmergencyStop("joystick", false);
   EXPECT_TRUE(Run(5).chassis_motion.IsZero());
   EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
-TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumes) {
+TEST_F(PilotTest, AnEmergencyStopIsClearedByNobodyButItsSourceOrAPerson) {
+  StartDriving();
+  pilot_.SetEmergencyStop("joystick", true);
+  pilot_.SetEmergencyStop("panel", true);
+  pilot_.SetEmergencyStop("other", false);
+  pilot_.SetEmergencyStop("panel", false);
+  EXPECT_EQ(pilot_.Start(now_s_).text, "not started: software emergency stop is set by joystick");
+  pilot_.ReleaseEmergencyStops();
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+}
+
+TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumesAfterAWarning) {
   StartDriving();
   has_pose_ = false;
   Run(0.88);
@@ -139,7 +202,25 @@ TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumes) {
   EXPECT_EQ(State(), DriveState::kPaused);
   EXPECT_EQ(Reason(), StopReason::kPoseStale);
   has_pose_ = true;
-  EXPECT_TRUE(Run(0.9).chassis_motion.IsZero());
+  DriveCommand command = Run(0.9);
+  EXPECT_TRUE(command.chassis_motion.IsZero());
+  EXPECT_FALSE(command.is_lamp_on);
+  command = Run(0.2);
+  EXPECT_EQ(State(), DriveState::kWarning);
+  EXPECT_TRUE(command.chassis_motion.IsZero());
+  EXPECT_TRUE(command.is_lamp_on);
+  EXPECT_TRUE(Run(1.8).chassis_motion.IsZero());
+  EXPECT_GT(Run(1).chassis_motion.forward_mps, 0.05);
+}
+
+TEST_F(PilotTest, AStartWhileItWarnsMovesAtOnce) {
+  StartDriving();
+  has_pose_ = false;
+  Run(1.5);
+  has_pose_ = true;
+  Run(1.1);
+  ASSERT_EQ(State(), DriveState::kWarning);
+  pilot_.Start(now_s_);
   EXPECT_GT(Run(1).chassis_motion.forward_mps, 0.05);
 }
 
@@ -157,7 +238,7 @@ TEST_F(PilotTest, APoseThatFlickersDoesNotMoveTheRover) {
 TEST_F(PilotTest, ALongPauseNeedsANewStart) {
   StartDriving();
   has_pose_ = false;
-  Run(65);
+  Run(4.1);
   EXPECT_EQ(State(), DriveState::kBlocked);
   EXPECT_EQ(Reason(), StopReason::kPoseLost);
   has_pose_ = true;
@@ -177,14 +258,60 @@ TEST_F(PilotTest, AnUncertainPosePauses) {
   }
 }
 
+TEST_F(PilotTest, AnUncertainHeadingPauses) {
+  StartDriving();
+  heading_sigma_rad_ = 0.4;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+}
+
 TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
   pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
   pilot_.ObserveTracks(now_s_, 0, 0);
-  pilot_.ObservePose(now_s_, {now_s_, pose_});
+  pilot_.ObserveOperator(now_s_);
+  pilot_.ObserveEpoch(1, now_s_);
+  pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
   pilot_.Start(now_s_);
-  pilot_.SetRoute({{5, 0, {}}});
   pilot_.Tick(now_s_);
   EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+}
+
+TEST_F(PilotTest, APoseWithoutEpochIsNotDrivenBy) {
+  pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
+  pilot_.ObserveTracks(now_s_, 0, 0);
+  pilot_.ObserveOperator(now_s_);
+  pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
+  pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
+  pilot_.Start(now_s_);
+  pilot_.Tick(now_s_);
+  EXPECT_EQ(Reason(), StopReason::kEpochMissing);
+}
+
+TEST_F(PilotTest, ACovarianceFromTheFutureIsNotTaken) {
+  StartDriving();
+  has_pose_ = false;
+  EXPECT_FALSE(pilot_.ObserveUncertainty(now_s_, {now_s_ + 1e9, 0.01, 0.01}));
+  EXPECT_FALSE(pilot_.ObserveUncertainty(now_s_, {kNaN, 0.01, 0.01}));
+  for (int i = 0; i < 60; ++i) {
+    now_s_ += kTick_s;
+    Observe();
+    pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+}
+
+TEST_F(PilotTest, AnUncertaintyThatHasGrownIsMeasuredFromTheDatumThatAPersonConfirms) {
+  StartDriving();
+  sigma_m_ = 2.1;
+  Run(0.5);
+  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
+  Run(4);
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_TRUE(pilot_.SetDatum().is_accepted);
+  pilot_.Start(now_s_);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  EXPECT_FALSE(pilot_.SetDatum().is_accepted) << "while driving";
 }
 
 TEST_F(PilotTest, PosesThatCannotBeAreNotDrivenBy) {
@@ -204,7 +331,7 @@ TEST_F(PilotTest, PosesThatCannotBeAreNotDrivenBy) {
 TEST_F(PilotTest, APoseFromTheFutureIsNotDrivenBy) {
   StartDriving();
   has_pose_ = false;
-  pilot_.ObservePose(now_s_, {now_s_ + 5, pose_});
+  pilot_.ObservePose(now_s_, {now_s_ + 5, pose_, {}});
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(Reason(), StopReason::kPoseInvalid);
 }
@@ -213,6 +340,8 @@ TEST_F(PilotTest, WhatTheChassisSaysBlocks) {
   const std::pair<ChassisStatus, StopReason> kCases[] = {
       {{true, false, ChassisAuthority::kUs}, StopReason::kChassisEmergency},
       {{false, true, ChassisAuthority::kUs}, StopReason::kChassisFault},
+      {{false, false, ChassisAuthority::kUs, true}, StopReason::kRemoteLost},
+      {{false, false, ChassisAuthority::kUs, false, true}, StopReason::kMotorFault},
       {{false, false, ChassisAuthority::kRemoteControl}, StopReason::kRemoteControl},
       {{false, false, ChassisAuthority::kNobody}, StopReason::kModeLost},
       {{false, false, ChassisAuthority::kOther}, StopReason::kModeLost},
@@ -258,8 +387,9 @@ TEST_F(PilotTest, ASilentChassisBlocks) {
   StartDriving();
   for (int i = 0; i < 30; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObservePose(now_s_, {now_s_, pose_});
-    pilot_.ObserveUncertainty({now_s_, 0.01, 0.01});
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
+    pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);
   }
   EXPECT_EQ(Reason(), StopReason::kNoFeedback);
@@ -275,6 +405,29 @@ TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
   }
   EXPECT_NEAR(Run(kTick_s).chassis_motion.forward_mps, 0.05, 1e-9);
   EXPECT_TRUE(Run(0.2).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  pilot_.Stop();
+  pilot_.Start(now_s_);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ALateTickIsNoLeapOfTheSpeed) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  Run(kTick_s);
+  now_s_ += 0.4;
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  const double speed_mps = Run(kTick_s).chassis_motion.forward_mps;
+  EXPECT_GT(speed_mps, 0);
+  EXPECT_LE(speed_mps, 0.1 * SpeedLimiterOptions().max_acceleration_mps2 + 1e-9) << "0.1 s of it";
 }
 
 TEST_F(PilotTest, VelocityNeverExceedsTheCap) {
@@ -304,7 +457,7 @@ TEST_F(PilotTest, ANewGoalReplacesTheOld) {
 }
 
 TEST_F(PilotTest, AGoalThatComesNoNearerBlocks) {
-  PilotOptions options;
+  PilotOptions options = Options();
   options.max_stall_s = 3;
   pilot_ = Pilot(options);
   StartDriving();
@@ -319,9 +472,9 @@ TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
     now_s_ += 0.1;
     pilot_.ObserveChassis(now_s_, chassis_);
     pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
-    pilot_.ObservePose(now_s_, {now_s_, pose_});
-    pilot_.ObserveUncertainty({now_s_, 0.01, 0.01});
-    pilot_.ObserveOdometry(now_s_, pose_);
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
+    pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);
   }
   EXPECT_EQ(Reason(), StopReason::kSlip);
@@ -339,12 +492,63 @@ TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
   EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-6);
 }
 
+TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
+  StartDriving();
+  now_s_ += 0.4;
+  EXPECT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  now_s_ += 0.6;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kHeldUp);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
+  StartDriving();
+  pilot_.ObserveForeignCommand(now_s_);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kForeignCommands);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  Run(1.1);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+}
+
+TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
+  PilotOptions options = Options();
+  options.stop_look_go.is_on = true;
+  pilot_ = Pilot(options);
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  double way_m = 0;
+  for (int i = 0; i < 500; ++i) {
+    pilot_.SetVelocity(now_s_, {0.1, 0});
+    now_s_ += kTick_s;
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObserveChassis(now_s_, chassis_);
+    const int way_mm = static_cast<int>(std::lround(1000 * way_m));
+    pilot_.ObserveTracks(now_s_, way_mm, way_mm);
+    way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;
+  }
+  EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
+}
+
 TEST_F(PilotTest, WrongOptionsAreNamed) {
   PilotOptions options;
   options.velocity_timeout_s = 1;
   EXPECT_THROW(Pilot{options}, std::invalid_argument);
   options = PilotOptions();
   options.limits.max_speed_mps = 0.5;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (double PilotOptions::*field : {&PilotOptions::max_pause_s, &PilotOptions::max_stall_s,
+                                      &PilotOptions::warning_s, &PilotOptions::fresh_command_s}) {
+    options = PilotOptions();
+    options.*field = infinite;
+    EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  }
+  options = PilotOptions();
+  options.pose.max_position_sigma_m = infinite;
   EXPECT_THROW(Pilot{options}, std::invalid_argument);
 }
 

@@ -86,6 +86,48 @@ TEST_F(ChassisLinkTest, NoSpeedAboveTheLimitGoesOut) {
   EXPECT_EQ(Heard(), "111#0064000000000000 111#FF9C000000000000 ");
 }
 
+TEST_F(ChassisLinkTest, NoTurnRateAboveTheLimitGoesOut) {
+  SayMode(ControlMode::kCan);
+  link_.Send(0, {true, true, {0, 3}});
+  link_.Send(0, {true, true, {0, -3}});
+  EXPECT_EQ(Heard(), "111#0000015E00000000 111#0000FEA200000000 ");
+}
+
+TEST_F(ChassisLinkTest, TheLampIsSwitchedOnceAndRepeatedWhileItIsOn) {
+  SayMode(ControlMode::kCan);
+  link_.Send(0, {true, true, {}, true});
+  EXPECT_EQ(Heard(), "111#0000000000000000 121#0101000100000000 ");
+  link_.Send(0.4, {true, true, {}, true});
+  EXPECT_EQ(Heard(), "111#0000000000000000 ");
+  link_.Send(0.5, {true, true, {}, true});
+  EXPECT_EQ(Heard(), "111#0000000000000000 121#0101000100000001 ");
+  link_.Send(0.6, standing_);
+  EXPECT_EQ(Heard(), "111#0000000000000000 121#0100000000000002 ");
+}
+
+TEST_F(ChassisLinkTest, MotionCommandsOfAnotherDriverAreCountedAndNoFeedback) {
+  chassis_->Send(EncodeFrame(MotionCommand{{0.1, 0}}));
+  EXPECT_TRUE(link_.Receive().empty());
+  EXPECT_EQ(link_.Traffic().num_foreign_commands, 1);
+  EXPECT_EQ(link_.Traffic().num_unreadable, 0);
+}
+
+TEST(ChassisDriver, MotionCommandsOfAnotherDriverForbidTheStart) {
+  CanMemoryBus bus;
+  const auto other = bus.OpenEnd();
+  PilotOptions options;
+  options.operator_watch.is_required = false;
+  ChassisDriver driver(options, bus.OpenEnd());
+  SystemState state;
+  state.mode = ControlMode::kCan;
+  other->Send(EncodeFrame(state));
+  other->Send(EncodeFrame(TrackOdometer{}));
+  driver.Tick(10);
+  other->Send(EncodeFrame(MotionCommand{}));
+  driver.Tick(10.02);
+  EXPECT_EQ(driver.pilot().Start(10.02).text, "not started: another driver commands the chassis");
+}
+
 TEST_F(ChassisLinkTest, TheFarewellIsAStopAndStandby) {
   link_.Send(0, standing_);
   Heard();
@@ -147,6 +189,7 @@ TEST(ToChassisStatus, AnUnderVoltageFaultIsAFaultAndAWarningIsNone) {
   SystemState state;
   state.error_bits = kUnderVoltageWarning | kRemoteLost;
   EXPECT_FALSE(ToChassisStatus(state).has_fault);
+  EXPECT_TRUE(ToChassisStatus(state).is_remote_lost);
   state.error_bits = kUnderVoltageFault;
   EXPECT_TRUE(ToChassisStatus(state).has_fault);
 }

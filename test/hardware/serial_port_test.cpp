@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "arfm_vo/hardware/monotonic_clock.h"
@@ -37,6 +38,24 @@ TEST(SerialPort, CarriesAllBytesBothWays) {
   EXPECT_EQ(ReadAll(device, 256), all);
   device.Write(all);
   EXPECT_EQ(ReadAll(port, 256), all);
+}
+
+TEST(PseudoTerminal, RemovesNothingButItsOwnLinkAndThoseLeftBehind) {
+  std::ofstream(Link()) << "a file of somebody else";
+  EXPECT_THROW(PseudoTerminal{Link()}, std::system_error);
+  EXPECT_TRUE(std::filesystem::is_regular_file(Link()));
+  std::filesystem::remove(Link());
+  std::filesystem::create_symlink("/dev/ttyS0", Link());
+  EXPECT_THROW(PseudoTerminal{Link()}, std::system_error);
+  EXPECT_EQ(std::filesystem::read_symlink(Link()), "/dev/ttyS0");
+  std::filesystem::remove(Link());
+  std::filesystem::create_symlink("/dev/pts/100000", Link());
+  auto device = std::make_unique<PseudoTerminal>(Link());
+  std::filesystem::remove(Link());
+  std::filesystem::create_symlink("/dev/ttyS0", Link());
+  device.reset();
+  EXPECT_TRUE(std::filesystem::is_symlink(Link())) << "it was another link by then";
+  std::filesystem::remove(Link());
 }
 
 TEST(SerialPort, ReadReturnsByItsTimeout) {

@@ -1,14 +1,19 @@
 #include <arfm_vo/DriveStatus.h>
 #include <arfm_vo/GoalReport.h>
+#include <arfm_vo/OdometryStatus.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <signal.h>
 #include <std_msgs/Bool.h>
+#include <std_msgs/Empty.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
 
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
@@ -62,11 +67,10 @@ class World {
         goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
         emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
         odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
+        odometry_status_(node_.advertise<OdometryStatus>("status", 1)),
+        heartbeat_(node_.advertise<std_msgs::Empty>("operator_heartbeat", 1)),
         status_subscriber_(node_.subscribe("drive_status", 20, &World::TakeStatus, this)),
-        report_subscriber_(node_.subscribe("goal_report", 20, &World::TakeReport, this)) {
-    geometry_msgs::TransformStamped map_from_odom = Transform("map", "odom", Rigid3());
-    static_broadcaster_.sendTransform(map_from_odom);
-  }
+        report_subscriber_(node_.subscribe("goal_report", 20, &World::TakeReport, this)) {}
 
   /// Goes on until done(), at most for a minute; says whether it was done.
   template <class Done>
@@ -75,6 +79,7 @@ class World {
     while (ros::ok() && Now() < end_s && !done()) {
       chassis_.Tick(Now());
       if (Now() >= sight_due_s_) See();
+      if (Now() >= heartbeat_due_s_) Beat();
       ros::spinOnce();
       ros::WallDuration(0.002).sleep();
     }
@@ -92,6 +97,7 @@ class World {
   void SendGoal(double x_m, double y_m, const std::string& frame = "base_link") {
     geometry_msgs::PoseStamped goal;
     goal.header.frame_id = frame;
+    goal.header.stamp = goal_stamp_.value_or(ros::Time::now());
     goal.pose.position.x = x_m;
     goal.pose.position.y = y_m;
     goal.pose.orientation.w = 1;
@@ -106,8 +112,27 @@ class World {
   bool IsConnected() {
     return RunUntil([this] {
       return goal_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
-             emergency_stop_.getNumSubscribers() > 0 && has_status_;
+             emergency_stop_.getNumSubscribers() > 0 && heartbeat_.getNumSubscribers() > 0 &&
+             odometry_status_.getNumSubscribers() > 0 && has_status_;
     });
+  }
+  /// The odometry's process ends and a new one starts at its origin, with the first number again.
+  void RestartOdometry() {
+    odometry_status_.shutdown();
+    odometry_status_ = node_.advertise<OdometryStatus>("status", 1);
+    odom_from_world_ = chassis_.plant().WorldFromBase().Inverse();
+  }
+  /// Messages of all kinds with the largest stamp there is.
+  void SendStampsOfTheEnd() {
+    geometry_msgs::TransformStamped transform = Transform("odom", "base_link", Rigid3());
+    transform.header.stamp = ros::TIME_MAX;
+    broadcaster_.sendTransform(transform);
+    nav_msgs::Odometry odometry = Odometry(Rigid3());
+    odometry.header.stamp = ros::TIME_MAX;
+    odom_.publish(odometry);
+    goal_stamp_ = ros::TIME_MAX;
+    SendGoal(1, 0);
+    goal_stamp_.reset();
   }
   static double Now() { return ros::SteadyTime::now().toSec(); }
 
@@ -115,7 +140,9 @@ class World {
   SimulatedChassis chassis_;
   DriveStatus status_;
   std::vector<GoalReport> reports_;
-  bool has_sight_ = true;
+  bool has_sight_ = true, has_map_ = true, has_operator_ = true;
+  Rigid3 odom_from_world_;
+  std::optional<ros::Time> goal_stamp_;
   double variance_m2_ = 1e-4;
 
  private:
@@ -135,15 +162,27 @@ class World {
   }
   void See() {
     sight_due_s_ = Now() + 0.05;
+    if (has_map_) broadcaster_.sendTransform(Transform("map", "odom", Rigid3()));
     if (!has_sight_) return;
-    const Rigid3 pose = chassis_.plant().WorldFromBase();
+    const Rigid3 pose = odom_from_world_ * chassis_.plant().WorldFromBase();
+    odom_.publish(Odometry(pose));
     broadcaster_.sendTransform(Transform("odom", "base_link", pose));
+    OdometryStatus status;
+    status.header.stamp = ros::Time::now();
+    status.world = 1;
+    odometry_status_.publish(status);
+  }
+  nav_msgs::Odometry Odometry(const Rigid3& pose) const {
     nav_msgs::Odometry odometry;
     odometry.header.stamp = ros::Time::now();
     odometry.header.frame_id = "odom";
     odometry.pose.pose = ToPoseMessage(pose);
     for (int i = 0; i < 6; ++i) odometry.pose.covariance[7 * i] = variance_m2_;
-    odom_.publish(odometry);
+    return odometry;
+  }
+  void Beat() {
+    heartbeat_due_s_ = Now() + 0.4;
+    if (has_operator_) heartbeat_.publish(std_msgs::Empty());
   }
   void TakeStatus(const DriveStatus& status) {
     status_ = status;
@@ -152,13 +191,15 @@ class World {
   void TakeReport(const GoalReport& report) { reports_.push_back(report); }
 
   ros::NodeHandle node_;
-  ros::Publisher goal_, emergency_stop_, odom_;
+  ros::Publisher goal_, emergency_stop_, odom_, odometry_status_, heartbeat_;
   ros::Subscriber status_subscriber_, report_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  tf2_ros::StaticTransformBroadcaster static_broadcaster_;
   bool has_status_ = false;
-  double sight_due_s_ = 0;
+  double sight_due_s_ = 0, heartbeat_due_s_ = 0;
 };
+
+// A loaded machine delays test and node alike; the fault table measures without it.
+constexpr double kPatience_s = 0.6;
 
 /// One node and one world for all tests, which run in their order.
 class ChassisNodeTest : public ::testing::Test {
@@ -172,7 +213,7 @@ class ChassisNodeTest : public ::testing::Test {
   }
   static void DriveFarAhead() {
     ASSERT_TRUE(world_->Call("start").success);
-    world_->SendGoal(50, 0);
+    world_->SendGoal(40, 0);
     ASSERT_TRUE(Moves()) << world_->status_.state_text << ": " << world_->status_.reason;
   }
   /// Waits for the stop and says how long after `since_s` it was on the bus.
@@ -185,13 +226,23 @@ class ChassisNodeTest : public ::testing::Test {
     return world_->RunUntil([&] { return world_->status_.reason == reason; });
   }
 
+  static bool Refuses(const std::string& text) {
+    return world_->RunUntil([&] {
+      return !world_->reports_.empty() && world_->reports_.back().result == GoalReport::REFUSED &&
+             world_->reports_.back().text.find(text) != std::string::npos;
+    });
+  }
+  static int NumArrived() {
+    return static_cast<int>(
+        std::count_if(world_->reports_.begin(), world_->reports_.end(),
+                      [](const auto& report) { return report.result == GoalReport::ARRIVED; }));
+  }
+  static Eigen::Vector3d Place() { return world_->chassis_.plant().WorldFromBase().translation; }
+
   static World* world_;
 };
 
 World* ChassisNodeTest::world_ = nullptr;
-
-// A loaded machine delays test and node alike; the fault table measures without it.
-constexpr double kPatience_s = 0.6;
 
 TEST_F(ChassisNodeTest, SaysNothingOnTheBusBeforeStart) {
   world_->SendGoal(3, 0, "map");
@@ -202,16 +253,24 @@ TEST_F(ChassisNodeTest, SaysNothingOnTheBusBeforeStart) {
 }
 
 TEST_F(ChassisNodeTest, RefusesGoalsThatAreNone) {
-  const auto refused = [](const std::string& text) {
-    return world_->RunUntil([&] {
-      return !world_->reports_.empty() && world_->reports_.back().result == GoalReport::REFUSED &&
-             world_->reports_.back().text.find(text) != std::string::npos;
-    });
-  };
   world_->SendGoal(std::numeric_limits<double>::quiet_NaN(), 0);
-  EXPECT_TRUE(refused("its position is not finite"));
+  EXPECT_TRUE(Refuses("its position is not finite"));
   world_->SendGoal(1, 0, "moon");
-  EXPECT_TRUE(refused("frame 'moon'"));
+  EXPECT_TRUE(Refuses("frame 'moon'"));
+  world_->goal_stamp_ = ros::Time();
+  world_->SendGoal(1, 0);
+  EXPECT_TRUE(Refuses("it has no stamp"));
+  world_->goal_stamp_ = ros::Time::now() - ros::Duration(30);
+  world_->SendGoal(1, 0);
+  EXPECT_TRUE(Refuses("it is 30 s old"));
+  world_->goal_stamp_.reset();
+}
+
+TEST_F(ChassisNodeTest, ASecondNodeOnTheBusIsRefused) {
+  std::string can;
+  ASSERT_TRUE(ros::param::get("/chassis_node/can", can));
+  EXPECT_NE(std::system(("rosrun arfm_vo chassis_node __name:=second _can:=" + can).c_str()), 0);
+  world_->Run(1);  // chassis and operator were silent meanwhile
 }
 
 TEST_F(ChassisNodeTest, DrivesToAGoalBeforeTheRoverAndReportsIt) {
@@ -244,6 +303,89 @@ TEST_F(ChassisNodeTest, TheEmergencyStopTopicStopsAndForbidsStart) {
   EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
   EXPECT_TRUE(Moves());
   world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, NobodyElseClearsAnEmergencyStop) {
+  DriveFarAhead();
+  world_->SetEmergencyStop(true);
+  EXPECT_TRUE(Says("software emergency stop is set"));
+  ASSERT_EQ(std::system("rostopic pub -1 /emergency_stop std_msgs/Bool 'data: false'"), 0);
+  world_->Run(1);
+  const auto answer = world_->Call("start");
+  EXPECT_FALSE(answer.success);
+  EXPECT_NE(answer.message.find(ros::this_node::getName()), std::string::npos) << answer.message;
+  EXPECT_TRUE(world_->Call("release_emergency_stop").success);
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, WithoutTheOperatorTheRoverStopsWithinASecond) {
+  DriveFarAhead();
+  const double gone_s = World::Now();
+  world_->has_operator_ = false;
+  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
+  EXPECT_TRUE(Says("no operator heartbeat"));
+  EXPECT_FALSE(world_->Call("start").success);
+  world_->has_operator_ = true;
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, AnOdometryThatIsRestartedDropsTheGoalAndBlocks) {
+  DriveFarAhead();
+  world_->Run(3);
+  const Eigen::Vector3d place = Place();
+  const int num_arrived = NumArrived();
+  world_->RestartOdometry();
+  EXPECT_TRUE(world_->RunUntil([] { return world_->status_.state == DriveStatus::BLOCKED; }));
+  world_->Run(4);
+  EXPECT_LE((Place() - place).norm(), 0.1);
+  EXPECT_FALSE(world_->status_.has_goal);
+  EXPECT_EQ(NumArrived(), num_arrived);
+  world_->SendGoal(1, 0);
+  EXPECT_TRUE(Refuses("the rover is blocked"));
+  EXPECT_TRUE(world_->Call("start").success);
+  world_->Run(1);
+  EXPECT_EQ(world_->status_.state, DriveStatus::READY);
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, APoseThatJumpsBlocksAndSaysHowFar) {
+  DriveFarAhead();
+  const Eigen::Vector3d place = Place();
+  world_->odom_from_world_.translation.x() += 39;  // near the goal
+  EXPECT_TRUE(Says("pose contradicts the tracks"));
+  EXPECT_NE(world_->status_.detail.find("39."), std::string::npos) << world_->status_.detail;
+  world_->Run(1);
+  EXPECT_LE((Place() - place).norm(), 0.1);
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, AMapFrameThatIsNoLongerToldStops) {
+  DriveFarAhead();
+  world_->has_map_ = false;
+  EXPECT_TRUE(Says("map frame is no longer told"));
+  EXPECT_TRUE(world_->log_.last.IsZero());
+  world_->has_map_ = true;
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, StampsOfTheEndOfTimeAreIgnored) {
+  DriveFarAhead();
+  world_->SendStampsOfTheEnd();
+  EXPECT_TRUE(Refuses("its stamp is in the future"));
+  world_->Run(2);
+  EXPECT_EQ(world_->status_.state, DriveStatus::DRIVING) << world_->status_.reason;
+  world_->Call("stop");
+}
+
+TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
+  DriveFarAhead();
+  EXPECT_EQ(world_->Call("clear_errors").message, "not sent: the rover moves");
+  EXPECT_FALSE(world_->Call("set_datum").success);
+  world_->Call("stop");
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("clear_errors").success; }));
+  EXPECT_TRUE(world_->Call("set_datum").success);
 }
 
 TEST_F(ChassisNodeTest, LosingTheOdometryStopsAndHavingItBackResumes) {

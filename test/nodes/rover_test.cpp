@@ -6,6 +6,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <atomic>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <thread>
@@ -55,6 +56,7 @@ const std::set<std::string> kWays = {
     "/pose_node /keyframe /ba_node",
     "/ba_node /map_update /pose_node",
     "/pose_node /odom /chassis_node",
+    "/pose_node /status /chassis_node",
     "/chassis_node /track_odom /pose_node",
     "/head/pan_tilt_node /joint_states /robot_state_publisher",
     "/robot_state_publisher /tf /pose_node",
@@ -134,6 +136,31 @@ TEST_F(RoverTest, WithoutCamerasNoNodeIsBusy) {
     EXPECT_LT(CpuSeconds(PidOf(node)) - cpu_s[node], 0.3 * passed_s) << node;
 }
 
+std::string FolderOfBags() {
+  std::string folder;
+  EXPECT_TRUE(ros::param::get("~bags", folder));
+  return folder;
+}
+
+TEST_F(RoverTest, TheBlackBoxRecordsTheDrive) {
+  const auto has_bag = [] {
+    for (const auto& file : std::filesystem::directory_iterator(FolderOfBags()))
+      if (file.path().filename().string().rfind("drive_", 0) == 0 && file.file_size() > 0)
+        return true;
+    return false;
+  };
+  WaitUntil(has_bag, "a bag that grows");
+  const std::string recorder = " /black_box/recorder";
+  WaitUntil(
+      [&] {
+        const std::set<std::string> ways = ReadWays();
+        return ways.count("/chassis_node /drive_status" + recorder) &&
+               ways.count("/pose_node /odom" + recorder) &&
+               ways.count("/pose_node /status" + recorder);
+      },
+      "the recorder to listen");
+}
+
 /// The chassis at the other end of the bus while it lives.
 class ChassisThread {
  public:
@@ -167,7 +194,13 @@ int main(int argc, char** argv) {
   if (!ros::param::get("~port", port) || !ros::param::get("~can", can)) return 1;
   arfm_vo::SimulatedPtuOptions options;
   options.reset_time_s = 0.5;
+  // The folder must be there before the recorder, which is started again until it is.
+  std::string bags;
+  if (!ros::param::get("~bags", bags)) return 1;
+  std::filesystem::create_directories(bags);
   const arfm_vo::SimulatedPtuPort ptu(port, options);
   const arfm_vo::ChassisThread chassis(can);
-  return RUN_ALL_TESTS();
+  const int result = RUN_ALL_TESTS();
+  std::filesystem::remove_all(bags);
+  return result;
 }

@@ -2,6 +2,7 @@
 """The simulated rover sees, pans its head and drives to a goal by sight alone, through all the nodes."""
 import math
 import pathlib
+import subprocess
 import sys
 import time
 import unittest
@@ -109,6 +110,12 @@ class SimulationTest(unittest.TestCase):
               (len(ways), 1000 * max(ways), math.degrees(max(turns))))
         self.assertLess(max(ways), 0.03)
         self.assertLess(math.degrees(max(turns)), 1)
+
+    def test_simulated_time_is_refused_on_a_real_bus(self):
+        answer = subprocess.run(["rosrun", "arfm_vo", "chassis_node", "__name:=real", "_can:=can0"],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=PATIENCE_S)
+        self.assertNotEqual(answer.returncode, 0)
+        self.assertIn("'can0' is a real bus", answer.stdout)
 
     def test_drives_to_a_goal_by_sight_while_the_head_moves(self):
         speeds = []

@@ -92,7 +92,7 @@ TEST_F(ChassisMessagesTest, ALowBatteryIsAWarning) {
 
 TEST(GoalReport, SaysTheOutcomeAndTheReason) {
   const GoalReport report =
-      ToMessage(GoalResult{GoalOutcome::kBlocked, StopReason::kBusDown, {3, 4, 0.5}, 1.5, 0.1});
+      ToMessage(GoalResult{GoalOutcome::kBlocked, StopReason::kBusDown, "", {3, 4, 0.5}, 1.5, 0.1});
   EXPECT_EQ(report.result, GoalReport::BLOCKED);
   EXPECT_EQ(report.text, "blocked: CAN bus is down");
   EXPECT_EQ(report.x_m, 3);

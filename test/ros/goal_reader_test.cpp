@@ -35,8 +35,28 @@ geometry_msgs::PoseStamped Goal(double x_m, double y_m, double yaw_rad,
 class GoalReaderTest : public ::testing::Test {
  protected:
   tf2::BufferCore buffer_;
-  GoalReader reader_{buffer_, "map"};
+  GoalReader reader_{buffer_, "map", 5};
 };
+
+TEST_F(GoalReaderTest, AGoalWithoutAStampOrTooOldOrFromTheFutureIsRefused) {
+  const ros::Time now(1000);
+  std_msgs::Header header;
+  const auto refusal = [&] {
+    try {
+      reader_.RequireFresh(header, now);
+      return std::string("none");
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusal(), "goal refused: it has no stamp");
+  header.stamp = ros::Time(996);
+  EXPECT_EQ(refusal(), "none");
+  header.stamp = ros::Time(990);
+  EXPECT_THAT(refusal(), ::testing::HasSubstr("it is 10 s old"));
+  header.stamp = ros::TIME_MAX;
+  EXPECT_EQ(refusal(), "goal refused: its stamp is in the future");
+}
 
 TEST_F(GoalReaderTest, AGoalInTheMapNeedsNoTransform) {
   const Waypoint waypoint = reader_.Read(Goal(3, -2, 0.7));
@@ -109,7 +129,7 @@ TEST_F(RoverSightTest, IsAsOldAsTheOdometryHoweverOldTheCorrection) {
   SetTransform(buffer_, "odom", "base_link", odom_from_base_, 100);
   const auto sighting = sight_.Look();
   EXPECT_EQ(sighting->stamp, ros::Time(100));
-  EXPECT_NEAR(sighting->map_from_base.translation.x(), 6, 1e-12);
+  EXPECT_NEAR((sighting->map_from_odom * sighting->odom_from_base).translation.x(), 6, 1e-12);
   EXPECT_NEAR(sighting->odom_from_base.translation.x(), 1, 1e-12);
 }
 

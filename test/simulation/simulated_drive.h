@@ -17,7 +17,13 @@ namespace arfm_vo {
 /// all on one clock of 1 ms. What a test may break stands open.
 class SimulatedDrive {
  public:
-  explicit SimulatedDrive(const PilotOptions& pilot = {}, const TrackedPlantOptions& plant = {})
+  static PilotOptions WithFarGoals(PilotOptions options = {}) {
+    options.goal_limits.max_distance_m = 1000;
+    return options;
+  }
+
+  explicit SimulatedDrive(const PilotOptions& pilot = WithFarGoals(),
+                          const TrackedPlantOptions& plant = {})
       : listener_(bus_.OpenEnd()),
         chassis_(std::in_place, bus_.OpenEnd(), TrackedPlant(plant, RoverPose{})),
         driver_(std::in_place, pilot, bus_.OpenEnd()) {}
@@ -51,6 +57,7 @@ class SimulatedDrive {
   double LastMovingCommandTime() const { return last_moving_s_; }
   double FirstStopCommandTime() const { return first_stop_s_; }
   double LastPoseTaken() const { return pose_taken_s_; }
+  double LastHeartbeat() const { return heartbeat_s_; }
   double LastCovarianceTaken() const { return covariance_taken_s_; }
   double FastestCommand() const { return fastest_mps_; }
   double FastestTrack() const {
@@ -64,10 +71,15 @@ class SimulatedDrive {
   double sigma_m_ = 0.01;
   double stamp_offset_s_ = 0;
   std::optional<Rigid3> false_pose_;
+  Rigid3 told_from_true_, map_from_odom_;  ///< how the odometry and the map go wrong
+  uint32_t epoch_ = 1;
+  bool has_operator_ = true;
+  StopReason no_pose_reason_ = StopReason::kPoseMissing;
   std::function<void()> each_tick_ = [] {};
 
  private:
   static constexpr int kDriverPeriod_ms = 20, kChassisPeriod_ms = 5, kPosePeriod_ms = 100;
+  static constexpr int kHeartbeatPeriod_ms = 500;
   static constexpr double kLatency_s = 0.1;
 
   struct Sight {
@@ -79,6 +91,8 @@ class SimulatedDrive {
     ++now_ms_;
     if (now_ms_ % kChassisPeriod_ms == 0) chassis_->Tick(Now());
     if (now_ms_ % kPosePeriod_ms == 0) See();
+    if (now_ms_ % kHeartbeatPeriod_ms == 0 && has_operator_) heartbeat_s_ = Now();
+    if (driver_ && heartbeat_s_ == Now()) pilot().ObserveOperator(Now());
     if (now_ms_ % kDriverPeriod_ms == 3 && driver_ && !is_driver_hung_) {
       each_tick_();
       if (driver_) driver_->Tick(Now());
@@ -98,11 +112,12 @@ class SimulatedDrive {
     const double taken_s = sight.taken_s + stamp_offset_s_;
     if (has_pose_) pose_taken_s_ = taken_s;
     if (has_pose_ && has_covariance_) covariance_taken_s_ = taken_s;
-    if (is_tf_missing_) pilot().ObserveNoPose();
+    if (has_pose_) pilot().ObserveEpoch(epoch_, taken_s);
+    if (is_tf_missing_) pilot().ObserveNoPose(no_pose_reason_);
+    const Rigid3 told = told_from_true_ * sight.world_from_base;
     if (has_pose_ && !is_tf_missing_)
-      pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(sight.world_from_base)});
-    if (has_pose_ && has_covariance_) pilot().ObserveUncertainty({taken_s, sigma_m_, 0.01});
-    if (has_pose_) pilot().ObserveOdometry(taken_s, sight.world_from_base);
+      pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(told), map_from_odom_});
+    if (has_pose_ && has_covariance_) pilot().ObserveUncertainty(Now(), {taken_s, sigma_m_, 0.01});
   }
 
   void Listen() {
@@ -125,7 +140,7 @@ class SimulatedDrive {
   long now_ms_ = 100000, num_command_frames_ = 0;
   PlanarMotion commanded_;
   double last_moving_s_ = -1, first_stop_s_ = -2, fastest_mps_ = 0;
-  double pose_taken_s_ = 0, covariance_taken_s_ = 0;
+  double pose_taken_s_ = 0, covariance_taken_s_ = 0, heartbeat_s_ = 0;
 };
 
 }  // namespace arfm_vo

@@ -62,6 +62,7 @@ class VcanDriveTest : public ::testing::Test {
     ASSERT_TRUE(RunsWell("ip link set vcan0 up"));
     PilotOptions options;
     options.velocity_needs_pose = false;
+    options.operator_watch.is_required = false;
     driver_ = std::make_unique<ChassisDriver>(
         options, std::make_unique<NotingBus>(OpenCanBus("vcan0", ChassisLink::Filters()), &sent_));
     chassis_ = std::make_unique<SimulatedChassis>(OpenCanBus("vcan0", {{0x000, 0x200}}),

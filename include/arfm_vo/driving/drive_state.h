@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace arfm_vo {
 
 enum class DriveState {
@@ -9,6 +11,7 @@ enum class DriveState {
   kDriving,
   kPaused,   ///< stands still until the pose is good again, then goes on by itself
   kBlocked,  ///< stands still until it is started again
+  kWarning,  ///< is about to move without a fresh command: lamp and horn, no motion yet
 };
 
 /// Why the rover does not drive.
@@ -29,7 +32,29 @@ enum class StopReason {
   kPoseMissing,    ///< tf gives no pose
   kPoseInvalid,    ///< the pose is not finite, or stands on end, or comes from the future
   kPoseStale,
-  kPoseUncertain,  ///< covariance too large, missing or stale: the odometry is lost
+  kPoseUncertain,      ///< covariance too large, missing or stale: the odometry is lost
+  kEpochMissing,       ///< the odometry does not tell its epoch
+  kNewEpoch,           ///< the odometry has started anew: the old goal means nothing
+  kPoseContradiction,  ///< the pose jumps against what the tracks say
+  kSliding,            ///< the rover moves otherwise than its tracks
+  kMapStep,            ///< map -> odom jumps
+  kMapStale,           ///< map -> odom is no longer told
+  kTilt,
+  kOutsideFence,
+  kOperatorLost,     ///< no operator heartbeat
+  kHeldUp,           ///< chassis_node itself did not run for too long
+  kRemoteLost,       ///< the chassis has lost its remote control
+  kForeignCommands,  ///< another driver sends motion commands on the bus
+  kRunaway,          ///< the tracks run faster than commanded
+  kTrackJammed,      ///< a track is commanded to run and stands
+  kFeedbackFrozen,   ///< the chassis repeats itself
+  kMotorFault,       ///< a motor driver reports a fault, or a motor draws too much
+};
+
+/// A reason and what it measures, such as "off the tracks by 0.52 m (allowed 0.10 m)".
+struct Fault {
+  StopReason reason = StopReason::kNone;
+  std::string detail;
 };
 
 /// Names as messages show them.

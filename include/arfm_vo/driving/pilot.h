@@ -1,83 +1,65 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "arfm_vo/driving/pilot_options.h"
+#include "arfm_vo/driving/pilot_status.h"
 #include "arfm_vo/driving/progress_watch.h"
 #include "arfm_vo/driving/track_history.h"
 
 namespace arfm_vo {
 
-/// What is to be told to the chassis now.
-struct DriveCommand {
-  /// False until the first start: not a single frame may be sent.
-  bool may_speak = false;
-  /// The chassis is to take our commands; where it does not, it must be asked (again).
-  bool wants_authority = false;
-  /// The motion as the chassis takes it, its turn rate raised for the skidding of the tracks.
-  PlanarMotion chassis_motion;
-};
-
-/// Whether a request was taken, and why (not), in words.
-struct Reply {
-  bool is_accepted = false;
-  std::string text;
-};
-
-struct GoalResult {
-  GoalOutcome outcome = GoalOutcome::kArrived;
-  StopReason reason = StopReason::kNone;
-  Waypoint goal;
-  double position_error_m = 0;  ///< by sight
-  double heading_error_rad = 0;
-};
-
-struct PilotStatus {
-  DriveState state = DriveState::kStandby;
-  StopReason reason = StopReason::kNotStarted;
-  bool has_goal = false;
-  DrivePhase phase = DrivePhase::kTurnToWaypoint;  ///< these five hold with a goal and a pose only
-  size_t next_waypoint = 0, num_waypoints = 0;
-  double distance_to_goal_m = 0;
-  double heading_error_rad = 0;
-  PlanarMotion motion;  ///< commanded, of the base
-  std::optional<Slip> slip;
-};
-
 /// Decides what moves the rover: a route, a velocity command, or nothing. Nothing moves before
-/// Start, and Stop always wins. A fault of the pose pauses the drive, and it goes on by itself when
-/// the pose has been good again for a while; every other fault blocks it until it is started again.
+/// Start, and Stop always wins. A pose that is missing pauses the drive: after a short pause it
+/// goes on by itself, with a warning first, where the pose agrees with the tracks. A pose that is
+/// wrong drops the goal and blocks; every other fault blocks too, until it is started again.
 /// Has no clock of its own: `now_s` is a time that never jumps, and Tick is to be called every 20
 /// ms.
 class Pilot {
  public:
   explicit Pilot(const PilotOptions& options);
 
-  /// Refused where a fault, other than of the pose, is there now.
+  /// Refused where a fault, other than of the pose, is there now, and without an operator.
   Reply Start(double now_s);
   /// Drops the route, and stays in standby until Start.
   void Stop();
-  void SetEmergencyStop(bool is_set) { is_emergency_stop_ = is_set; }
-  /// Replaces the route; it is driven to as soon as nothing speaks against it. Throws
+  /// Stays set until the same `source` clears it, or a person releases them all.
+  void SetEmergencyStop(const std::string& source, bool is_set);
+  void ReleaseEmergencyStops() { emergency_sources_.clear(); }
+  /// Replaces the route; it is driven to as soon as nothing speaks against it. Refused while
+  /// blocked, in a long standby, without a pose, and beyond the goal limits. Throws
   /// std::invalid_argument where it is empty.
-  void SetRoute(Route route);
+  Reply SetRoute(Route route);
   void CancelRoute();
   /// A velocity of the base, to be renewed within velocity_timeout_s. Refused while there is a
   /// route, and where it is not finite.
   Reply SetVelocity(double now_s, const PlanarMotion& motion);
+  /// A person has confirmed the pose that the map shows: its uncertainty counts from here. Refused
+  /// while the rover moves and without a pose.
+  Reply SetDatum();
 
+  void ObserveOperator(double now_s) { operator_.ObserveHeartbeat(now_s); }
   void ObservePose(double now_s, const PoseObservation& pose) { pose_.Observe(now_s, pose); }
-  void ObserveNoPose() { pose_.ObserveNone(); }
-  void ObserveUncertainty(const PoseUncertainty& uncertainty) { pose_.Observe(uncertainty); }
-  /// The pose by sight in a frame where it never jumps, for the slip.
-  void ObserveOdometry(double taken_s, const Rigid3& odom_from_base);
+  void ObserveNoPose(StopReason reason = StopReason::kPoseMissing) { pose_.ObserveNone(reason); }
+  /// Says whether it was taken: one from the future is not.
+  bool ObserveUncertainty(double now_s, const PoseUncertainty& uncertainty) {
+    return pose_.Observe(now_s, uncertainty);
+  }
+  /// The odometry's epoch, told with a pair taken at `taken_s`. Another one than before drops the
+  /// goal and blocks.
+  void ObserveEpoch(uint32_t epoch, double taken_s);
   void ObserveChassis(double now_s, const ChassisStatus& status) {
     chassis_.Observe(now_s, status);
   }
   void ObserveTracks(double now_s, int left_mm, int right_mm);
   void ObserveBus(bool is_up) { chassis_.ObserveBus(is_up); }
+  void ObserveForeignCommand(double now_s) { chassis_.ObserveForeignCommand(now_s); }
+  /// What the chassis measures of its own motion.
+  MotionWatch& motion_watch() { return motion_watch_; }
 
   DriveCommand Tick(double now_s);
 
@@ -86,16 +68,25 @@ class Pilot {
   std::vector<GoalResult> TakeResults();
 
  private:
-  std::optional<StopReason> FindBlockingFault(double now_s) const;
+  static constexpr double kNeverCommanded_s = -std::numeric_limits<double>::infinity();
+
+  std::optional<Fault> FindStartFault(double now_s) const;
+  std::optional<Fault> FindBlockingFault(double now_s) const;
+  std::optional<Fault> FindDrivingFault() const;
+  void JudgePose(double now_s);
   void UpdateState(double now_s);
-  void Block(StopReason reason);
+  void GoOn(double now_s);
+  void Distrust(const Fault& fault);
+  void Block(const Fault& fault);
   void Pause(double now_s, StopReason reason);
-  void EndRoute(GoalOutcome outcome, StopReason reason);
-  void Report(GoalOutcome outcome, StopReason reason);
+  void EndRoute(GoalOutcome outcome, const Fault& fault = {});
+  void Report(GoalOutcome outcome, const Fault& fault);
   bool IsVelocityFresh(double now_s) const;
+  bool IsInLongStandby() const;
   RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
-  PlanarMotion RouteMotion(double now_s);
+  PlanarMotion WantedMotion(double now_s);
+  void FollowRoute();
   void NoteMotion(double now_s, double dt_s, const PlanarMotion& motion);
 
   PilotOptions options_;
@@ -103,6 +94,9 @@ class Pilot {
   SpeedLimiter limiter_;
   PoseWatch pose_;
   ChassisWatch chassis_;
+  MotionWatch motion_watch_;
+  OperatorWatch operator_;
+  GoalLimits goal_limits_;
   TrackHistory tracks_;
   SlipEstimator slip_;
   StopLookGo stop_look_go_;
@@ -111,11 +105,14 @@ class Pilot {
   DriveState state_ = DriveState::kStandby;
   StopReason reason_ = StopReason::kNotStarted;
   bool has_started_ = false;
-  bool is_emergency_stop_ = false;
+  std::string detail_;
+  std::set<std::string> emergency_sources_;
   std::optional<GoalController> route_;
   std::optional<RoverPose> predicted_;
   PlanarMotion velocity_, motion_;
   double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
+  double commanded_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
+  std::optional<double> standby_since_s_;
   double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;
   std::vector<GoalResult> results_;
 };

@@ -2,6 +2,9 @@
 
 #include "arfm_vo/driving/chassis_watch.h"
 #include "arfm_vo/driving/goal_controller.h"
+#include "arfm_vo/driving/goal_limits.h"
+#include "arfm_vo/driving/motion_watch.h"
+#include "arfm_vo/driving/operator_watch.h"
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/speed_limiter.h"
@@ -18,9 +21,15 @@ struct PilotOptions {
   SlipOptions slip;
   PoseWatchOptions pose;
   ChassisWatchOptions chassis;
+  MotionWatchOptions motion;
+  OperatorWatchOptions operator_watch;
+  GoalLimitsOptions goal_limits;
   double settle_s = 0.5;             ///< from the last motion command to rest
   double resume_after_s = 1.0;       ///< the pose must be good so long before a pause ends
-  double max_pause_s = 60;           ///< after a longer pause a goal needs a new start
+  double max_pause_s = 3;            ///< after a longer pause a new start is needed
+  double fresh_command_s = 2;        ///< a motion that begins later is warned of first
+  double warning_s = 2;              ///< lamp and horn before such a motion
+  double max_tick_gap_s = 0.5;       ///< a pilot that was held up for longer needs a new start
   double arming_timeout_s = 2.0;     ///< for the chassis to take commands after start
   double max_stall_s = 20;           ///< driving time in which a goal must come nearer
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
@@ -36,9 +45,15 @@ struct PilotOptions {
     visit("slip", slip);
     visit("pose", pose);
     visit("chassis", chassis);
+    visit("motion", motion);
+    visit("operator", operator_watch);
+    visit("goal_limits", goal_limits);
     visit("settle_s", settle_s);
     visit("resume_after_s", resume_after_s);
     visit("max_pause_s", max_pause_s);
+    visit("fresh_command_s", fresh_command_s);
+    visit("warning_s", warning_s);
+    visit("max_tick_gap_s", max_tick_gap_s);
     visit("arming_timeout_s", arming_timeout_s);
     visit("max_stall_s", max_stall_s);
     visit("velocity_timeout_s", velocity_timeout_s);

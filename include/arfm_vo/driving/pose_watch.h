@@ -1,17 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "arfm_vo/driving/drive_state.h"
+#include "arfm_vo/driving/pose_consistency.h"
 #include "arfm_vo/geometry/rigid3.h"
 
 namespace arfm_vo {
 
 struct PoseWatchOptions {
   double max_pose_age_s = 1.0;
-  double max_position_sigma_m = 2.0;  ///< of the way driven in all: drift adds up
+  double max_position_sigma_m = 2.0;  ///< of the way driven since the start or the last datum
   double max_heading_sigma_rad = 0.35;
+  double max_tilt_deg = 25;  ///< of the base against the map's z axis; above it the rover stops
+  double warn_tilt_deg = 20;
   bool requires_covariance = true;  ///< no driving where nobody says how good the pose is
+  bool requires_epoch = true;       ///< no driving where nobody says whether the pose is continuous
+  PoseConsistencyOptions consistency;
 
   void Check() const;
   template <class Visitor>
@@ -19,14 +26,21 @@ struct PoseWatchOptions {
     visit("max_pose_age_s", max_pose_age_s);
     visit("max_position_sigma_m", max_position_sigma_m);
     visit("max_heading_sigma_rad", max_heading_sigma_rad);
+    visit("max_tilt_deg", max_tilt_deg);
+    visit("warn_tilt_deg", warn_tilt_deg);
     visit("requires_covariance", requires_covariance);
+    visit("requires_epoch", requires_epoch);
+    visit("consistency", consistency);
   }
 };
 
 /// A pose by sight. Times are those of the driving clock, which never jumps.
 struct PoseObservation {
   double taken_s = 0;  ///< when its images were taken
-  Rigid3 map_from_base;
+  Rigid3 odom_from_base;
+  Rigid3 map_from_odom;
+
+  Rigid3 MapFromBase() const { return map_from_odom * odom_from_base; }
 };
 
 /// How good the pose is, standard deviations.
@@ -36,29 +50,59 @@ struct PoseUncertainty {
   double heading_sigma_rad = 0;
 };
 
-/// Judges whether the pose is good enough to drive by.
+/// Judges whether the pose is good enough to drive by. A sighting counts once its covariance has
+/// come and it has been compared with the tracks.
 class PoseWatch {
  public:
-  explicit PoseWatch(const PoseWatchOptions& options) : options_(options) { options_.Check(); }
+  PoseWatch(const PoseWatchOptions& options, const TrackKinematics& kinematics);
 
+  /// What tf tells now; the same sighting may be told again, with another map_from_odom.
   void Observe(double now_s, const PoseObservation& pose);
-  /// There is no pose now, as where tf has no way from map to base.
-  void ObserveNone() { flaw_ = StopReason::kPoseMissing; }
-  void Observe(const PoseUncertainty& uncertainty) { uncertainty_ = uncertainty; }
+  /// There is no pose now, for `reason`.
+  void ObserveNone(StopReason reason) { flaw_ = reason; }
+  /// Says whether it was taken: one from the future is not.
+  bool Observe(double now_s, const PoseUncertainty& uncertainty);
+  /// The odometry's epoch, told with a pair taken at `taken_s`. Says whether it is another than
+  /// before; then all that was seen is forgotten, and no sighting from before the pair counts.
+  bool ObserveEpoch(uint32_t epoch, double taken_s);
+
+  /// Takes the newest sighting. Returns how it contradicts the tracks (kPoseContradiction,
+  /// kSliding) or the map of before (kMapStep); it is then what the next is compared with.
+  std::optional<Fault> Judge(double now_s, const TrackHistory& tracks);
 
   /// What is wrong with the pose; nothing where the rover may drive by it.
   std::optional<StopReason> FindFault(double now_s) const;
 
-  /// The last pose without flaw; it may be old.
-  const std::optional<PoseObservation>& Pose() const { return pose_; }
+  /// A person has confirmed the pose: its uncertainty counts from here.
+  void SetDatum();
+
+  bool HasPose() const { return !sightings_.empty(); }
+  /// The last sighting that was judged; it may be old. HasPose must hold.
+  const TrackedSighting& LastSighting() const { return sightings_.back(); }
+  /// The same in full, odom_from_base.
+  const Rigid3& LastSightingInOdom() const { return last_odom_from_base_; }
+  /// The pose in the map that the tracks predict from the last sighting. HasPose must hold.
+  RoverPose PredictInMap(const TrackWays& ways) const;
+  bool IsTilted() const { return tilt_rad_ > options_.max_tilt_deg * M_PI / 180; }
+  bool IsTiltNearLimit() const { return tilt_rad_ > options_.warn_tilt_deg * M_PI / 180; }
 
  private:
   bool IsUncertain(double now_s) const;
+  bool HasCovariance(const PoseObservation& pose) const;
+  std::optional<Fault> CompareWithTracks(const TrackedSighting& sighting) const;
+  std::optional<Fault> TakeMap(const Rigid3& map_from_odom);
+  void Keep(const TrackedSighting& sighting);
 
   PoseWatchOptions options_;
+  PoseConsistency consistency_;
   std::optional<StopReason> flaw_ = StopReason::kPoseMissing;
-  std::optional<PoseObservation> pose_;
-  std::optional<PoseUncertainty> uncertainty_;
+  std::optional<PoseObservation> told_;
+  std::optional<PoseUncertainty> uncertainty_, datum_;
+  std::optional<uint32_t> epoch_;
+  std::optional<double> epoch_start_s_;    // where the epoch has changed
+  std::deque<TrackedSighting> sightings_;  // judged, of the last slide_window_s
+  Rigid3 map_from_odom_, last_odom_from_base_;
+  double tilt_rad_ = 0;
 };
 
 }  // namespace arfm_vo

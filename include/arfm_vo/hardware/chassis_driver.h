@@ -26,11 +26,14 @@ class ChassisDriver {
   const ChassisLink& link() const { return link_; }
 
  private:
+  void Take(double now_s, const ChassisFeedback& feedback);
+
   Pilot pilot_;
   ChassisLink link_;
+  long num_foreign_commands_ = 0;
 };
 
-/// What `state` means for who may drive.
+/// What `state` means for who may drive. A lost remote control is no fault here, but told apart.
 ChassisStatus ToChassisStatus(const SystemState& state);
 
 }  // namespace arfm_vo

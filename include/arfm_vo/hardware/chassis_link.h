@@ -30,6 +30,7 @@ struct ChassisTraffic {
   long num_unreadable = 0;  ///< frames that the protocol does not have, or too short
   long num_error_frames = 0;
   long num_bus_off = 0;
+  long num_foreign_commands = 0;  ///< motion commands of another driver on the same bus
 };
 
 /// Talks to the chassis: commands out, feedback in, and what becomes of the bus meanwhile.
@@ -37,16 +38,17 @@ class ChassisLink {
  public:
   explicit ChassisLink(std::unique_ptr<CanBus> bus);
 
-  /// The identifiers that the chassis speaks with, for OpenCanBus.
-  static CanFilters Filters() { return {{0x200, 0x600}}; }
+  /// The identifiers that the chassis speaks with, and that of motion commands, for OpenCanBus.
+  static CanFilters Filters() { return {{0x200, 0x600}, {0x111, 0x7FF}}; }
 
   /// What came since the last call, oldest first. Reads a bounded number of frames, so that a flood
   /// cannot hold the caller up.
   std::vector<ChassisFeedback> Receive();
 
   /// Sends the motion, and before it a request for CAN mode where the chassis is in another one (at
-  /// most every 0.2 s, and at once when the mode changes). Nothing where the command may not speak.
-  /// No speed above the limit goes out, whatever the command says.
+  /// most every 0.2 s, and at once when the mode changes), and the lamp's state when it changes and
+  /// every 0.5 s while it is on. Nothing where the command may not speak. No speed and no turn rate
+  /// above the limits goes out, whatever the command says.
   void Send(double now_s, const DriveCommand& command);
 
   /// A motion of zero, then standby, where anything was ever sent.
@@ -62,6 +64,7 @@ class ChassisLink {
  private:
   CanSendStatus SendFrame(const CanFrame& frame);
   void RequestCanMode(double now_s);
+  void SendLamp(double now_s, bool is_on);
   void Keep(const ChassisFeedback& feedback);
 
   std::unique_ptr<CanBus> bus_;
@@ -71,6 +74,9 @@ class ChassisLink {
   int num_busy_in_a_row_ = 0;
   bool has_spoken_ = false;
   bool was_bus_lost_ = false;
+  bool is_lamp_on_ = false;
+  double lamp_sent_s_ = 0;
+  uint8_t num_lamp_frames_ = 0;
   std::optional<double> mode_requested_s_;
   std::optional<ControlMode> mode_at_request_;
 };

@@ -36,6 +36,12 @@ struct ClearErrorsCommand {
   uint8_t error = 0;  ///< 0: all
 };
 
+/// 0x121: the front lamp. The protocol is read in ugv_sdk (agilex_protocol_v2.h).
+struct LightCommand {
+  bool is_on = false;
+  uint8_t count = 0;
+};
+
 // From the chassis.
 
 /// 0x211, every 100 to 200 ms. A vehicle state that the protocol does not name reads as kFault,
@@ -58,6 +64,10 @@ struct MotorState {
   double current_a = 0;
   int32_t pulses = 0;
 };
+/// Bits of MotorDriverState::status_bits that are faults: supply low, motor or driver too hot,
+/// current too high, sensor, driver. Bit 6 says that the driver is enabled.
+constexpr uint8_t kMotorFaultBits = 0x3F;
+
 /// 0x261 (left), 0x262 (right).
 struct MotorDriverState {
   ChassisSide side = ChassisSide::kLeft;
@@ -80,14 +90,15 @@ struct BatteryState {
   double temperature_celsius = 0;
 };
 
-using ChassisCommand =
-    std::variant<std::monostate, MotionCommand, ControlModeCommand, ClearErrorsCommand>;
+using ChassisCommand = std::variant<std::monostate, MotionCommand, ControlModeCommand,
+                                    ClearErrorsCommand, LightCommand>;
 using ChassisFeedback = std::variant<std::monostate, SystemState, MotionState, MotorState,
                                      MotorDriverState, TrackOdometer, BatteryState>;
 
 CanFrame EncodeFrame(const MotionCommand& command);
 CanFrame EncodeFrame(const ControlModeCommand& command);
 CanFrame EncodeFrame(const ClearErrorsCommand& command);
+CanFrame EncodeFrame(const LightCommand& command);
 CanFrame EncodeFrame(const SystemState& state);
 CanFrame EncodeFrame(const MotionState& state);
 CanFrame EncodeFrame(const MotorState& state);

@@ -11,7 +11,8 @@ namespace arfm_vo {
 class PseudoTerminal {
  public:
   /// Where `link` is not empty, a symbolic link of that name to the device file is made, in place
-  /// of one that is there. Throws std::system_error.
+  /// of one to a pseudo terminal, as an earlier simulation leaves behind. Throws std::system_error,
+  /// also where anything else has that name.
   explicit PseudoTerminal(const std::string& link = "");
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
@@ -23,7 +24,7 @@ class PseudoTerminal {
   void Write(const std::string& bytes);
 
  private:
-  std::string path_, link_;
+  std::string path_, link_, slave_;
   FileDescriptor master_;
   FileDescriptor keeper_;  ///< keeps the line up while no program has it open
 };

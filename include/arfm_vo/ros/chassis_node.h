@@ -3,55 +3,67 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
-#include <tf2_ros/transform_listener.h>
+#include <std_msgs/Empty.h>
+#include <tf2/buffer_core.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "arfm_vo/hardware/bus_lock.h"
 #include "arfm_vo/ros/chassis_node_options.h"
 #include "arfm_vo/ros/chassis_publisher.h"
 #include "arfm_vo/ros/driving_clock.h"
+#include "arfm_vo/ros/epoch_reader.h"
 #include "arfm_vo/ros/goal_reader.h"
 #include "arfm_vo/ros/rover_sight.h"
+#include "arfm_vo/ros/transform_input.h"
 
 namespace arfm_vo {
 
 /// Drives the chassis to goals by the pose that tf tells: goals and switches in, CAN frames out.
-/// Destroying it leaves the rover standing.
+/// Destroying it leaves the rover standing. No nodelet: nothing else may end its process.
 class ChassisNode {
  public:
-  /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus
-  /// cannot be opened.
+  /// Throws std::invalid_argument naming a wrong parameter, or simulated time on a real bus, and
+  /// std::system_error where the bus cannot be opened or another driver has it.
   ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node);
 
  private:
   void Listen(ros::NodeHandle& node);
   void Serve(ros::NodeHandle& private_node);
+  Reply ClearErrors();
   void SetPace(ros::NodeHandle& node);
   void Tick();
   void Look(double now_s);
+  void Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const;
 
   template <class Message>
   void TakeRoute(const Message& message);
   void TakeGoal(const geometry_msgs::PoseStamped& goal) { TakeRoute(goal); }
   void TakePath(const nav_msgs::Path& path) { TakeRoute(path); }
   void TakeVelocity(const geometry_msgs::Twist& twist);
-  void TakeEmergencyStop(const std_msgs::Bool& is_set);
+  void TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event);
+  void TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event);
   void TakeOdometry(const nav_msgs::Odometry& odometry);
+  void TakeOdometryStatus(const ros::MessageEvent<const OdometryStatus>& event);
 
   const ChassisNodeOptions options_;
+  std::optional<BusLock> lock_;
   DrivingClock clock_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore buffer_;
+  TransformInput transforms_;
   RoverSight sight_;
+  EpochReader epochs_;
   GoalReader goal_reader_;
   ChassisDriver driver_;
   ChassisPublisher publisher_;
-  ros::Time seen_;             // stamp of the newest sighting
-  double seen_s_ = 0;          // the same in driving time
-  ros::WallTime clock_moved_;  // when driving time last went on
+  ros::Time seen_;               // stamp of the newest sighting
+  double seen_s_ = 0;            // the same in driving time
+  ros::SteadyTime clock_moved_;  // when driving time last went on
   double last_tick_s_ = 0;
+  long num_odometry_refused_ = 0;  // from the future
   diagnostic_updater::Updater updater_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;

@@ -12,7 +12,7 @@
 namespace arfm_vo {
 
 /// Tells by topics what the chassis and its pilot do: drive_status (latched, at 5 Hz and at every
-/// change), goal_report (latched), slip, chassis_state, battery and track_odom.
+/// change), goal_report and motion_warning (latched), slip, chassis_state, battery and track_odom.
 class ChassisPublisher {
  public:
   ChassisPublisher(ros::NodeHandle& node, const TrackKinematics& kinematics, std::string map_frame,
@@ -32,8 +32,9 @@ class ChassisPublisher {
   TrackHistory tracks_{1.0};
   std::string map_frame_, base_frame_;
   std::optional<PilotStatus> last_status_;
+  std::optional<bool> last_warning_;
   double status_due_s_ = 0, tracks_due_s_ = 0, slow_due_s_ = 0;
-  ros::Publisher status_, report_, slip_, chassis_, battery_, track_odom_;
+  ros::Publisher status_, report_, warning_, slip_, chassis_, battery_, track_odom_;
 };
 
 }  // namespace arfm_vo

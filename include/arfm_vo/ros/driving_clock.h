@@ -9,8 +9,8 @@ namespace arfm_vo {
 class DrivingClock {
  public:
   double Now();
-  /// The driving time at which ROS time was `stamp`, by the clocks of now.
-  double At(const ros::Time& stamp) { return Now() - (ros::Time::now() - stamp).toSec(); }
+  /// The driving time at which ROS time was `stamp`, by the clocks of now; for any stamp.
+  double At(const ros::Time& stamp) { return Now() - (ros::Time::now().toSec() - stamp.toSec()); }
 
  private:
   ros::Time last_;

@@ -17,10 +17,13 @@ namespace arfm_vo {
 /// finite, a quaternion that is not of unit length, a path without poses.
 class GoalReader {
  public:
-  /// `buffer` must outlive the reader.
-  GoalReader(const tf2::BufferCore& buffer, std::string map_frame)
-      : buffer_(buffer), map_frame_(std::move(map_frame)) {}
+  /// `buffer` must outlive the reader. Goals older than `max_age_s` are refused.
+  GoalReader(const tf2::BufferCore& buffer, std::string map_frame, double max_age_s)
+      : buffer_(buffer), map_frame_(std::move(map_frame)), max_age_s_(max_age_s) {}
 
+  /// Throws std::invalid_argument where a goal of this header has no stamp, or one that is too old
+  /// at `now` or from the future.
+  void RequireFresh(const std_msgs::Header& header, const ros::Time& now) const;
   Waypoint Read(const geometry_msgs::PoseStamped& goal) const;
   /// A pose without frame_id is in the path's frame.
   Route Read(const nav_msgs::Path& path) const;
@@ -28,6 +31,7 @@ class GoalReader {
  private:
   const tf2::BufferCore& buffer_;
   std::string map_frame_;
+  double max_age_s_;
 };
 
 /// The velocity that a tracked rover can follow. Throws std::invalid_argument where it is not

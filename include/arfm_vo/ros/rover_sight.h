@@ -14,12 +14,18 @@ namespace arfm_vo {
 /// Where the rover stands by sight, as tf tells it.
 struct Sighting {
   ros::Time stamp;  ///< of the newest odom -> base
-  Rigid3 map_from_base;
   Rigid3 odom_from_base;
+  Rigid3 map_from_odom;
+  ros::Time map_stamp;  ///< of the newest map -> odom; zero where it is static
+
+  /// How long before `now` map -> odom was told, s; 0 where it is static.
+  double MapAge(const ros::Time& now) const {
+    return map_stamp.isZero() ? 0 : now.toSec() - map_stamp.toSec();
+  }
 };
 
-/// Looks the rover's pose up in tf. The age of a sighting is that of odom -> base alone: map ->
-/// odom is a correction that may come seldom.
+/// Looks the rover's pose up in tf. The age of a sighting is that of odom -> base alone; that of
+/// map -> odom says whether the node that tells it still runs.
 class RoverSight {
  public:
   /// `buffer` must outlive this object.

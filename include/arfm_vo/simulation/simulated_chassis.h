@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "arfm_vo/hardware/can_bus.h"
 #include "arfm_vo/hardware/chassis_protocol.h"
@@ -29,10 +30,20 @@ class SimulatedChassis {
   /// Off: no feedback, no motion, and standby afterwards.
   void SetPower(bool is_on);
   void SetSilentOdometer(bool is_silent) { is_odometer_silent_ = is_silent; }
+  /// Goes on with the feedback of now, whatever happens.
+  void SetFrozenFeedback(bool is_frozen) { is_frozen_ = is_frozen; }
+  /// Moves so whatever is commanded; nothing: obeys again.
+  void SetRunaway(std::optional<PlanarMotion> motion) { runaway_ = motion; }
+  /// A jammed track stands.
+  void JamLeftTrack(bool is_jammed) { is_left_jammed_ = is_jammed; }
+  /// The error bit of a lost remote control, which does not stop the chassis.
+  void SetRemoteLost(bool is_lost) { is_remote_lost_ = is_lost; }
+  void SetMotorStatus(uint8_t status_bits) { motor_status_bits_ = status_bits; }
 
   TrackedPlant& plant() { return plant_; }
   const TrackedPlant& plant() const { return plant_; }
   ControlMode mode() const { return mode_; }
+  bool is_lamp_on() const { return is_lamp_on_; }
 
  private:
   void Obey(double now_s);
@@ -49,6 +60,11 @@ class SimulatedChassis {
   TrackedPlant plant_;
   ControlMode mode_ = ControlMode::kStandby;
   bool is_on_ = true, is_emergency_stop_ = false, has_fault_ = false, is_odometer_silent_ = false;
+  bool is_frozen_ = false, is_left_jammed_ = false, is_remote_lost_ = false, is_lamp_on_ = false;
+  std::optional<PlanarMotion> runaway_;
+  TrackSpeeds told_speeds_;
+  TrackWays told_ways_;
+  uint8_t motor_status_bits_ = 0x40;  // the driver is enabled
   uint16_t error_bits_ = 0;
   uint8_t count_ = 0;
   PlanarMotion commanded_, stick_;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arfm_vo/driving/route.h"
+#include "arfm_vo/driving/rover_pose.h"
+
+namespace arfm_vo {
+
+struct GoalLimitsOptions {
+  double max_distance_m = 50;  ///< of each waypoint from the rover
+  int max_waypoints = 100;
+  double max_standby_s = 10;  ///< a rover that is in standby for longer takes and keeps no goal
+  /// Corners x, y, x, y, .. in the map, m, of the area that the rover may not leave; empty: none.
+  std::vector<double> fence_m;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_distance_m", max_distance_m);
+    visit("max_waypoints", max_waypoints);
+    visit("max_standby_s", max_standby_s);
+    visit("fence_m", fence_m);
+  }
+};
+
+/// Which goals are allowed, wherever they come from.
+class GoalLimits {
+ public:
+  explicit GoalLimits(const GoalLimitsOptions& options);
+
+  /// Why `route` must not be driven from `start`, in words; empty where it may.
+  std::string FindFlaw(const Route& route, const RoverPose& start) const;
+  /// True where there is no fence.
+  bool IsInsideFence(double x_m, double y_m) const;
+
+ private:
+  struct Corner {
+    double x_m = 0, y_m = 0;
+  };
+  bool CrossesFence(const Corner& from, const Corner& to) const;
+
+  GoalLimitsOptions options_;
+  std::vector<Corner> fence_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "arfm_vo/driving/drive_state.h"
+#include "arfm_vo/driving/track_history.h"
+#include "arfm_vo/driving/track_kinematics.h"
+
+namespace arfm_vo {
+
+struct MotionWatchOptions {
+  double max_excess_mps = 0.05;  ///< of a track over what it was commanded lately
+  double max_excess_s = 0.2;     ///< a longer excess is a runaway
+  double response_s = 0.5;       ///< how long a track may take to follow a command
+  double jam_s = 2;              ///< a track that is commanded so long must have moved
+  double min_moved_ratio = 0.1;  ///< of its commanded way
+  double max_frozen_s = 1;       ///< for which the chassis' message counter may stand
+  double max_motor_current_a = 60;
+  double max_current_s = 2;  ///< for which a motor may draw more
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_excess_mps", max_excess_mps);
+    visit("max_excess_s", max_excess_s);
+    visit("response_s", response_s);
+    visit("jam_s", jam_s);
+    visit("min_moved_ratio", min_moved_ratio);
+    visit("max_frozen_s", max_frozen_s);
+    visit("max_motor_current_a", max_motor_current_a);
+    visit("max_current_s", max_current_s);
+  }
+};
+
+/// Compares what the chassis says of its motion with what it was told. Motions are those of 0x111
+/// and 0x221, which take turns to be free of slip.
+class MotionWatch {
+ public:
+  MotionWatch(const MotionWatchOptions& options, double gauge_m);
+
+  /// The motion that is sent to a chassis that obeys, zero to one that does not; each tick.
+  void ObserveCommand(double now_s, const PlanarMotion& motion);
+  void ObserveMotion(double now_s, const PlanarMotion& motion);
+  void ObserveWays(double now_s, const TrackWays& ways);
+  void ObserveCounter(double now_s, int counter);
+  /// The larger of both motors' currents, A.
+  void ObserveCurrent(double now_s, double current_a);
+  /// Begins anew, as at a start: nothing is yet commanded.
+  void Reset();
+
+  std::optional<Fault> FindFault(double now_s) const;
+
+ private:
+  struct Commanded {
+    double time_s = 0;
+    TrackSpeeds speeds;
+    TrackWays commanded_ways;  // sums since the last reset
+    TrackWays ways;            // by the odometer
+  };
+  /// The largest excess of a measured track speed over the commands of the last response_s, m/s.
+  double ExcessOf(const TrackSpeeds& measured) const;
+  std::optional<Fault> FindJam() const;
+
+  MotionWatchOptions options_;
+  TrackKinematics kinematics_;  // the chassis' own
+  std::deque<Commanded> commands_;
+  std::optional<double> excess_since_s_, current_since_s_, counted_s_;
+  double excess_mps_ = 0, current_a_ = 0;
+  int counter_ = 0;
+  TrackWays ways_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,89 @@
+"""The wire between chassis_node and the simulated chassis, both on UDP (hardware/can_udp_bus.cpp)."""
+import socket
+import struct
+import threading
+import time
+
+MOTION_COMMAND, SYSTEM_STATE, MOTION_STATE, ODOMETER, MOTOR_STATUS = 0x111, 0x211, 0x221, 0x311, (0x261, 0x262)
+
+
+class Frame:
+    """A data frame: kind, identifier (4 bytes, big-endian), dlc, 8 bytes."""
+
+    def __init__(self, datagram):
+        self.kind, self.id, self.dlc = struct.unpack(">BIB", datagram[:6])
+        self.bytes = bytearray(datagram[6:14])
+
+    def datagram(self):
+        return struct.pack(">BIB", self.kind, self.id, self.dlc) + bytes(self.bytes)
+
+
+def make_frame(identifier, data):
+    return Frame(struct.pack(">BIB", 0, identifier, len(data)) + bytes(data).ljust(8, b"\0"))
+
+
+class BusTap:
+    """Carries frames both ways, notes the commands by the steady clock, and does to the feedback what a test wants."""
+
+    def __init__(self, driver_port, chassis_port):
+        """The driver is on udp:PORT1:PORT2, the chassis on udp:PORT2:PORT1, of ports such as 4711."""
+        self.driver = self._open(driver_port * 10 + 2, driver_port * 10 + 1)
+        self.chassis = self._open(chassis_port * 10 + 1, chassis_port * 10 + 2)
+        self.change = lambda frame: frame  # of the feedback; None drops it
+        self.lock = threading.Lock()
+        self.num_commands = 0
+        self.moving_s = 0.0  # the last frame that moves
+        self.stops_s = []  # of each frame that stops it
+        self.is_moving = False
+        self.ways_m = (0.0, 0.0)
+        for source, sink, note in ((self.driver, self.chassis, self._note_command),
+                                   (self.chassis, self.driver, self._note_feedback)):
+            threading.Thread(target=self._carry, args=(source, sink, note), daemon=True).start()
+
+    @staticmethod
+    def _open(local_port, peer_port):
+        end = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        end.bind(("127.0.0.1", local_port))
+        end.connect(("127.0.0.1", peer_port))
+        return end
+
+    def _carry(self, source, sink, note):
+        while True:
+            try:
+                frame = note(Frame(source.recv(64)))
+                if frame is not None:
+                    sink.send(frame.datagram())
+            except ConnectionRefusedError:
+                time.sleep(0.005)  # the other end does not run
+
+    def _note_command(self, frame):
+        now = time.monotonic()
+        with self.lock:
+            self.num_commands += 1
+            if frame.id == MOTION_COMMAND:
+                is_moving = any(frame.bytes[:4])
+                if is_moving:
+                    self.moving_s = now
+                elif self.is_moving:
+                    self.stops_s.append(now)
+                self.is_moving = is_moving
+        return frame
+
+    def _note_feedback(self, frame):
+        if frame.id == ODOMETER:
+            left_mm, right_mm = struct.unpack(">ii", frame.bytes)
+            with self.lock:
+                self.ways_m = (0.001 * left_mm, 0.001 * right_mm)
+        return self.change(frame)
+
+    def inject(self, frame):
+        """As if another node on the bus had sent it."""
+        try:
+            self.driver.send(frame.datagram())
+        except ConnectionRefusedError:
+            pass
+
+    def way_m(self):
+        """The mean way of both tracks, whatever the driver is told of it."""
+        with self.lock:
+            return sum(self.ways_m) / 2

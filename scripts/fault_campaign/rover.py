@@ -1,0 +1,138 @@
+"""The running graph of launch/simulation.launch, and a person who drives it."""
+import os
+import signal
+import socket
+import subprocess
+import threading
+import time
+
+import rosgraph
+import rosnode
+import rospy
+import rosservice
+from arfm_vo.msg import DriveStatus, GoalReport
+from geometry_msgs.msg import PoseStamped
+from std_msgs.msg import Bool, Empty
+from std_srvs.srv import Trigger
+
+PATIENCE_S = 60
+
+
+def is_free(port, kind):
+    with socket.socket(socket.AF_INET, kind) as end:
+        try:
+            end.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
+
+
+def find_bus_port(first):
+    """The first PORT from `first` on of which UDP ports PORT1 and PORT2 are free."""
+    return next(port for port in range(first, 6500)
+                if all(is_free(10 * port + end, socket.SOCK_DGRAM) for end in (1, 2)))
+
+
+def find_master_port():
+    return next(port for port in range(11411, 12000) if is_free(port, socket.SOCK_STREAM))
+
+
+class Launch:
+    """simulation.launch as a user starts it, with an operator, in real time, the bus through the tap."""
+
+    def __init__(self, log, driver_port, chassis_port):
+        port = find_master_port()
+        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
+        arguments = ["rviz:=false", "head:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
+                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port]
+        self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
+                                        stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.wait()
+
+
+class Rover:
+    def __init__(self, tap):
+        self.tap = tap
+        self.status, self.reports = None, []
+        self.has_operator = True
+        self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
+        self.emergency = rospy.Publisher("emergency_stop", Bool, queue_size=1)
+        self.heartbeats = rospy.Publisher("operator_heartbeat", Empty, queue_size=1)
+        rospy.Subscriber("drive_status", DriveStatus, self.take_status)
+        rospy.Subscriber("goal_report", GoalReport, self.reports.append)
+        threading.Thread(target=self.beat, daemon=True).start()
+
+    def beat(self):
+        while True:
+            if self.has_operator:
+                self.heartbeats.publish(Empty())
+            time.sleep(0.4)
+
+    def take_status(self, status):
+        self.status = status
+
+    def wait(self, condition, limit_s=PATIENCE_S):
+        end = time.monotonic() + limit_s
+        while time.monotonic() < end:
+            if condition():
+                return True
+            time.sleep(0.005)
+        return condition()
+
+    def call(self, service):
+        try:
+            return rospy.ServiceProxy(service, Trigger)()
+        except rospy.ServiceException as error:
+            return Trigger._response_class(success=False, message=str(error))
+
+    def send_goal(self, x_m, y_m=0.0, frame="base_link", stamp=None):
+        goal = PoseStamped()
+        goal.header.frame_id = frame
+        goal.header.stamp = stamp if stamp is not None else rospy.Time.now()
+        goal.pose.position.x, goal.pose.position.y = x_m, y_m
+        goal.pose.orientation.w = 1
+        self.goals.publish(goal)
+
+    def drive(self):
+        """Started, and at full speed to a goal 6 m ahead."""
+        ready = (DriveStatus.READY, DriveStatus.DRIVING)
+        if not self.wait(lambda: self.status and self.status.state in ready or
+                         (self.call("chassis_node/start").success and time.sleep(1))):
+            return False
+        for _ in range(10):
+            self.send_goal(6)
+            if self.wait(lambda: self.status.forward_mps > 0.09, 6):
+                return True
+            self.call("chassis_node/start")
+        return False
+
+    def moves(self):
+        return time.monotonic() - self.tap.moving_s < 0.3
+
+
+def pid_of(node):
+    """The process of a node, as the node itself tells it."""
+    import xmlrpc.client
+    uri = rosnode.get_api_uri(rosgraph.Master("/fault_campaign"), node, skip_cache=True)
+    return xmlrpc.client.ServerProxy(uri).getPid("/fault_campaign")[2]
+
+
+def start_again(node):
+    """The node with the parameters that it had."""
+    remaps = ["stereo:=/stereo", "track_odometry:=track_odom"]
+    return subprocess.Popen(["rosrun", "arfm_vo", node, "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL)
+
+
+def has_service(name):
+    try:
+        return rosservice.get_service_node(name) is not None
+    except rosservice.ROSServiceIOException:
+        return False

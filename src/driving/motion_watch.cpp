@@ -1,0 +1,131 @@
+#include "arfm_vo/driving/motion_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace arfm_vo {
+namespace {
+
+/// Shorter commanded ways are not judged: the odometer counts millimetres.
+constexpr double kMinCommandedWay_m = 0.03;
+
+std::string Format(const char* format, double a, double b) {
+  char text[96];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+/// By how much `value` is outside what `low` and `high` span.
+double Outside(double value, double low, double high) {
+  return std::max({0.0, value - high, low - value});
+}
+
+}  // namespace
+
+void MotionWatchOptions::Check() const {
+  const auto check = [](double value, double low, double high, const char* name) {
+    Require(value >= low && value <= high, std::string("motion.") + name + " must be in " +
+                                               std::to_string(low) + ".." + std::to_string(high));
+  };
+  check(max_excess_mps, 0.01, 1, "max_excess_mps");
+  check(max_excess_s, 0, 5, "max_excess_s");
+  check(response_s, 0.02, 5, "response_s");
+  check(jam_s, 0.5, 3600, "jam_s");
+  check(min_moved_ratio, 0, 1, "min_moved_ratio");
+  check(max_frozen_s, 0.3, 3600, "max_frozen_s");
+  check(max_motor_current_a, 0, 1000, "max_motor_current_a");
+  check(max_current_s, 0, 60, "max_current_s");
+}
+
+MotionWatch::MotionWatch(const MotionWatchOptions& options, double gauge_m)
+    : options_(options), kinematics_(TrackKinematicsOptions{gauge_m, 1.0}) {
+  options_.Check();
+}
+
+void MotionWatch::ObserveCommand(double now_s, const PlanarMotion& motion) {
+  Commanded next{now_s, kinematics_.TracksFor(motion), {}, ways_};
+  if (!commands_.empty()) {
+    const Commanded& last = commands_.back();
+    const double dt_s = std::max(0.0, now_s - last.time_s);
+    next.commanded_ways = {last.commanded_ways.left_m + dt_s * last.speeds.left_mps,
+                           last.commanded_ways.right_m + dt_s * last.speeds.right_mps};
+  }
+  commands_.push_back(next);
+  const double oldest_s = now_s - std::max(options_.jam_s, options_.response_s);
+  while (commands_.size() > 2 && commands_[1].time_s <= oldest_s) commands_.pop_front();
+}
+
+double MotionWatch::ExcessOf(const TrackSpeeds& measured) const {
+  TrackSpeeds low, high;  // standing still is always allowed
+  for (auto it = commands_.rbegin(); it != commands_.rend(); ++it) {
+    if (it->time_s < commands_.back().time_s - options_.response_s) break;
+    low = {std::min(low.left_mps, it->speeds.left_mps),
+           std::min(low.right_mps, it->speeds.right_mps)};
+    high = {std::max(high.left_mps, it->speeds.left_mps),
+            std::max(high.right_mps, it->speeds.right_mps)};
+  }
+  return std::max(Outside(measured.left_mps, low.left_mps, high.left_mps),
+                  Outside(measured.right_mps, low.right_mps, high.right_mps));
+}
+
+void MotionWatch::ObserveMotion(double now_s, const PlanarMotion& motion) {
+  if (commands_.empty()) return;  // nothing was commanded yet: not ours to judge
+  excess_mps_ = ExcessOf(kinematics_.TracksFor(motion));
+  if (excess_mps_ <= options_.max_excess_mps) {
+    excess_since_s_.reset();
+  } else if (!excess_since_s_) {
+    excess_since_s_ = now_s;
+  }
+}
+
+void MotionWatch::ObserveWays(double, const TrackWays& ways) { ways_ = ways; }
+
+void MotionWatch::ObserveCounter(double now_s, int counter) {
+  if (!counted_s_ || counter != counter_) counted_s_ = now_s;
+  counter_ = counter;
+}
+
+void MotionWatch::ObserveCurrent(double now_s, double current_a) {
+  current_a_ = current_a;
+  if (current_a <= options_.max_motor_current_a) {
+    current_since_s_.reset();
+  } else if (!current_since_s_) {
+    current_since_s_ = now_s;
+  }
+}
+
+void MotionWatch::Reset() {
+  commands_.clear();
+  excess_since_s_.reset();
+  current_since_s_.reset();
+}
+
+std::optional<Fault> MotionWatch::FindJam() const {
+  if (commands_.empty()) return std::nullopt;
+  const Commanded &first = commands_.front(), &last = commands_.back();
+  if (last.time_s - first.time_s < options_.jam_s) return std::nullopt;
+  const auto is_jammed = [&](double TrackWays::*side) {
+    const double commanded_m = std::abs(last.commanded_ways.*side - first.commanded_ways.*side);
+    const double moved_m = std::abs(last.ways.*side - first.ways.*side);
+    return commanded_m >= kMinCommandedWay_m && moved_m < options_.min_moved_ratio * commanded_m;
+  };
+  const bool is_left = is_jammed(&TrackWays::left_m);
+  if (!is_left && !is_jammed(&TrackWays::right_m)) return std::nullopt;
+  return Fault{StopReason::kTrackJammed, is_left ? "the left one" : "the right one"};
+}
+
+std::optional<Fault> MotionWatch::FindFault(double now_s) const {
+  if (excess_since_s_ && now_s - *excess_since_s_ >= options_.max_excess_s)
+    return Fault{StopReason::kRunaway,
+                 Format("by %.2f m/s (allowed %.2f m/s)", excess_mps_, options_.max_excess_mps)};
+  if (counted_s_ && now_s - *counted_s_ > options_.max_frozen_s)
+    return Fault{StopReason::kFeedbackFrozen, Format("counter stands for %.1f s (allowed %.1f s)",
+                                                     now_s - *counted_s_, options_.max_frozen_s)};
+  if (current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s)
+    return Fault{StopReason::kMotorFault,
+                 Format("%.0f A (allowed %.0f A)", current_a_, options_.max_motor_current_a)};
+  return FindJam();
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,113 @@
+// The part of the pilot that decides whether the rover may move.
+#include "arfm_vo/driving/pilot.h"
+
+namespace arfm_vo {
+namespace {
+
+std::string Join(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "by " : ", ") + name;
+  return text;
+}
+
+std::optional<Fault> ToFault(const std::optional<StopReason>& reason) {
+  return reason ? std::optional(Fault{*reason, ""}) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Fault> Pilot::FindStartFault(double now_s) const {
+  if (!emergency_sources_.empty())
+    return Fault{StopReason::kEmergencyStop, Join(emergency_sources_)};
+  if (operator_.IsMissing(now_s)) return Fault{StopReason::kOperatorLost, ""};
+  return ToFault(chassis_.FindFault(now_s));
+}
+
+std::optional<Fault> Pilot::FindBlockingFault(double now_s) const {
+  if (const auto fault = FindStartFault(now_s)) return fault;
+  const bool is_arming = state_ == DriveState::kArming;
+  if (!chassis_.IsOurs() && !(is_arming && now_s - armed_s_ <= options_.arming_timeout_s))
+    return Fault{StopReason::kModeLost, ""};
+  if (chassis_.IsOurs())
+    if (const auto fault = motion_watch_.FindFault(now_s)) return fault;
+  if (pose_.IsTilted()) return Fault{StopReason::kTilt, ""};
+  return state_ == DriveState::kDriving ? FindDrivingFault() : std::nullopt;
+}
+
+std::optional<Fault> Pilot::FindDrivingFault() const {
+  if (slip_.IsExcessive()) return Fault{StopReason::kSlip, ""};
+  if (progress_.IsStalled()) return Fault{StopReason::kNoProgress, ""};
+  if (predicted_ && !goal_limits_.IsInsideFence(predicted_->x_m, predicted_->y_m))
+    return Fault{StopReason::kOutsideFence, ""};
+  return std::nullopt;
+}
+
+bool Pilot::IsVelocityFresh(double now_s) const {
+  return now_s - velocity_s_ <= options_.velocity_timeout_s;
+}
+
+void Pilot::Block(const Fault& fault) {
+  if (route_) Report(GoalOutcome::kBlocked, fault);
+  state_ = DriveState::kBlocked;
+  reason_ = fault.reason;
+  detail_ = fault.detail;
+  velocity_s_ = kNeverCommanded_s;
+}
+
+void Pilot::Distrust(const Fault& fault) {
+  const bool keeps_route =
+      fault.reason == StopReason::kMapStep || fault.reason == StopReason::kHeldUp;
+  if (!keeps_route) EndRoute(GoalOutcome::kCancelled, fault);
+  if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) Block(fault);
+}
+
+void Pilot::Pause(double now_s, StopReason reason) {
+  if (state_ != DriveState::kPaused) pause_start_s_ = now_s;
+  state_ = DriveState::kPaused;
+  reason_ = reason;
+  flawed_s_ = now_s;
+  stop_look_go_.Reset();
+  if (now_s - pause_start_s_ > options_.max_pause_s)
+    Block({StopReason::kPoseLost, std::string("(") + ToString(reason) + ")"});
+}
+
+void Pilot::JudgePose(double now_s) {
+  if (const auto fault = pose_.Judge(now_s, tracks_)) Distrust(*fault);
+  predicted_ = pose_.HasPose() ? std::optional(PredictPose(now_s)) : std::nullopt;
+  if (!pose_.HasPose() || pose_.LastSighting().taken_s <= compared_s_) return;
+  compared_s_ = pose_.LastSighting().taken_s;
+  slip_.Add(pose_.LastSightingInOdom(), pose_.LastSighting().ways);
+}
+
+void Pilot::UpdateState(double now_s) {
+  if (state_ == DriveState::kStandby && IsInLongStandby())
+    EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
+  if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;
+  if (const auto fault = FindBlockingFault(now_s)) return Block(*fault);
+  if (!chassis_.IsOurs()) return;  // arming
+  const bool needs_pose = route_ || options_.velocity_needs_pose;
+  const auto pose_fault = needs_pose ? pose_.FindFault(now_s) : std::nullopt;
+  if (pose_fault) return Pause(now_s, *pose_fault);
+  if (state_ == DriveState::kPaused && now_s - flawed_s_ < options_.resume_after_s) return;
+  GoOn(now_s);
+}
+
+void Pilot::GoOn(double now_s) {
+  reason_ = StopReason::kNone;
+  const bool has_work = route_ || IsVelocityFresh(now_s);
+  if (!has_work) {
+    state_ = DriveState::kReady;
+    return;
+  }
+  const bool is_fresh = now_s - commanded_s_ <= options_.fresh_command_s;
+  const bool was_warning = state_ == DriveState::kWarning;
+  if (state_ == DriveState::kDriving || is_fresh ||
+      (was_warning && now_s - warned_since_s_ >= options_.warning_s)) {
+    state_ = DriveState::kDriving;
+    return;
+  }
+  if (!was_warning) warned_since_s_ = now_s;
+  state_ = DriveState::kWarning;
+}
+
+}  // namespace arfm_vo

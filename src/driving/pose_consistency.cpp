@@ -1,0 +1,95 @@
+#include "arfm_vo/driving/pose_consistency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+namespace {
+
+/// What the change of a standard deviation allows: drift between two sightings, or its correction.
+double Allowance(double before, double after, double num_sigmas, double max_allowance) {
+  const double change = std::sqrt(std::abs(after * after - before * before));
+  return std::isfinite(change) ? std::min(num_sigmas * change, max_allowance) : max_allowance;
+}
+
+PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
+  PoseDifference difference;
+  difference.distance_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+  difference.turn_rad = std::abs(WrapAngle(a.heading_rad - b.heading_rad));
+  return difference;
+}
+
+}  // namespace
+
+void PoseConsistencyOptions::Check() const {
+  const auto check = [](double value, double low, double high, const char* name) {
+    Require(value >= low && value <= high, std::string("pose.consistency.") + name +
+                                               " must be in " + std::to_string(low) + ".." +
+                                               std::to_string(high));
+  };
+  check(max_error_m, 0.01, 1, "max_error_m");
+  check(max_error_rad, 0.01, 1, "max_error_rad");
+  check(max_slip_ratio, 0, 1, "max_slip_ratio");
+  check(max_sideways_ratio, 0, 1, "max_sideways_ratio");
+  check(num_sigmas, 0, 10, "num_sigmas");
+  check(max_uncertain_m, 0, 5, "max_uncertain_m");
+  check(max_uncertain_rad, 0, 1, "max_uncertain_rad");
+  check(max_map_step_m, 0.01, 10, "max_map_step_m");
+  check(max_map_turn_rad, 0.01, M_PI, "max_map_turn_rad");
+  check(slide_window_s, 0.5, 60, "slide_window_s");
+}
+
+std::string PoseDifference::ToString() const {
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "%.2f m (allowed %.2f m), sideways %.2f m (%.2f m), %.0f deg (%.0f deg)",
+                distance_m, max_distance_m, sideways_m, max_sideways_m, turn_rad * 180 / M_PI,
+                max_turn_rad * 180 / M_PI);
+  return text;
+}
+
+PoseConsistency::PoseConsistency(const PoseConsistencyOptions& options,
+                                 const TrackKinematics& kinematics)
+    : options_(options), kinematics_(kinematics) {
+  options_.Check();
+}
+
+RoverPose PoseConsistency::Predict(const TrackedSighting& sighting, const TrackWays& ways) const {
+  const PlanarMotion way = kinematics_.MotionOf(
+      {ways.left_m - sighting.ways.left_m, ways.right_m - sighting.ways.right_m});
+  return Advance(sighting.pose, way.forward_mps, way.turn_radps);
+}
+
+PoseDifference PoseConsistency::Compare(const TrackedSighting& earlier,
+                                        const TrackedSighting& later) const {
+  const RoverPose predicted = Predict(earlier, later.ways);
+  PoseDifference difference = DifferenceOf(predicted, later.pose);
+  const double turn_rad = WrapAngle(predicted.heading_rad - earlier.pose.heading_rad);
+  const double heading_rad = earlier.pose.heading_rad + turn_rad / 2;  // of the way
+  difference.sideways_m = std::abs((later.pose.y_m - predicted.y_m) * std::cos(heading_rad) -
+                                   (later.pose.x_m - predicted.x_m) * std::sin(heading_rad));
+  const double left_m = std::abs(later.ways.left_m - earlier.ways.left_m);
+  const double right_m = std::abs(later.ways.right_m - earlier.ways.right_m);
+  const double way_m = std::max(left_m, right_m);
+  const double certain_m =
+      options_.max_error_m + Allowance(earlier.position_sigma_m, later.position_sigma_m,
+                                       options_.num_sigmas, options_.max_uncertain_m);
+  difference.max_distance_m = certain_m + options_.max_slip_ratio * way_m;
+  difference.max_sideways_m = certain_m + options_.max_sideways_ratio * way_m;
+  difference.max_turn_rad = options_.max_error_rad + options_.max_slip_ratio * std::abs(turn_rad) +
+                            Allowance(earlier.heading_sigma_rad, later.heading_sigma_rad,
+                                      options_.num_sigmas, options_.max_uncertain_rad);
+  return difference;
+}
+
+PoseDifference PoseConsistency::MapStep(const RoverPose& before, const RoverPose& after) const {
+  PoseDifference difference = DifferenceOf(before, after);
+  difference.max_distance_m = difference.max_sideways_m = options_.max_map_step_m;
+  difference.max_turn_rad = options_.max_map_turn_rad;
+  return difference;
+}
+
+}  // namespace arfm_vo

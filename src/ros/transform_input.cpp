@@ -1,0 +1,38 @@
+#include "arfm_vo/ros/transform_input.h"
+
+#include <ros/console.h>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kMaxFromFuture_s = 1;
+constexpr int kQueueSize = 100;
+
+}  // namespace
+
+TransformInput::TransformInput(ros::NodeHandle& node, tf2::BufferCore& buffer) : buffer_(buffer) {
+  moving_ = node.subscribe("/tf", kQueueSize, &TransformInput::TakeMoving, this);
+  static_ = node.subscribe("/tf_static", kQueueSize, &TransformInput::TakeStatic, this);
+}
+
+void TransformInput::Take(const Event& event, bool is_static) {
+  const ros::Time now = ros::Time::now();
+  if (now < last_) {
+    ROS_WARN("time went back by %.3f s: the tf of before is forgotten",
+             last_.toSec() - now.toSec());
+    buffer_.clear();
+  }
+  last_ = now;
+  for (const auto& transform : event.getMessage()->transforms) {
+    if (!is_static && transform.header.stamp.toSec() > now.toSec() + kMaxFromFuture_s) {
+      ++num_from_future_;
+      ROS_WARN_THROTTLE(5, "tf %s -> %s from %s refused: its stamp is in the future",
+                        transform.header.frame_id.c_str(), transform.child_frame_id.c_str(),
+                        event.getPublisherName().c_str());
+      continue;
+    }
+    buffer_.setTransform(transform, event.getPublisherName(), is_static);
+  }
+}
+
+}  // namespace arfm_vo

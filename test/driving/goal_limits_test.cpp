@@ -1,0 +1,54 @@
+#include "arfm_vo/driving/goal_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace arfm_vo {
+namespace {
+
+GoalLimitsOptions LShapedFence() {
+  GoalLimitsOptions options;
+  options.fence_m = {-1, -1, 10, -1, 10, 1, 1, 1, 1, 10, -1, 10};
+  return options;
+}
+
+TEST(GoalLimits, AGoalTooFarIsNamed) {
+  const GoalLimits limits{GoalLimitsOptions{}};
+  EXPECT_EQ(limits.FindFlaw({{30, 40, {}}}, {}), "");
+  EXPECT_EQ(limits.FindFlaw({{30, 41, {}}}, {}), "it is 50.8 m away, farther than 50.0 m");
+  EXPECT_EQ(limits.FindFlaw({{1, 0, {}}, {60, 0, {}}}, {}),
+            "waypoint 1 is 60.0 m away, farther than 50.0 m");
+}
+
+TEST(GoalLimits, ARouteIsBounded) {
+  const GoalLimits limits{GoalLimitsOptions{}};
+  EXPECT_EQ(limits.FindFlaw(Route(100), {}), "");
+  EXPECT_EQ(limits.FindFlaw(Route(101), {}), "it has more than 100 waypoints");
+}
+
+TEST(GoalLimits, AGoalOutsideTheFenceIsRefused) {
+  const GoalLimits limits(LShapedFence());
+  EXPECT_EQ(limits.FindFlaw({{9, 0, {}}}, {}), "");
+  EXPECT_EQ(limits.FindFlaw({{5, 5, {}}}, {}), "it is outside the fence");
+  EXPECT_TRUE(limits.IsInsideFence(0, 9));
+  EXPECT_FALSE(limits.IsInsideFence(2, 2));
+}
+
+TEST(GoalLimits, AWayThatLeavesTheFenceIsRefused) {
+  const GoalLimits limits(LShapedFence());
+  EXPECT_EQ(limits.FindFlaw({{0, 9, {}}}, {9, 0, 0}), "the way to it leaves the fence");
+  EXPECT_EQ(limits.FindFlaw({{0, 0, {}}, {0, 9, {}}}, {9, 0, 0}), "");
+}
+
+TEST(GoalLimits, WrongOptionsAreRefused) {
+  GoalLimitsOptions options;
+  options.fence_m = {0, 0, 1, 1};
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options = GoalLimitsOptions();
+  options.max_distance_m = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,99 @@
+#include "arfm_vo/driving/motion_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kTick_s = 0.02, kGauge_m = 0.583;
+
+class MotionWatchTest : public ::testing::Test {
+ protected:
+  /// Commands `commanded` for `duration_s` while the tracks run as `left_mps` and `right_mps`.
+  void Run(double duration_s, const PlanarMotion& commanded, double left_mps, double right_mps) {
+    const TrackKinematics kinematics({kGauge_m, 1.0});
+    for (const double end_s = now_s_ + duration_s; now_s_ < end_s; now_s_ += kTick_s) {
+      ways_.left_m += kTick_s * left_mps;
+      ways_.right_m += kTick_s * right_mps;
+      watch_.ObserveCommand(now_s_, commanded);
+      watch_.ObserveWays(now_s_, ways_);
+      watch_.ObserveMotion(now_s_, kinematics.MotionOf({left_mps, right_mps}));
+      watch_.ObserveCounter(now_s_, counter_ += counter_step_);
+    }
+  }
+  StopReason Reason() const { return watch_.FindFault(now_s_).value_or(Fault{}).reason; }
+
+  MotionWatch watch_{MotionWatchOptions{}, kGauge_m};
+  double now_s_ = 10;
+  TrackWays ways_;
+  int counter_ = 0, counter_step_ = 1;
+};
+
+TEST_F(MotionWatchTest, ATrackThatFollowsItsCommandIsWell) {
+  Run(5, {0.1, 0}, 0.09, 0.1);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  Run(0.4, {0, 0}, 0.05, 0.05);  // runs out
+  Run(3, {0, 0}, 0, 0);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  Run(5, {0, 0.1}, -0.029, 0.029);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+}
+
+TEST_F(MotionWatchTest, MovingAtCommandZeroIsARunaway) {
+  Run(1, {0, 0}, 0, 0);
+  Run(0.5, {0, 0}, 0.1, 0.1);
+  EXPECT_EQ(Reason(), StopReason::kRunaway);
+}
+
+TEST_F(MotionWatchTest, GoingOnAfterTheStopIsARunawayOnceTheResponseTimeIsOver) {
+  Run(3, {0.1, 0}, 0.1, 0.1);
+  Run(0.5, {0, 0}, 0.1, 0.1);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  Run(0.5, {0, 0}, 0.1, 0.1);
+  EXPECT_EQ(Reason(), StopReason::kRunaway);
+}
+
+TEST_F(MotionWatchTest, OneTrackThatIsFasterThanCommandedIsARunaway) {
+  Run(1, {0.05, 0}, 0.05, 0.05);
+  Run(0.5, {0.05, 0}, 0.05, 0.16);
+  EXPECT_EQ(Reason(), StopReason::kRunaway);
+}
+
+TEST_F(MotionWatchTest, ATrackThatStandsForTwoSecondsIsJammedAndNamed) {
+  Run(1.8, {0.1, 0}, 0.1, 0);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  Run(0.4, {0.1, 0}, 0.1, 0);
+  EXPECT_EQ(Reason(), StopReason::kTrackJammed);
+  EXPECT_EQ(watch_.FindFault(now_s_)->detail, "the right one");
+  watch_.Reset();
+  EXPECT_EQ(Reason(), StopReason::kNone);
+}
+
+TEST_F(MotionWatchTest, ACounterThatStandsIsFrozenFeedback) {
+  Run(1, {0, 0}, 0, 0);
+  counter_step_ = 0;
+  Run(0.9, {0, 0}, 0, 0);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  Run(0.2, {0, 0}, 0, 0);
+  EXPECT_EQ(Reason(), StopReason::kFeedbackFrozen);
+}
+
+TEST_F(MotionWatchTest, AMotorThatDrawsTooMuchForTooLongIsAFault) {
+  watch_.ObserveCurrent(10, 80);
+  EXPECT_FALSE(watch_.FindFault(11));
+  watch_.ObserveCurrent(12.1, 80);
+  EXPECT_EQ(watch_.FindFault(12.1)->reason, StopReason::kMotorFault);
+  watch_.ObserveCurrent(12.2, 5);
+  EXPECT_FALSE(watch_.FindFault(20));
+}
+
+TEST(MotionWatchOptions, WrongValuesAreNamed) {
+  MotionWatchOptions options;
+  options.jam_s = std::nan("");
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,116 @@
+#include "arfm_vo/driving/pose_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace arfm_vo {
+namespace {
+
+Rigid3 At(double x_m, double y_m = 0, double heading_rad = 0) {
+  return {ExpSO3({0, 0, heading_rad}), Eigen::Vector3d(x_m, y_m, 0)};
+}
+
+class PoseWatchTest : public ::testing::Test {
+ protected:
+  PoseWatchTest() { watch_.ObserveEpoch(1, 10); }
+
+  void Drive(double now_s, double way_m) {
+    const int way_mm = static_cast<int>(std::lround(1000 * way_m));
+    tracks_.Add(now_s, way_mm, way_mm);
+  }
+  /// Tells a sighting and its covariance, and judges it.
+  std::optional<Fault> See(double now_s, const Rigid3& pose, double sigma_m = 0.01) {
+    watch_.Observe(now_s, PoseUncertainty{now_s, sigma_m, 0.01});
+    watch_.Observe(now_s, PoseObservation{now_s, pose, {}});
+    return watch_.Judge(now_s, tracks_);
+  }
+
+  PoseWatch watch_{PoseWatchOptions{}, TrackKinematics({})};
+  TrackHistory tracks_{2};
+};
+
+TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
+  Drive(10, 0);
+  EXPECT_FALSE(See(10, At(0)));
+  watch_.Observe(10.5, PoseObservation{10.5, At(3), {}});
+  EXPECT_FALSE(watch_.Judge(10.5, tracks_));
+  EXPECT_EQ(watch_.LastSighting().taken_s, 10) << "judged without its covariance";
+  watch_.Observe(10.6, PoseUncertainty{10.5, 0.01, 0.01});
+  EXPECT_EQ(watch_.Judge(10.6, tracks_)->reason, StopReason::kPoseContradiction);
+}
+
+TEST_F(PoseWatchTest, AgreesWithTracksThatSlip) {
+  Drive(10, 0);
+  See(10, At(0));
+  Drive(11, 0.1);
+  EXPECT_FALSE(See(11, At(0.09)));
+  Drive(12, 0.2);
+  EXPECT_FALSE(See(12, At(0.1)));
+}
+
+TEST_F(PoseWatchTest, AJumpIsMeasuredAgainstTheTracks) {
+  Drive(10, 0);
+  See(10, At(0));
+  Drive(11, 0.1);
+  const auto fault = See(11, At(0.1 + 0.5));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->detail.rfind("off the tracks by 0.50 m (allowed 0.20 m)", 0), 0u)
+      << fault->detail;
+  EXPECT_FALSE(See(11.5, At(0.6))) << "the next is compared with the one that has jumped";
+}
+
+TEST_F(PoseWatchTest, ACovarianceThatHasGrownAllowsMoreButNotAnything) {
+  Drive(10, 0);
+  See(10, At(0), 0.01);
+  EXPECT_FALSE(See(11, At(0.25), 0.1)) << "3 sigma of 0.1 m";
+  EXPECT_TRUE(See(12, At(1.25), 1.5)) << "a covariance excuses 0.3 m at most";
+}
+
+TEST_F(PoseWatchTest, ACorrectionWithinTheFormerCovarianceIsNoContradiction) {
+  Drive(10, 0);
+  See(10, At(0), 0.1);
+  EXPECT_FALSE(See(11, At(0.25), 0.01));
+}
+
+TEST_F(PoseWatchTest, ASightingThatIsUncertainIsNotComparedWith) {
+  Drive(10, 0);
+  See(10, At(0));
+  EXPECT_FALSE(See(10.5, At(7), 99.99));
+  EXPECT_EQ(watch_.LastSighting().taken_s, 10);
+  EXPECT_EQ(See(11, At(7))->reason, StopReason::kPoseContradiction);
+}
+
+TEST_F(PoseWatchTest, ASidewaysStepIsLessExcusedThanOneAhead) {
+  Drive(10, 0);
+  See(10, At(0, 0, M_PI / 2));
+  Drive(11, 0.1);
+  EXPECT_FALSE(See(11, At(0, 0.28, M_PI / 2)));
+  EXPECT_TRUE(See(11.5, At(0.18, 0.28, M_PI / 2)));
+}
+
+TEST_F(PoseWatchTest, SightingsFromBeforeANewEpochDoNotCount) {
+  Drive(10, 0);
+  See(10, At(5));
+  EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
+  EXPECT_FALSE(See(10.9, At(5)));
+  EXPECT_FALSE(watch_.HasPose());
+  EXPECT_FALSE(See(11, At(0)));
+  EXPECT_TRUE(watch_.HasPose());
+}
+
+TEST(PoseWatchOptions, WrongValuesAreNamed) {
+  PoseWatchOptions options;
+  options.consistency.max_map_step_m = std::numeric_limits<double>::infinity();
+  try {
+    options.Check();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("pose.consistency.max_map_step_m", 0), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,52 @@
+#include "arfm_vo/hardware/bus_lock.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <memory>
+#include <system_error>
+
+namespace arfm_vo {
+namespace {
+
+std::string BusOfThisTest() { return "test" + std::to_string(::getpid()); }
+
+TEST(BusLock, ASecondDriverIsRefusedUntilTheFirstIsGone) {
+  auto first = std::make_unique<BusLock>(BusOfThisTest());
+  try {
+    const BusLock second(BusOfThisTest());
+    FAIL() << "two drivers on one bus";
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("another driver has it"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find(BusOfThisTest()), std::string::npos);
+  }
+  EXPECT_NO_THROW(BusLock{BusOfThisTest() + "b"});
+  first.reset();
+  EXPECT_NO_THROW(BusLock{BusOfThisTest()});
+}
+
+TEST(BusLock, AKilledDriverLeavesNoLockBehind) {
+  const std::string bus = BusOfThisTest();
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const BusLock lock(bus);
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_NO_THROW(BusLock{bus});
+}
+
+TEST(IsSimulatedBus, OnlyUdpAndVirtualInterfacesAre) {
+  EXPECT_TRUE(IsSimulatedBus("udp:1:2"));
+  EXPECT_TRUE(IsSimulatedBus("vcan0"));
+  EXPECT_FALSE(IsSimulatedBus("can0"));
+  EXPECT_FALSE(IsSimulatedBus("slcan0"));
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_drive.h"
+
+// A pose that is wrong, told to a driver on the CAN bus of a simulated rover.
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kMaxWayOnAWrongPose_m = 0.1;
+
+Rigid3 PlaceAt(double x_m, double y_m, double heading_rad = 0) {
+  return PlaceOnLevelGround({x_m, y_m, heading_rad});
+}
+
+class WrongPoseTest : public ::testing::Test {
+ protected:
+  /// Drives to `goal` for `duration_s` by a good pose.
+  void DriveTo(const Waypoint& goal, double duration_s) {
+    drive_.Run(0.5);
+    ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
+    ASSERT_TRUE(drive_.pilot().SetRoute({goal}).is_accepted);
+    drive_.Run(duration_s);
+    ASSERT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+    ASSERT_FALSE(drive_.Commanded().IsZero());
+    at_fault_ = drive_.plant().Pose();
+  }
+  /// The odometry starts anew: from now on the place where the rover stands is told as `told`.
+  void RestartOdometryAt(const Rigid3& told) {
+    drive_.told_from_true_ = told * drive_.plant().WorldFromBase().Inverse();
+  }
+  double WayOnTheWrongPose() {
+    const RoverPose& now = drive_.plant().Pose();
+    return std::hypot(now.x_m - at_fault_.x_m, now.y_m - at_fault_.y_m);
+  }
+  void ExpectBlocked(StopReason reason) {
+    EXPECT_EQ(drive_.pilot().Status().state, DriveState::kBlocked);
+    EXPECT_STREQ(ToString(drive_.pilot().Status().reason), ToString(reason));
+    EXPECT_LE(WayOnTheWrongPose(), kMaxWayOnAWrongPose_m);
+    for (const GoalResult& result : drive_.pilot().TakeResults())
+      EXPECT_NE(result.outcome, GoalOutcome::kArrived);
+  }
+
+  SimulatedDrive drive_;
+  RoverPose at_fault_;
+};
+
+TEST_F(WrongPoseTest, OdometryThatRestartsOnTheGoalIsNoArrival) {
+  drive_.told_from_true_ = PlaceAt(9, 0);
+  DriveTo({0, 0, 0.0}, 3);
+  RestartOdometryAt(PlaceAt(0, 0));
+  drive_.Run(10);
+  ExpectBlocked(StopReason::kPoseContradiction);
+  EXPECT_NE(drive_.pilot().Status().detail.find(" m"), std::string::npos);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+}
+
+TEST_F(WrongPoseTest, OdometryThatRestartsElsewhereDrivesNowhere) {
+  drive_.told_from_true_ = PlaceAt(5, -15, M_PI / 2);
+  DriveTo({0, 5, {}}, 3);
+  RestartOdometryAt(PlaceAt(0, 0));
+  drive_.Run(120);
+  ExpectBlocked(StopReason::kPoseContradiction);
+}
+
+TEST_F(WrongPoseTest, ANewEpochDropsTheGoalAndBlocksEvenWhereThePoseStaysTheSame) {
+  DriveTo({6, 0, {}}, 5);
+  ++drive_.epoch_;
+  drive_.Run(5);
+  ExpectBlocked(StopReason::kNewEpoch);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+  ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
+  drive_.Run(2);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kReady);
+}
+
+TEST_F(WrongPoseTest, AnOdometryThatIsKilledAndRestartedDrivesNowhere) {
+  DriveTo({6, 0, {}}, 15);
+  drive_.has_pose_ = false;
+  drive_.Run(1.6);
+  RestartOdometryAt(PlaceAt(0, 0));
+  drive_.has_pose_ = true;
+  drive_.Run(60);
+  ExpectBlocked(StopReason::kPoseContradiction);
+}
+
+TEST_F(WrongPoseTest, TheFirstPoseAfterAPauseMustAgreeWithTheTracks) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.sigma_m_ = 99.99;
+  drive_.Run(1.5);
+  ASSERT_EQ(drive_.pilot().Status().state, DriveState::kPaused);
+  drive_.sigma_m_ = 0.01;
+  RestartOdometryAt(PlaceAt(drive_.plant().Pose().x_m + 0.5, 0));
+  drive_.Run(20);
+  ExpectBlocked(StopReason::kPoseContradiction);
+}
+
+TEST_F(WrongPoseTest, AHeadingThatJumpsBlocks) {
+  DriveTo({6, 0, {}}, 5);
+  RestartOdometryAt(PlaceAt(drive_.plant().Pose().x_m, 0, 0.6));
+  drive_.Run(5);
+  ExpectBlocked(StopReason::kPoseContradiction);
+}
+
+TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.map_from_odom_ = PlaceAt(0.05, 0.05);
+  drive_.Run(2);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+  at_fault_ = drive_.plant().Pose();
+  drive_.map_from_odom_ = PlaceAt(0.05, 1);
+  drive_.Run(20);
+  ExpectBlocked(StopReason::kMapStep);
+  EXPECT_TRUE(drive_.pilot().Status().has_goal);
+  ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
+  drive_.Run(1);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+}
+
+TEST_F(WrongPoseTest, APoseThatCreepsAwayWhileTheTracksStandIsSliding) {
+  drive_.Run(0.5);
+  ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
+  drive_.Run(1);
+  drive_.each_tick_ = [this] {
+    drive_.told_from_true_ = PlaceAt(0, 0.001) * drive_.told_from_true_;
+  };
+  drive_.Run(5);
+  EXPECT_EQ(drive_.pilot().Status().reason, StopReason::kSliding);
+}
+
+TEST_F(WrongPoseTest, ATiltedRoverStops) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
+  drive_.Run(5);
+  ExpectBlocked(StopReason::kTilt);
+}
+
+}  // namespace
+}  // namespace arfm_vo
