@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 BUILD_DIR, SOURCE_DIR, INSTALL_PREFIX = sys.argv[1:4]
+FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
 
 # Loads each launch file of the installed package and resolves the program of each node.
 CHECK_LAUNCH_FILES = """
@@ -18,7 +19,7 @@ import glob, sys
 import roslaunch.config, roslaunch.core, roslaunch.node_args
 files = sorted(glob.glob(sys.argv[1] + "/launch/*.launch"))
 for file in files:
-    arguments = ["bag:=/any.bag", "sequence:=/any"]
+    arguments = ["bag:=" + sys.argv[2], "sequence:=/usr"]
     config = roslaunch.config.load_config_default([(file, arguments)], None, assign_machines=False)
     for node in config.nodes:
         if node.package in ("arfm_vo", "nodelet"):
@@ -68,7 +69,7 @@ class InstallSpaceTest(unittest.TestCase):
 
     def test_launch_files_load_and_their_programs_are_installed(self):
         said = self.run_installed("/usr/bin/python3", "-c", CHECK_LAUNCH_FILES,
-                                  self.installed("share", "arfm_vo"))
+                                  self.installed("share", "arfm_vo"), FIXTURE)
         num_files = len(os.listdir(os.path.join(SOURCE_DIR, "launch")))
         self.assertIn(f"{num_files} launch files", said)
         self.assertIn(self.installed("lib", "arfm_vo", "pose_node"), said)
@@ -89,9 +90,8 @@ class InstallSpaceTest(unittest.TestCase):
         self.assertEqual(self.run_installed(os.path.join(build, "downstream")), "1 m\n")
 
     def test_a_replay_through_the_installed_nodelets_saves_the_trajectory(self):
-        bag = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
         output = os.path.join(self.folder.name, "output")
-        said = self.run_installed("roslaunch", "arfm_vo", "replay.launch", "bag:=" + bag,
+        said = self.run_installed("roslaunch", "arfm_vo", "replay.launch", "bag:=" + FIXTURE,
                                   "rviz:=false", "nodelets:=true", "trajectory_dir:=" + output)
         with open(os.path.join(output, "trajectory.tum")) as file:
             self.assertGreater(len(file.readlines()), 20, said)
