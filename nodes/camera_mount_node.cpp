@@ -18,8 +18,8 @@ struct CameraMountNodeOptions {
   std::string camera_frame;      ///< left optical frame; empty: that of the left camera_info
   std::string base_from_camera;  ///< "x y z yaw pitch roll", m and rad
   bool is_default = false;  ///< nobody asked for this mount: warn, and let tf tell another first
-  double wait_s =
-      0.3;  ///< wall time from the first camera_info that tf gets to tell it, where is_default
+  /// Wall time from the first camera_info that tf gets to tell the mount, where is_default.
+  double wait_s = 0.3;
 
   void Check() const {
     Require(!base_frame.empty(), "base_frame must not be empty");
@@ -111,5 +111,9 @@ class CameraMountNode {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  return arfm_vo::RunNode<arfm_vo::CameraMountNode>(argc, argv, "camera_mount_node");
+  return arfm_vo::RunNode<arfm_vo::CameraMountNode, arfm_vo::CameraMountNodeOptions>(
+      argc, argv, "camera_mount_node", R"(Publishes the camera's place on the rover as a static tf.
+
+in    stereo/left/camera_info: its frame, where camera_frame is empty
+tf    out base_frame -> camera_frame)");
 }

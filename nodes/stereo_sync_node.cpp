@@ -123,5 +123,9 @@ class StereoSyncNode {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  return arfm_vo::RunNode<arfm_vo::StereoSyncNode>(argc, argv, "stereo_sync_node");
+  return arfm_vo::RunNode<arfm_vo::StereoSyncNode, arfm_vo::StereoSyncOptions>(
+      argc, argv, "stereo_sync_node", R"(Makes exact pairs of images whose stamps differ.
+
+in    stereo/left|right/image_rect, stereo/left|right/camera_info
+out   synchronized/left|right/image_rect, synchronized/left|right/camera_info: with the left image's stamp)");
 }

@@ -112,5 +112,10 @@ class TruthPathNode {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  return arfm_vo::RunNode<arfm_vo::TruthPathNode>(argc, argv, "truth_path_node");
+  return arfm_vo::RunNode<arfm_vo::TruthPathNode, arfm_vo::TruthPathOptions>(
+      argc, argv, "truth_path_node", R"(Shows the recorded truth as a path beside the odometry's.
+
+in    stereo/ground_truth (geometry_msgs/PoseStamped), stereo/left/camera_info
+out   path_truth (nav_msgs/Path)
+tf    in reference_frame and base_frame <- camera)");
 }

@@ -92,7 +92,8 @@ void ArfmNode::CheckNotRaw(const StereoMessagePair& pair) const {
       std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0; });
   if (is_distorted && topics_.left_image.find("image_raw") != std::string::npos)
     ROS_WARN(
-        "%s is not rectified by its name, and its camera_info has distortion: give "
+        "%s is raw by its name, and its camera_info has distortion: where it is not rectified, "
+        "give "
         "odometry.launch rectify:=true",
         topics_.left_image.c_str());
 }

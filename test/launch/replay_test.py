@@ -71,25 +71,37 @@ class ReplayTest(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn(self.folder + "/none", console)
 
-    def test_topics_and_frames_of_any_names_are_taken_with_base_from_camera_alone(self):
-        names = {"/stereo/left/image_rect": "/camera/infra1/image_rect_raw",
-                 "/stereo/right/image_rect": "/camera/infra2/image_rect_raw",
-                 "/stereo/left/camera_info": "/camera/infra1/camera_info",
-                 "/stereo/right/camera_info": "/camera/infra2/camera_info"}
+    def replay_renamed(self, left, right, image, frame):
+        """Replays the fixture as the camera of the namespaces `left` and `right` would record it."""
+        names = {"/stereo/left/image_rect": f"{left}/{image}",
+                 "/stereo/right/image_rect": f"{right}/{image}",
+                 "/stereo/left/camera_info": f"{left}/camera_info",
+                 "/stereo/right/camera_info": f"{right}/camera_info"}
 
         def rename(topic, message):
-            message.header.frame_id = "camera_infra1_optical_frame"
+            message.header.frame_id = frame
             return (names[topic], message) if topic in names else None
 
-        self.write_bag("infra.bag", rename)
+        self.write_bag("renamed.bag", rename)
         console = self.replay(
-            "bag:=infra.bag", "left_image:=/camera/infra1/image_rect_raw",
-            "right_image:=/camera/infra2/image_rect_raw", "left_info:=/camera/infra1/camera_info",
-            "right_info:=/camera/infra2/camera_info",
+            "bag:=renamed.bag", f"left_image:={left}/{image}", f"right_image:={right}/{image}",
+            f"left_info:={left}/camera_info", f"right_info:={right}/camera_info",
             "base_from_camera:=0.1 0 0.5 -1.5707963 0 -1.5707963")
         self.assertIn("36 pairs: 36 with a pose", console)
-        self.assertIn("tf base_link <- camera_infra1_optical_frame", console)
+        self.assertIn("tf base_link <- " + frame, console)
         self.assertNotIn("assumed is", console)
+
+    def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
+        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw",
+                            "camera_infra1_optical_frame")
+
+    def test_a_zed_is_replayed_by_its_topics(self):
+        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray",
+                            "zed_left_camera_optical_frame")
+
+    def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
+        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
+                            "camera_gray_left")
 
     def test_the_mount_in_the_tf_of_the_bag_goes_before_the_assumed_one(self):
         from geometry_msgs.msg import TransformStamped
