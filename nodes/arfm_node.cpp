@@ -3,5 +3,9 @@
 #include "arfm_vo/ros/node_main.h"
 
 int main(int argc, char** argv) {
-  return arfm_vo::RunNode<arfm_vo::ArfmNode>(argc, argv, "arfm_node");
+  return arfm_vo::RunNode<arfm_vo::ArfmNode, arfm_vo::ArfmNodeOptions>(
+      argc, argv, "arfm_node", R"(Rectified stereo pairs in, features and stereo points out.
+
+in    stereo/left|right/image_rect, stereo/left|right/camera_info
+out   features (arfm_vo/StereoFrameStamped), /diagnostics)");
 }

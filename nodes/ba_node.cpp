@@ -2,4 +2,12 @@
 
 #include "arfm_vo/ros/node_main.h"
 
-int main(int argc, char** argv) { return arfm_vo::RunNode<arfm_vo::BaNode>(argc, argv, "ba_node"); }
+int main(int argc, char** argv) {
+  return arfm_vo::RunNode<arfm_vo::BaNode, arfm_vo::BaNodeOptions>(
+      argc, argv, "ba_node", R"(Keyframes in, the globally adjusted map out.
+
+in    keyframe
+out   map_update, path_optimized (nav_msgs/Path), landmarks (sensor_msgs/PointCloud2), /diagnostics
+tf    out map_frame -> odom_frame
+srv   ~save_trajectory (std_srvs/Trigger))");
+}

@@ -7,5 +7,11 @@
 int main(int argc, char** argv) {
   // Whoever ends this program leaves a standing rover behind.
   for (const int signal : {SIGTERM, SIGHUP}) ::signal(signal, [](int) { ros::requestShutdown(); });
-  return arfm_vo::RunNode<arfm_vo::ChassisNode>(argc, argv, "chassis_node");
+  return arfm_vo::RunNode<arfm_vo::ChassisNode, arfm_vo::ChassisNodeOptions>(
+      argc, argv, "chassis_node", R"(Drives the tracked chassis to goals by the pose that tf tells.
+
+in    goal (geometry_msgs/PoseStamped), waypoints (nav_msgs/Path), cmd_vel, emergency_stop (std_msgs/Bool), odom
+out   drive_status, goal_report, track_odom (nav_msgs/Odometry), slip, chassis_state, battery, /diagnostics
+tf    in map_frame and odom_frame -> base_frame
+srv   ~start, ~stop, ~cancel, ~clear_errors (std_srvs/Trigger))");
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "arfm_vo/datasets/kitti_sequence.h"
+#include "arfm_vo/ros/node_main.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/stereo_publisher.h"
 
@@ -98,8 +99,14 @@ class KittiPlayer {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "kitti_player_node");
   using namespace arfm_vo;
+  if (TellHelp<PlayerOptions>(
+          argc, argv, "kitti_player_node",
+          R"(Publishes a KITTI folder in its namespace, with the recording's time.
+
+out   /clock, left|right/image_rect, left|right/camera_info, ground_truth (geometry_msgs/PoseStamped))"))
+    return 0;
+  ros::init(argc, argv, "kitti_player_node");
   const ros::NodeHandle node("~");  // outlives what throws: without one nothing is logged
   try {
     KittiPlayer(ReadParameters<PlayerOptions>(node)).Play();

@@ -1,6 +1,15 @@
 #include "arfm_vo/ros/simulator_node.h"
 
+#include "arfm_vo/ros/node_main.h"
+
 int main(int argc, char** argv) {
+  if (arfm_vo::TellHelp<arfm_vo::SimulatorNodeOptions>(
+          argc, argv, "simulator_node",
+          R"(The world around the other nodes: simulated chassis, head, terrain and stereo camera.
+
+in    status, odom, goal_report
+out   /clock, stereo/left|right/image_rect, stereo/left|right/camera_info, base_truth (nav_msgs/Odometry))"))
+    return 0;
   ros::init(argc, argv, "simulator_node");
   const ros::NodeHandle node;  // outlives what throws: without one nothing is logged
   try {

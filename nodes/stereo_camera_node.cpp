@@ -24,5 +24,10 @@ int ListDevices(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "--list") return ListDevices(argc, argv);
-  return arfm_vo::RunNode<arfm_vo::StereoCameraNode>(argc, argv, "stereo_camera_node");
+  return arfm_vo::RunNode<arfm_vo::StereoCameraNode, arfm_vo::StereoCameraNodeOptions>(
+      argc, argv, "stereo_camera_node",
+      R"(Pairs of a V4L2 stereo camera; `stereo_camera_node --list` says what the cameras here can do.
+
+out   left|right/image_raw, left|right/camera_info, /diagnostics
+srv   left|right/set_camera_info)");
 }

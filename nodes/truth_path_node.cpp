@@ -3,6 +3,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <deque>
+#include <optional>
 
 #include "arfm_vo/ros/bounded_path.h"
 #include "arfm_vo/ros/conversions.h"
@@ -21,7 +22,7 @@ constexpr size_t kMaxWaiting = 100;
 struct TruthPathOptions {
   std::string reference_frame = "odom";
   std::string base_frame = "base_link";
-  std::string camera_frame = "left_camera_optical";
+  std::string camera_frame;  ///< left optical frame; empty: that of the left camera_info
   BoundedPathOptions path;
 
   void Check() const { path.Check(); }
@@ -39,19 +40,33 @@ class TruthPathNode {
   TruthPathNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : options_(ReadParameters<TruthPathOptions>(private_node)),
         listener_(buffer_, node),
-        alignment_(buffer_, options_.reference_frame, options_.base_frame, options_.camera_frame),
         path_(options_.path),
         publisher_(node.advertise<nav_msgs::Path>("path_truth", 1, true)),
         truth_(node.subscribe(StereoTopic(node, "ground_truth"), 100, &TruthPathNode::Take, this)),
         timer_(node.createWallTimer(ros::WallDuration(0.1),
-                                    [this](const ros::WallTimerEvent&) { AddWaiting(); })) {}
+                                    [this](const ros::WallTimerEvent&) { AddWaiting(); })) {
+    if (!options_.camera_frame.empty()) {
+      SetCameraFrame(options_.camera_frame);
+      return;
+    }
+    info_ = node.subscribe<sensor_msgs::CameraInfo>(
+        StereoTopic(node, "left/camera_info"), 1,
+        [this](const sensor_msgs::CameraInfoConstPtr& info) {
+          SetCameraFrame(info->header.frame_id);
+          info_.shutdown();
+        });
+  }
 
  private:
+  void SetCameraFrame(const std::string& frame) {
+    alignment_.emplace(buffer_, options_.reference_frame, options_.base_frame, frame);
+  }
+
   void Take(const geometry_msgs::PoseStamped& truth) {
     if (truth.header.stamp < newest_) {  // time jumped back
       waiting_.clear();
       path_.Clear();
-      alignment_.Reset();
+      if (alignment_) alignment_->Reset();
     }
     newest_ = truth.header.stamp;
     waiting_.push_back(truth);
@@ -60,6 +75,7 @@ class TruthPathNode {
 
   /// Adds what tf reaches by now; what lies before that was before the odometry's start.
   void AddWaiting() {
+    if (!alignment_) return;
     bool is_longer = false;
     size_t num_done = 0;
     for (size_t i = 0; i < waiting_.size(); ++i) {
@@ -77,18 +93,18 @@ class TruthPathNode {
   std::optional<Rigid3> Align(const geometry_msgs::PoseStamped& truth) {
     Rigid3 truth_from_camera = ToRigid3(truth.pose);
     truth_from_camera.rotation.normalize();
-    return alignment_.Align(truth.header.stamp, truth_from_camera);
+    return alignment_->Align(truth.header.stamp, truth_from_camera);
   }
 
   const TruthPathOptions options_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
-  TruthAlignment alignment_;
+  std::optional<TruthAlignment> alignment_;
   BoundedPath path_;
   std::deque<geometry_msgs::PoseStamped> waiting_;
   ros::Time newest_;
   ros::Publisher publisher_;
-  ros::Subscriber truth_;
+  ros::Subscriber truth_, info_;
   ros::WallTimer timer_;
 };
 
@@ -96,5 +112,10 @@ class TruthPathNode {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  return arfm_vo::RunNode<arfm_vo::TruthPathNode>(argc, argv, "truth_path_node");
+  return arfm_vo::RunNode<arfm_vo::TruthPathNode, arfm_vo::TruthPathOptions>(
+      argc, argv, "truth_path_node", R"(Shows the recorded truth as a path beside the odometry's.
+
+in    stereo/ground_truth (geometry_msgs/PoseStamped), stereo/left/camera_info
+out   path_truth (nav_msgs/Path)
+tf    in reference_frame and base_frame <- camera)");
 }

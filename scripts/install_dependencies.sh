@@ -3,7 +3,7 @@
 # Usage: scripts/install_dependencies.sh        as root, or as a user who may use sudo
 set -euo pipefail
 
-build=(g++ cmake ninja-build make git ca-certificates catkin ccache)
+build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin ccache)
 # (libstereo-image-proc-dev and libimage-proc-dev hold the package.xml and nodelet lists that roslaunch needs.)
 # libX-msgs-dev holds the headers, ros-X-msgs the .msg files; both are needed.
 ros=(libroscpp-dev ros-message-generation ros-message-runtime
@@ -18,7 +18,8 @@ ros=(libroscpp-dev ros-message-generation ros-message-runtime
 libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev zlib1g-dev libboost-program-options-dev)
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice python3-rostopic rosbash libnodeletlib-tools tf2-tools
-         python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs topic-tools python3-cv-bridge rviz ros-image-view
+         python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
+         python3-diagnostic-msgs topic-tools python3-cv-bridge rviz ros-image-view
          ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher
          ros-camera-calibration python3-image-geometry
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)

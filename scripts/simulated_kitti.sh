@@ -33,7 +33,7 @@ wait "$all"
   echo
   echo "Written by \`scripts/simulated_kitti.sh\`: KITTI's true paths, random landmarks (300 in view, 12 frames a track),"
   echo "0.5 px noise on every coordinate, 20 % outliers; the odometry without its front end. ATE in m. Adjusted: by the"
-  echo "global adjustment, in which the newest 110 keyframes move. NEES of one run: 6 is honest, less is too careful."
+  echo "global adjustment, in which the newest 110 keyframes move. NEES of one run: 6 is consistent, less is too careful."
   echo
   echo "## Without loop closing"
   echo
@@ -55,7 +55,7 @@ wait "$all"
            {printf "| %s | %d | %d | %s | %.1f x | %.1f x | %.1f | %.1f | %s |\n", $1, $5, $14, $11,
             online[$1] / $11, adjusted[$1] / $11, 1000 * $15 / $2, ms[$1], $16}' "$work/all.csv" "$work/loops.csv"
   echo
-  echo "## Honesty of the pose covariance that odom carries"
+  echo "## Consistency (NEES) of the pose covariance that odom carries"
   echo
   echo "Normalised estimation error squared against the first camera, 6 degrees of freedom, over 20 runs of 200 frames."
   echo "Within: frames whose mean over the runs lies within its 95 % bounds, 4.58..7.60. The frames of a run are not"

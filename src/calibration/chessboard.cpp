@@ -1,17 +1,22 @@
 #include "arfm_vo/calibration/chessboard.h"
 
-#include <cmath>
 #include <regex>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+namespace {
+
+constexpr double kMinSquare_m = 0.001, kMaxSquare_m = 1;
+
+}  // namespace
 
 void Chessboard::Check() const {
   Require(columns >= 3 && rows >= 3, "board: needs at least 3x3 inner corners, is " +
                                          std::to_string(columns) + "x" + std::to_string(rows));
-  Require(std::isfinite(square_m) && square_m > 0,
-          "board: square must be positive, is " + std::to_string(square_m));
+  Require(square_m >= kMinSquare_m && square_m <= kMaxSquare_m,
+          "board: the side of a square must be 0.001 to 1 m, is " + std::to_string(square_m) +
+              " m (in mm? then divide by 1000)");
 }
 
 std::vector<cv::Point3f> Chessboard::Corners() const {

@@ -32,11 +32,12 @@ std::optional<Projection> FindProjection(const std::string& path, const std::str
 
 }  // namespace
 
-StereoCamera ReadKittiCalibration(const std::string& path, int width, int height) {
+StereoCamera ReadKittiCalibration(const std::string& path, int left_camera, int width, int height) {
   const std::string content = ReadWholeFile(path);
   const bool is_raw = content.find("P_rect_00:") != std::string::npos;
-  const std::string left_key = is_raw ? "P_rect_00" : "P0";
-  const std::string right_key = is_raw ? "P_rect_01" : "P1";
+  const std::string prefix = is_raw ? "P_rect_0" : "P";
+  const std::string left_key = prefix + std::to_string(left_camera);
+  const std::string right_key = prefix + std::to_string(left_camera + 1);
   const auto left = FindProjection(path, content, left_key);
   const auto right = FindProjection(path, content, right_key);
   Require(left.has_value(), path + ": has no " + left_key);

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 /// Where the parts of a sequence lie; `times` and `poses` may not exist.
 struct Layout {
   fs::path left, right, calibration, times, poses;
+  int left_camera = 0;  ///< 0: grey, 2: colour; the right one is the next
 };
 
 Layout FindLayout(const fs::path& folder) {
@@ -24,10 +25,21 @@ Layout FindLayout(const fs::path& folder) {
   const fs::path full = fs::canonical(folder);
   Layout layout{folder / "image_0", folder / "image_1", folder / "calib.txt", folder / "times.txt",
                 folder / "poses.txt"};
-  if (!fs::exists(layout.left) && fs::exists(folder / "image_00" / "data")) {
-    layout.left = folder / "image_00" / "data";
-    layout.right = folder / "image_01" / "data";
-    layout.times = folder / "image_00" / "timestamps.txt";
+  for (const int camera : {2, 0}) {  // the grey ones go before
+    const std::string left = std::to_string(camera), right = std::to_string(camera + 1);
+    const fs::path raw = folder / ("image_0" + left);
+    if (fs::exists(raw / "data")) {
+      layout.left = raw / "data";
+      layout.right = folder / ("image_0" + right) / "data";
+      layout.times = raw / "timestamps.txt";
+      layout.left_camera = camera;
+    }
+    if (fs::exists(folder / ("image_" + left))) {
+      layout.left = folder / ("image_" + left);
+      layout.right = folder / ("image_" + right);
+      layout.times = folder / "times.txt";
+      layout.left_camera = camera;
+    }
   }
   if (!fs::exists(layout.calibration)) {
     for (const fs::path& place : {folder, full.parent_path()}) {
@@ -80,7 +92,8 @@ KittiSequence::KittiSequence(const std::string& folder, const PairSelection& sel
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
   const cv::Size size = ReadPngSize((layout.left / names[0]).string());
-  camera_ = ReadKittiCalibration(layout.calibration.string(), size.width, size.height);
+  camera_ = ReadKittiCalibration(layout.calibration.string(), layout.left_camera, size.width,
+                                 size.height);
 
   std::vector<double> stamps;
   if (fs::exists(layout.times)) {
@@ -105,7 +118,8 @@ SequencePair KittiSequence::Load(const Frame& frame) {
   const double start_s = GetThreadCpuSeconds();
   SequencePair pair;
   pair.true_world_from_camera = frame.true_world_from_camera;
-  pair.images = {frame.stamp_s, ReadGreyPng(frame.left_path), ReadGreyPng(frame.right_path)};
+  pair.images = {frame.stamp_s, ReadGreyPng(frame.left_path, window_),
+                 ReadGreyPng(frame.right_path, window_)};
   const cv::Size expected(camera_.width, camera_.height);
   const auto check_size = [&](const cv::Mat& image, const std::string& path) {
     Require(image.size() == expected, path + ": is " + std::to_string(image.cols) + "x" +

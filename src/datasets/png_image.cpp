@@ -49,11 +49,11 @@ void CheckChunks(const std::string& bytes, const std::string& path) {
   }
 }
 
-cv::Mat Decode(const std::string& bytes) {
+cv::Mat Decode(const std::string& bytes, int flags) {
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1,
                        const_cast<char*>(bytes.data()));  // imdecode only reads it
   try {
-    return cv::imdecode(buffer, cv::IMREAD_GRAYSCALE);
+    return cv::imdecode(buffer, flags);
   } catch (const cv::Exception&) {
     return {};
   }
@@ -71,14 +71,15 @@ cv::Size ReadPngSize(const std::string& path) {
   return cv::Size(ReadBigEndian(header, 16), ReadBigEndian(header, 20));
 }
 
-cv::Mat ReadGreyPng(const std::string& path) {
+cv::Mat ReadGreyPng(const std::string& path, GreyWindow& window) {
   const std::string bytes = ReadWholeFile(path);
   CheckHeader(bytes, path);
   CheckChunks(bytes, path);
-  Require(bytes[kBitDepthAt] <= 8, path + ": has 16 bits a sample; convert it to 8 bit grey first");
-  const cv::Mat image = Decode(bytes);
+  const bool is_deep = bytes[kBitDepthAt] > 8;
+  const cv::Mat image =
+      Decode(bytes, is_deep ? cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH : cv::IMREAD_GRAYSCALE);
   Require(!image.empty(), path + ": PNG file is corrupted");
-  return image;
+  return is_deep ? window.Apply(image) : image;
 }
 
 }  // namespace arfm_vo

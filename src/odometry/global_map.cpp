@@ -30,7 +30,6 @@ constexpr double kTrackCorrelation = 3;
 constexpr double kContradictionPx = 0.5;
 constexpr int kMaxContradictions = 10;
 
-/// Adjustments come at 2, 3, 4, 6, 9, 13.. keyframes, until half of those that move are new.
 constexpr double kAdjustmentGrowth = 1.5;
 
 /// How sure the motion between two keyframes is when a loop is shared out among them.
@@ -90,6 +89,11 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
                 options_.loops.enabled);
+}
+
+int NextAdjustment(int num_keyframes, int num_moving) {
+  return std::clamp(static_cast<int>(kAdjustmentGrowth * num_keyframes), num_keyframes + 1,
+                    num_keyframes + std::max(1, num_moving / 2));
 }
 
 bool GlobalMap::IsAdjustmentDue() const {
@@ -221,8 +225,7 @@ void GlobalMap::LearnCorrection(const BundleResult& result) {
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
-  next_adjustment_ = std::clamp(static_cast<int>(kAdjustmentGrowth * num_keyframes()),
-                                num_keyframes() + 1, num_keyframes() + options_.NumMoving() / 2);
+  next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
   const bool is_bent = has_new_loops_;
   if (is_bent) BendOntoLoops();

@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/arfm_node.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
 
@@ -20,6 +21,7 @@ void ArfmNodeOptions::Check() const {
 
 ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<ArfmNodeOptions>(private_node)),
+      topics_(ResolveStereoTopics(node)),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
         ++figures_.num_refused;
@@ -38,6 +40,14 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
                                 [this](const ros::WallTimerEvent&) { ReportFigures(); });
 }
 
+ArfmNode::~ArfmNode() {
+  worker_.RunAndWait([this] {
+    TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
+              std::to_string(worker_.num_dropped()) + " dropped, " +
+              std::to_string(figures_.num_refused) + " refused");
+  });
+}
+
 void ArfmNode::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   if (input_) return;
   input_ = std::make_unique<StereoInput>(node, private_node, [this](const StereoMessagePair& pair) {
@@ -51,6 +61,12 @@ void ArfmNode::Disconnect() {
 
 void ArfmNode::ReportFigures() {
   const bool is_idle = !input_;
+  if (is_idle) {
+    input_watch_.Reset();
+  } else {
+    input_watch_.Tell(input_->counts(), topics_);
+    TellDrops(input_->counts().pairs);
+  }
   worker_.Post([this, is_idle, counts = is_idle ? StereoInputCounts() : input_->counts()] {
     figures_.is_idle = is_idle;
     figures_.input = counts;
@@ -59,12 +75,35 @@ void ArfmNode::ReportFigures() {
   });
 }
 
+void ArfmNode::TellDrops(uint32_t num_pairs) {
+  const uint32_t num_dropped = worker_.num_dropped();
+  const bool has_dropped = num_dropped > num_dropped_before_;
+  if (drop_watch_.IsDue(has_dropped ? "drops" : "", ros::WallTime::now().toSec()))
+    ROS_WARN(
+        "%u of %u pairs dropped so far: this computer is too slow for the rate and size of the "
+        "images; lower them",
+        num_dropped, num_pairs);
+  num_dropped_before_ = num_dropped;
+}
+
+void ArfmNode::CheckNotRaw(const StereoMessagePair& pair) const {
+  const std::vector<double>& distortion = pair.left_info->D;
+  const bool is_distorted =
+      std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0; });
+  if (is_distorted && topics_.left_image.find("image_raw") != std::string::npos)
+    ROS_WARN(
+        "%s is raw by its name, and its camera_info has distortion: where it is not rectified, "
+        "give "
+        "odometry.launch rectify:=true",
+        topics_.left_image.c_str());
+}
+
 void ArfmNode::Process(const StereoMessagePair& pair) {
   Stopwatch stopwatch;
   PrepareFrontend(pair);
-  const std::string left_topic = "left/image_rect", right_topic = "right/image_rect";
-  const StereoImages images{pair.left->header.stamp.toSec(), ToGrey(pair.left, left_topic),
-                            ToGrey(pair.right, right_topic)};
+  const StereoImages images{pair.left->header.stamp.toSec(),
+                            ToGrey(pair.left, topics_.left_image, window_),
+                            ToGrey(pair.right, topics_.right_image, window_)};
   StageTimes stages;
   const StereoFrame frame = frontend_->Process(images, &stages);
   Publish(pair, frame, stages);
@@ -84,6 +123,7 @@ void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
   if (frontend_ && camera == camera_ && !is_jump) return;
   frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
   camera_ = camera;
+  CheckNotRaw(pair);
   ROS_INFO("stereo camera %dx%d, focal length %.1f px, baseline %.4f m", camera.width,
            camera.height, camera.fx, camera.baseline_m);
 }
@@ -102,7 +142,7 @@ void ArfmNode::Publish(const StereoMessagePair& pair, const StereoFrame& frame,
 }
 
 void ArfmNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::string obstacle = figures_.input.Explain(figures_.input_before);
+  const std::string obstacle = figures_.input.Explain(figures_.input_before, topics_);
   if (figures_.is_idle)
     status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");
   else if (!figures_.refusal.empty())

@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 
 #include "arfm_vo/base/process_usage.h"
+#include "arfm_vo/ros/console_watch.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/landmark_cloud.h"
 #include "arfm_vo/ros/parameters.h"
@@ -73,9 +74,9 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
 BaNode::~BaNode() {
   if (!trajectory_output_.is_enabled()) return;
   try {
-    ROS_INFO("%s", trajectory_output_.Save(trajectory_.Get()).c_str());
+    TellAtEnd(trajectory_output_.Save(trajectory_.Get()));
   } catch (const std::exception& error) {
-    ROS_ERROR("the keyframes are not saved: %s", error.what());
+    TellAtEnd(std::string("ERROR: the keyframes are not saved: ") + error.what());
   }
 }
 

@@ -111,8 +111,8 @@ std::optional<Rigid3> BagSequence::FindTruth(double stamp_s) const {
                      (stamp_s - before->stamp_s) / gap_s);
 }
 
-cv::Mat BagSequence::MakeGrey(const Image& image, const std::string& topic) const {
-  const cv::Mat grey = ToGrey(image, "topic " + topic);
+cv::Mat BagSequence::MakeGrey(const Image& image, const std::string& topic) {
+  const cv::Mat grey = ToGrey(image, "topic " + topic, window_);
   Require(grey.cols == camera_.width && grey.rows == camera_.height,
           "topic " + topic + ": an image is " + std::to_string(grey.cols) + "x" +
               std::to_string(grey.rows) + ", camera_info says " + std::to_string(camera_.width) +

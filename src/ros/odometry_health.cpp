@@ -1,5 +1,7 @@
 #include "arfm_vo/ros/odometry_health.h"
 
+#include <ros/time.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +24,10 @@ OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
   options.Check();
 }
 
+OdometryHealth::~OdometryHealth() {
+  TellAtEnd("pose_node: " + console_.Totals(num_dropped_, num_refused_));
+}
+
 void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, double ms) {
   RunningMedian row_residual_px(frame.points.size());
   for (const StereoPoint& point : frame.points)
@@ -35,6 +41,9 @@ void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, 
   ++num_pairs_;
   if (!pose.IsTracked()) ++num_lost_;
   rate_.Tick();
+  const auto line = console_.Take(frame, pose, ros::WallTime::now().toSec());
+  if (line && line->is_warning) ROS_WARN("%s", line->text.c_str());
+  if (line && !line->is_warning) ROS_INFO("%s", line->text.c_str());
 }
 
 void OdometryHealth::CountRefused(const std::string& why) {
@@ -71,9 +80,15 @@ void OdometryHealth::ReportOdometry(Status& status) {
   status.addf("time of the last pair (ms)", "%.1f", ms_);
 }
 
-void OdometryHealth::ReportCalibration(Status& status) const {
+void OdometryHealth::ReportCalibration(Status& status) {
   const double residual_px = row_residual_px_.Median();
-  if (residual_px >= options_.row_residual_error_px)
+  const bool is_wrong = residual_px >= options_.row_residual_error_px;
+  if (calibration_watch_.IsDue(is_wrong ? "rows" : "", ros::WallTime::now().toSec()))
+    ROS_WARN(
+        "the rows of left and right differ by %.2f px: the images are not rectified "
+        "(rectify:=true), or the calibration is wrong (calibrate_stereo)",
+        residual_px);
+  if (is_wrong)
     status.summaryf(DiagnosticStatus::ERROR, "rows differ by %.2f px: calibrate the cameras",
                     residual_px);
   else if (residual_px >= options_.row_residual_warn_px)

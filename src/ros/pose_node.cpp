@@ -50,9 +50,9 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
 PoseNode::~PoseNode() {
   if (!trajectory_output_.is_enabled()) return;
   try {
-    ROS_INFO("%s", Save().c_str());
+    TellAtEnd(Save());
   } catch (const std::exception& error) {
-    ROS_ERROR("the trajectory is not saved: %s", error.what());
+    TellAtEnd(std::string("ERROR: the trajectory is not saved: ") + error.what());
   }
 }
 
@@ -109,8 +109,8 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
   if (!AcceptStamp(message.header.stamp)) return;
   const StereoCamera camera = FromMessage(message.camera);
   const StereoFrame frame = FromMessage(message);
-  const StereoImages images{frame.stamp_s, ToGrey(left, "left/image_rect"),
-                            ToGrey(right, "right/image_rect")};
+  const StereoImages images{frame.stamp_s, ToGrey(left, "left/image_rect", window_),
+                            ToGrey(right, "right/image_rect", window_)};
   images.Check();
   Require(images.left.cols == camera.width && images.left.rows == camera.height,
           "left/image_rect does not have the size that features tells of the camera");

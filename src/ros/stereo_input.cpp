@@ -3,7 +3,6 @@
 #include <ros/names.h>
 
 #include <boost/bind/bind.hpp>
-#include <cmath>
 
 namespace arfm_vo {
 namespace {
@@ -13,30 +12,21 @@ constexpr int kQueueSize = 8;
 }  // namespace
 
 std::string StereoTopic(const ros::NodeHandle& node, const std::string& name) {
-  return ros::names::clean(node.resolveName("stereo") + "/" + name);
+  return node.resolveName(ros::names::clean(node.resolveName("stereo") + "/" + name));
 }
 
-std::string StereoInputCounts::Explain(const StereoInputCounts& before) const {
-  if (pairs > before.pairs) return "";
-  std::string missing;
-  const auto note = [&](uint32_t count, uint32_t count_before, const char* name) {
-    if (count == count_before) missing += (missing.empty() ? "" : ", ") + std::string(name);
-  };
-  note(left, before.left, "left/image_rect");
-  note(right, before.right, "right/image_rect");
-  note(left_info, before.left_info, "left/camera_info");
-  note(right_info, before.right_info, "right/camera_info");
-  if (!missing.empty()) return "no messages on " + missing;
-  if (stamp_difference_s != 0)
-    return "left and right have different stamps (" +
-           std::to_string(std::lround(std::abs(stamp_difference_s) * 1e6)) +
-           " us apart): synchronise the cameras";
-  return "images and camera_info have different stamps";
+StereoTopics ResolveStereoTopics(const ros::NodeHandle& node) {
+  return {StereoTopic(node, "left/image_rect"), StereoTopic(node, "right/image_rect"),
+          StereoTopic(node, "left/camera_info"), StereoTopic(node, "right/camera_info"),
+          StereoTopic(node, "ground_truth")};
 }
 
 StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
                          Callback callback)
-    : callback_(std::move(callback)), transport_(node), synchronizer_(Policy(kQueueSize)) {
+    : callback_(std::move(callback)),
+      topics_(ResolveStereoTopics(node)),
+      transport_(node),
+      synchronizer_(Policy(kQueueSize)) {
   synchronizer_.connectInput(left_, right_, left_info_, right_info_);
   using namespace boost::placeholders;
   synchronizer_.registerCallback(boost::bind<void>(
@@ -61,10 +51,10 @@ StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_no
 
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
-  left_.subscribe(transport_, StereoTopic(node, "left/image_rect"), kQueueSize, hints);
-  right_.subscribe(transport_, StereoTopic(node, "right/image_rect"), kQueueSize, hints);
-  left_info_.subscribe(node, StereoTopic(node, "left/camera_info"), kQueueSize, no_delay);
-  right_info_.subscribe(node, StereoTopic(node, "right/camera_info"), kQueueSize, no_delay);
+  left_.subscribe(transport_, topics_.left_image, kQueueSize, hints);
+  right_.subscribe(transport_, topics_.right_image, kQueueSize, hints);
+  left_info_.subscribe(node, topics_.left_info, kQueueSize, no_delay);
+  right_info_.subscribe(node, topics_.right_info, kQueueSize, no_delay);
 }
 
 }  // namespace arfm_vo

@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/trajectory_output.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "arfm_vo/base/check.h"
@@ -15,9 +16,15 @@ std::string TrajectoryOutput::Save(const Trajectory& trajectory) const {
   const std::string suffix = run_ == 1 ? "" : "_" + std::to_string(run_);
   const std::string kitti = directory / ("poses" + suffix + ".txt");
   const std::string tum = directory / ("trajectory" + suffix + ".tum");
+  std::string tracked;
+  for (const TrajectoryPose& pose : trajectory) tracked += pose.is_tracked ? "1\n" : "0\n";
   WriteWholeFile(kitti, FormatKitti(trajectory));
+  WriteWholeFile(directory / ("tracked" + suffix + ".txt"), tracked);
   WriteWholeFile(tum, FormatTum(trajectory));
-  return std::to_string(trajectory.size()) + " poses saved in " + kitti + " and " + tum;
+  const auto num_lost = std::count_if(trajectory.begin(), trajectory.end(),
+                                      [](const TrajectoryPose& pose) { return !pose.is_tracked; });
+  return std::to_string(trajectory.size()) + " poses saved in " + kitti +
+         (num_lost > 0 ? " (" + std::to_string(num_lost) + " interpolated)" : "") + " and " + tum;
 }
 
 }  // namespace arfm_vo

@@ -29,12 +29,13 @@ const std::string& CameraMount::CameraFrame(const std::string& image_frame) cons
 
 std::optional<Rigid3> CameraMount::LookUp(const std::string& camera_frame,
                                           const ros::Time& stamp) const {
+  const std::string name = "tf " + options_.base_frame + " <- " + camera_frame;
   try {
     const geometry_msgs::TransformStamped transform =
         buffer_.lookupTransform(options_.base_frame, camera_frame, stamp);
-    return FromMessage(transform.transform, "tf " + options_.base_frame + " <- " + camera_frame);
+    return FromMessage(transform.transform, name);
   } catch (const tf2::TransformException& error) {
-    error_ = error.what();
+    error_ = name + ": " + error.what();
   } catch (const std::invalid_argument& error) {
     error_ = error.what();
   }

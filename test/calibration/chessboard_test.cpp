@@ -25,7 +25,7 @@ TEST(Chessboard, ParsesItsSize) {
 TEST(Chessboard, CheckRefusesTinyBoardsAndBadSquares) {
   EXPECT_NO_THROW((Chessboard{3, 3, 0.01}.Check()));
   EXPECT_THROW((Chessboard{2, 9, 0.1}.Check()), std::invalid_argument);
-  for (const double square : {0.0, -0.1, double(NAN), double(INFINITY)})
+  for (const double square : {0.0, -0.1, 25.0, 0.0005, double(NAN), double(INFINITY)})
     EXPECT_THROW((Chessboard{9, 6, square}.Check()), std::invalid_argument) << square;
 }
 

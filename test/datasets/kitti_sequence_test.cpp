@@ -115,6 +115,31 @@ TEST(KittiSequence, ColourImagesAreTurnedToGrey) {
   EXPECT_NEAR(pair->images.left.at<uint8_t>(0, 0), 60, 1);  // 0.299 * 200
 }
 
+TEST(KittiSequence, TakesTheColourCamerasWhereTheGreyOnesAreNotThere) {
+  const SequenceFolder folder(2);
+  fs::rename(folder.File("image_0"), folder.File("image_2"));
+  fs::rename(folder.File("image_1"), folder.File("image_3"));
+  folder.Write("calib.txt", folder.Calibration("-350") +
+                                "P2: 700 0 8 42 0 700 6 0 0 0 1 0\n"
+                                "P3: 700 0 8 -238 0 700 6 0 0 0 1 0\n");
+  KittiSequence sequence(folder.Path());
+  EXPECT_EQ(sequence.camera().baseline_m, 0.4);
+  EXPECT_EQ(sequence.size(), 2);
+}
+
+TEST(KittiSequence, TakesTheColourCamerasOfRawData) {
+  const SequenceFolder folder(2);
+  for (const auto& [from, to] : {std::pair("image_0", "image_02"), {"image_1", "image_03"}}) {
+    fs::create_directory(folder.File(to));
+    fs::rename(folder.File(from), folder.File(std::string(to) + "/data"));
+  }
+  fs::remove(folder.File("calib.txt"));
+  folder.Write("calib_cam_to_cam.txt",
+               "P_rect_00: 1\nP_rect_02: 700 0 8 42 0 700 6 0 0 0 1 0\n"
+               "P_rect_03: 700 0 8 -238 0 700 6 0 0 0 1 0\n");
+  EXPECT_EQ(KittiSequence(folder.Path()).camera().baseline_m, 0.4);
+}
+
 TEST(KittiSequenceErrors, MissingFolders) {
   const SequenceFolder folder(1);
   EXPECT_EQ(ErrorOf(folder.File("nowhere")), folder.File("nowhere") + ": no such folder");

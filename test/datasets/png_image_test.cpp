@@ -24,7 +24,7 @@ class PngImageTest : public testing::Test {
   std::string ErrorOf(const std::string& bytes) {
     WriteWholeFile(path_, bytes);
     try {
-      ReadGreyPng(path_);
+      ReadGreyPng(path_, window_);
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, path_.size()), path_);
       return std::string(error.what()).substr(path_.size());
@@ -35,11 +35,12 @@ class PngImageTest : public testing::Test {
   const std::string path_ =
       (std::filesystem::temp_directory_path() / "arfm_vo_png_image_test.png").string();
   std::string bytes_;
+  GreyWindow window_;
 };
 
 TEST_F(PngImageTest, ReadsPixelsAndSize) {
   EXPECT_EQ(ReadPngSize(path_), cv::Size(50, 40));
-  const cv::Mat image = ReadGreyPng(path_);
+  const cv::Mat image = ReadGreyPng(path_, window_);
   ASSERT_EQ(image.type(), CV_8UC1);
   EXPECT_EQ(image.at<uint8_t>(0, 15), 225);
 }
@@ -69,10 +70,13 @@ TEST_F(PngImageTest, OtherFilesAreNoPng) {
   EXPECT_THROW(ReadPngSize(path_), std::invalid_argument);
 }
 
-TEST_F(PngImageTest, RefusesSixteenBits) {
-  cv::imwrite(path_, cv::Mat(4, 4, CV_16UC1, cv::Scalar(3000)));
-  EXPECT_EQ(ErrorOf(ReadWholeFile(path_)),
-            ": has 16 bits a sample; convert it to 8 bit grey first");
+TEST_F(PngImageTest, SixteenBitsASampleGoThroughTheWindow) {
+  for (const int type : {CV_16UC1, CV_16UC3}) {
+    cv::imwrite(path_, cv::Mat(4, 4, type, cv::Scalar::all(3200)));
+    const cv::Mat image = ReadGreyPng(path_, window_);
+    ASSERT_EQ(image.type(), CV_8UC1);
+    EXPECT_EQ(image.at<uint8_t>(2, 2), 200);  // 3200 of 4096
+  }
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ class World {
     broadcaster_.sendTransform(Transform("odom", "base_link", pose));
     OdometryStatus status;
     status.header.stamp = ros::Time::now();
-    status.world = 1;
+    status.epoch = 1;
     odometry_status_.publish(status);
   }
   nav_msgs::Odometry Odometry(const Rigid3& pose) const {

@@ -8,6 +8,7 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_listener.h>
@@ -207,21 +208,31 @@ TEST_F(OdometryChain, TheSamePairAgainIsPassedOver) {
 }
 
 TEST_F(OdometryChain, SaysThatCameraInfoIsMissing) {
+  Inbox<rosgraph_msgs::Log> console("/rosout");
   const ros::Publisher left = node_.advertise<sensor_msgs::Image>("stereo/left/image_rect", 1);
   WaitUntil([&] { return left.getNumSubscribers() > 0; }, "a subscriber of left/image_rect");
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60);
   const auto is_told = [&] {
     for (const auto& array : diagnostics_.all())
       for (const auto& status : array.status)
-        if (status.message.find("left/camera_info") != std::string::npos) return true;
+        if (status.message.find("/stereo/left/camera_info") != std::string::npos) return true;
     return false;
   };
-  while (!is_told() && ros::WallTime::now() < end) {
+  const auto is_warned = [&] {
+    for (const rosgraph_msgs::Log& line : console.all())
+      if (line.level == rosgraph_msgs::Log::WARN &&
+          line.msg.find("no messages on /stereo/right/image_rect, /stereo/left/camera_info") !=
+              std::string::npos)
+        return true;
+    return false;
+  };
+  while (!(is_told() && is_warned()) && ros::WallTime::now() < end) {
     left.publish(MakePair(0).left);
     ros::WallDuration(0.05).sleep();
     ros::spinOnce();
   }
   EXPECT_TRUE(is_told());
+  EXPECT_TRUE(is_warned());
 }
 
 TEST_F(OdometryChain, RefusesWrongImagesAndGoesOn) {

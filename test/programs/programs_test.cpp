@@ -236,5 +236,27 @@ TEST(EvaluateTrajectory, PrintsTheErrorsAndSaysWhatItCompares) {
   EXPECT_EQ(RunProgram(folder, program).status, 2);
 }
 
+TEST(EvaluateTrajectory, ComparesTumFilesByTheirStamps) {
+  const SequenceFolder folder(0);
+  std::string truth = "# stamp x y z qx qy qz qw\n", estimate;
+  for (int i = 0; i < 61; ++i) {
+    // The true world is another one, and every second true pose is missing.
+    if (i % 2 == 0)
+      truth += std::to_string(100.001 + i) + " 5 6 " + std::to_string(7 + i) + " 0 0 0 1\n";
+    estimate += std::to_string(100 + i) + " 0 0 " + std::to_string(1.02 * i) + " 0 0 0 1\n";
+  }
+  folder.Write("truth.tum", truth);
+  folder.Write("estimate.tum", estimate);
+  const std::string program = "evaluate_trajectory " + folder.File("estimate.tum") + " ";
+  const Outcome outcome = RunProgram(folder, program + folder.File("truth.tum"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_THAT(outcome.error, HasSubstr("30 of 61 poses"));
+  EXPECT_EQ(ReadLines(outcome.out)["frames"], 31);
+  EXPECT_NEAR(ReadLines(outcome.out)["end_error_percent"], 2, 1e-4);
+  const Outcome mixed = RunProgram(folder, program + folder.File("poses.txt"));
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_THAT(mixed.error, HasSubstr("one is a TUM file"));
+}
+
 }  // namespace
 }  // namespace arfm_vo

@@ -21,36 +21,48 @@ sensor_msgs::ImagePtr MakeImage(const std::string& encoding, int bytes_a_pixel, 
   return image;
 }
 
-TEST(ImageConversion, Mono8IsSharedNotCopied) {
+class ImageConversion : public testing::Test {
+ protected:
+  GreyWindow window;
+};
+
+TEST_F(ImageConversion, Mono8IsSharedNotCopied) {
   const auto image = MakeImage("mono8", 1, 77);
-  const cv::Mat grey = ToGrey(image, "left");
+  const cv::Mat grey = ToGrey(image, "left", window);
   EXPECT_EQ(grey.data, image->data.data());
   EXPECT_EQ(grey.size(), cv::Size(8, 6));
   EXPECT_EQ(grey.type(), CV_8UC1);
 }
 
-TEST(ImageConversion, ColourAndDeepImagesBecomeGrey) {
+TEST_F(ImageConversion, ColourAndDeepImagesBecomeGrey) {
   for (const auto& [encoding, bytes] :
        {std::pair("bgr8", 3), {"rgb8", 3}, {"bgra8", 4}, {"mono16", 2}, {"bayer_rggb8", 1}}) {
-    const cv::Mat grey = ToGrey(MakeImage(encoding, bytes, 77), "left");
+    const cv::Mat grey = ToGrey(MakeImage(encoding, bytes, 77), "left", window);
     ASSERT_EQ(grey.type(), CV_8UC1) << encoding;
     EXPECT_NEAR(grey.at<uint8_t>(3, 4), 77, 1) << encoding;
   }
 }
 
-TEST(ImageConversion, RefusesWhatIsNoPictureByTopic) {
-  EXPECT_INVALID(ToGrey(MakeImage("32FC1", 4, 0), "/stereo/left/image_rect"),
+TEST_F(ImageConversion, TwelveBitsInSixteenAreNotDark) {
+  const cv::Mat grey =
+      ToGrey(MakeImage("mono16", 2, 8), "left", window);  // 0x0808, 128.5 / 256 of 12 bits
+  EXPECT_EQ(grey.at<uint8_t>(3, 4), 128);
+}
+
+TEST_F(ImageConversion, RefusesWhatIsNoPictureByTopic) {
+  EXPECT_INVALID(ToGrey(MakeImage("32FC1", 4, 0), "/stereo/left/image_rect", window),
                  "/stereo/left/image_rect: cannot make a grey image from encoding \"32FC1\"");
 }
 
-TEST(ImageConversion, RefusesAnImageThatIsEmptyOrTooShort) {
-  EXPECT_INVALID(ToGrey(boost::make_shared<sensor_msgs::Image>(), "left"), "left: the image is");
+TEST_F(ImageConversion, RefusesAnImageThatIsEmptyOrTooShort) {
+  EXPECT_INVALID(ToGrey(boost::make_shared<sensor_msgs::Image>(), "left", window),
+                 "left: the image is");
   const auto image = MakeImage("mono8", 1, 77);
   image->data.pop_back();
-  EXPECT_INVALID(ToGrey(image, "left"), "left: the image is malformed");
+  EXPECT_INVALID(ToGrey(image, "left", window), "left: the image is malformed");
   const auto narrow = MakeImage("mono8", 1, 77);
   narrow->step = 2;
-  EXPECT_INVALID(ToGrey(narrow, "left"), "left: the image is malformed");
+  EXPECT_INVALID(ToGrey(narrow, "left", window), "left: the image is malformed");
 }
 
 }  // namespace

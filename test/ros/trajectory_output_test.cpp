@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/odometry/trajectory_files.h"
 #include "ros/expect_throw.h"
 
@@ -33,6 +34,13 @@ TEST_F(TrajectoryOutputTest, WritesBothFormatsIntoAFolderThatItMakes) {
   std::string line;
   std::getline(kitti, line);
   EXPECT_EQ(line.substr(0, 1), "1");
+}
+
+TEST_F(TrajectoryOutputTest, InterpolatedPosesAreMarked) {
+  const Trajectory trajectory{{1.5, Rigid3(), true}, {2.5, Rigid3(), false}, {3.5, Rigid3(), true}};
+  EXPECT_NE(TrajectoryOutput(folder_).Save(trajectory).find("(1 interpolated)"), std::string::npos);
+  EXPECT_EQ(ReadWholeFile(folder_ / "tracked.txt"), "1\n0\n1\n");
+  EXPECT_EQ(ReadTumTrajectory(folder_ / "trajectory.tum").size(), 2u);
 }
 
 TEST_F(TrajectoryOutputTest, AFurtherRunDoesNotOverwriteTheFirst) {

@@ -9,9 +9,9 @@ namespace arfm_vo {
 /// A flat calibration board. The counts are of its inner corners, where four squares meet.
 struct Chessboard {
   int columns = 20, rows = 10;
-  double square_m = 0.10;  ///< side of a square; lengths of the calibration come in its unit
+  double square_m = 0.10;  ///< side of a square, m
 
-  /// Throws std::invalid_argument unless both counts are at least 3 and the square is positive.
+  /// Throws std::invalid_argument unless both counts are at least 3 and the square is 1 mm to 1 m.
   void Check() const;
   cv::Size Size() const { return {columns, rows}; }
   int NumCorners() const { return columns * rows; }

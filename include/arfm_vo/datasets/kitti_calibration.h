@@ -6,10 +6,11 @@
 
 namespace arfm_vo {
 
-/// The grey cameras of a KITTI calibration file: projection matrices `P0:` and `P1:` (odometry) or
-/// `P_rect_00:` and `P_rect_01:` (raw data), 12 numbers each. Throws std::invalid_argument naming
-/// file and key where one is missing or stands twice, is not 12 finite numbers, where the two are
-/// not a rectified pair, or the baseline is not in (0, 10) m. `width` and `height` are those given.
-StereoCamera ReadKittiCalibration(const std::string& path, int width, int height);
+/// Camera `left` (0: grey, 2: colour) and the next of a KITTI calibration file: projection matrices
+/// such as `P0:` and `P1:` (odometry) or `P_rect_00:` and `P_rect_01:` (raw data), 12 numbers each.
+/// The frame is that of the left of the two. Throws std::invalid_argument naming file and key where
+/// one is missing or stands twice, is not 12 finite numbers, where the two are not a rectified
+/// pair, or the baseline is not in (0, 10) m. `width` and `height` are those given.
+StereoCamera ReadKittiCalibration(const std::string& path, int left, int width, int height);
 
 }  // namespace arfm_vo

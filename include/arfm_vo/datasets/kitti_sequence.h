@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "arfm_vo/datasets/stereo_sequence.h"
+#include "arfm_vo/image/grey_window.h"
 
 namespace arfm_vo {
 
-/// A folder of a KITTI stereo sequence with grey images, in one of the layouts
+/// A folder of a KITTI stereo sequence, in one of the layouts
 ///   odometry   image_0/000000.png.. image_1/.. calib.txt [times.txt] [poses.txt]
 ///              (of the official sequences/NN also ../../poses/NN.txt)
 ///   raw, sync  image_00/data/0000000000.png.. image_01/data/.. [image_00/timestamps.txt]
 ///              calib_cam_to_cam.txt, here or in the folder above
+/// Where the grey cameras 0 and 1 are not there, the colour cameras 2 and 3 (image_2, image_02 ..).
 /// Without times the pairs are 0.1 s apart.
 class KittiSequence : public StereoSequence {
  public:
@@ -46,6 +48,7 @@ class KittiSequence : public StereoSequence {
 
   Loading loading_;
   StereoCamera camera_;
+  GreyWindow window_;  ///< of whoever loads; never two at a time
   std::vector<Frame> frames_;
   size_t num_started_ = 0;
   std::atomic<double> loading_cpu_s_ = 0;

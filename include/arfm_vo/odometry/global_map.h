@@ -42,6 +42,10 @@ struct GlobalMapOptions {
   }
 };
 
+/// The number of keyframes at which an adjustment is due after one at `num_keyframes`: 2, 3, 4, 6,
+/// 9, 13.., until half of the `num_moving` are new.
+int NextAdjustment(int num_keyframes, int num_moving);
+
 /// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
 /// Adjustments find the stereo correction too until it is known better than any single observation
 /// is trusted; from then on it is held, and learnt anew only where the rows contradict it.

@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/console_watch.h"
 #include "arfm_vo/ros/stereo_input.h"
 #include "arfm_vo/ros/wall_rate.h"
 #include "arfm_vo/ros/worker.h"
@@ -33,6 +35,8 @@ class ArfmNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter.
   ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  /// Tells how many pairs came on the console.
+  ~ArfmNode();
 
  private:
   /// How the pairs since the start fared.
@@ -49,15 +53,23 @@ class ArfmNode {
   void Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
   void Disconnect();
   void ReportFigures();
+  void TellDrops(uint32_t num_pairs);
   // On the worker's thread:
   void Process(const StereoMessagePair& pair);
+  void CheckNotRaw(const StereoMessagePair& pair) const;
   void PrepareFrontend(const StereoMessagePair& pair);
   void Publish(const StereoMessagePair& pair, const StereoFrame& frame, const StageTimes& stages);
   void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const ArfmNodeOptions options_;
+  const StereoTopics topics_;
+  // Of the thread that calls back:
+  StereoInputWatch input_watch_;
+  ConsoleWatch drop_watch_;
+  uint32_t num_dropped_before_ = 0;
   // Of the worker's thread:
   StereoCamera camera_;
+  GreyWindow window_;
   std::unique_ptr<StereoFrontend> frontend_;
   ros::Time last_stamp_;
   Figures figures_;

@@ -11,6 +11,7 @@
 
 #include "arfm_vo/datasets/stamp_pairing.h"
 #include "arfm_vo/datasets/stereo_sequence.h"
+#include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/ros/stereo_messages.h"
 
 namespace arfm_vo {
@@ -45,7 +46,7 @@ class BagSequence : public StereoSequence {
   void ReadTruth();
   std::optional<std::pair<Image, Image>> ReadPair();
   std::optional<SequencePair> ReadSelectedPair();
-  cv::Mat MakeGrey(const Image& image, const std::string& topic) const;
+  cv::Mat MakeGrey(const Image& image, const std::string& topic);
   std::optional<Rigid3> FindTruth(double stamp_s) const;
 
   std::string path_;
@@ -53,6 +54,7 @@ class BagSequence : public StereoSequence {
   PairSelection selection_;
   rosbag::Bag bag_;
   StereoCamera camera_;
+  GreyWindow window_;
   std::vector<StampedPose> truth_;  ///< by stamp
   std::unique_ptr<rosbag::View> images_;
   rosbag::View::iterator next_;

@@ -15,7 +15,7 @@ class EpochReader {
   uint32_t Read(const ros::MessageEvent<const OdometryStatus>& event);
 
  private:
-  static uint32_t NumberIn(const OdometryStatus& status) { return status.world; }
+  static uint32_t NumberIn(const OdometryStatus& status) { return status.epoch; }
 
   uint32_t epoch_ = 0, number_ = 0;
   boost::shared_ptr<ros::M_string> connection_;

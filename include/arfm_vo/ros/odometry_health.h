@@ -6,6 +6,7 @@
 
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/ros/odometry_console.h"
 #include "arfm_vo/ros/running_median.h"
 #include "arfm_vo/ros/scale_check.h"
 #include "arfm_vo/ros/wall_rate.h"
@@ -30,12 +31,14 @@ struct OdometryHealthOptions {
   }
 };
 
-/// What pose_node tells in its diagnostics.
+/// What pose_node tells in its diagnostics and on the console.
 class OdometryHealth {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   explicit OdometryHealth(const OdometryHealthOptions& options);
+  /// Tells the totals on the console.
+  ~OdometryHealth();
 
   void Count(const StereoFrame& frame, const SessionUpdate& pose, double ms);
   void CountRefused(const std::string& why);
@@ -44,12 +47,14 @@ class OdometryHealth {
   /// After a jump of time.
   void Clear();
 
-  void ReportOdometry(Status& status);           ///< ERROR while lost
-  void ReportCalibration(Status& status) const;  ///< row residual
-  void ReportScale(Status& status) const;        ///< against the tracks, where they are known
+  void ReportOdometry(Status& status);     ///< ERROR while lost
+  void ReportCalibration(Status& status);  ///< row residual
+  void ReportScale(Status& status) const;  ///< against the tracks, where they are known
 
  private:
   OdometryHealthOptions options_;
+  OdometryConsole console_;
+  ConsoleWatch calibration_watch_;
   RunningMedian row_residual_px_;
   ScaleCheck scale_;
   WallRate rate_;

@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/learned_calibration.h"
 #include "arfm_vo/ros/odometry_health.h"
@@ -79,6 +80,7 @@ class PoseNode {
   std::unique_ptr<Session> session_;
   OdometryHealth health_;
   LearnedCalibration learned_;
+  GreyWindow window_;
   ros::Time last_stamp_;
   uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;
   diagnostic_updater::Updater diagnostics_;

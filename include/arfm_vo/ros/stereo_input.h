@@ -8,13 +8,24 @@
 #include <sensor_msgs/Image.h>
 
 #include <functional>
+#include <set>
 #include <string>
+
+#include "arfm_vo/ros/console_watch.h"
+#include "arfm_vo/ros/stereo_messages.h"
 
 namespace arfm_vo {
 
 /// The name of a topic of the rectified camera such as "left/image_rect": in the namespace
 /// `stereo`, which may be remapped (stereo:=/my_camera), as stereo_image_proc's viewers have it.
+/// The whole name may be remapped as well.
 std::string StereoTopic(const ros::NodeHandle& node, const std::string& name);
+
+/// The same of all of them.
+StereoTopics ResolveStereoTopics(const ros::NodeHandle& node);
+
+/// The names of all topics that somebody publishes, by the master; empty where it does not answer.
+std::set<std::string> ListPublishedTopics();
 
 /// A rectified pair as it came.
 struct StereoMessagePair {
@@ -28,9 +39,27 @@ struct StereoInputCounts {
   uint32_t pairs = 0;
   double stamp_difference_s = 0;  ///< left to right, of the newest images
 
-  /// What keeps the messages that came since `before` from making pairs, in words; empty where they
-  /// do make pairs.
-  std::string Explain(const StereoInputCounts& before) const;
+  /// What keeps the messages that came since `before` from making pairs, with the names in
+  /// `topics`; empty where they do make pairs.
+  std::string Explain(const StereoInputCounts& before, const StereoTopics& topics) const;
+
+  /// What to do about it, by the topics that are `published`; empty where there is nothing to say.
+  std::string Remedy(const StereoInputCounts& before, const StereoTopics& topics,
+                     const std::set<std::string>& published) const;
+};
+
+/// Tells on the console what keeps pairs from coming, and what to do about it; called once a
+/// second.
+class StereoInputWatch {
+ public:
+  void Tell(const StereoInputCounts& counts, const StereoTopics& topics);
+  /// Nobody listens: what came is forgotten.
+  void Reset() { before_ = {}; }
+
+ private:
+  ConsoleWatch watch_;
+  StereoInputCounts before_;
+  ros::Time time_before_;
 };
 
 /// Subscribes to both eyes' images and camera_info and pairs those of exactly one stamp.
@@ -42,6 +71,7 @@ class StereoInput {
 
   /// Of the thread that the callbacks run on.
   const StereoInputCounts& counts() const { return counts_; }
+  const StereoTopics& topics() const { return topics_; }
 
  private:
   using Image = sensor_msgs::Image;
@@ -49,6 +79,7 @@ class StereoInput {
   using Policy = message_filters::sync_policies::ExactTime<Image, Image, Info, Info>;
 
   Callback callback_;
+  const StereoTopics topics_;
   StereoInputCounts counts_;
   ros::Time left_stamp_, right_stamp_;
   image_transport::ImageTransport transport_;

@@ -6,9 +6,11 @@
 
 namespace arfm_vo {
 
-/// Writes DIR/poses.txt (KITTI) and DIR/trajectory.tum, making DIR; files of the second and later
-/// runs are called poses_2.txt and so on. Each file is written whole or not at all. Throws
-/// std::system_error naming the file.
+/// Writes DIR/poses.txt (KITTI, lost pairs interpolated), DIR/tracked.txt (a line for each of
+/// poses.txt: 1 where the pair was tracked, 0 where its pose is interpolated) and
+/// DIR/trajectory.tum (tracked pairs only), making DIR; files of the second and later runs are
+/// called poses_2.txt and so on. Each file is written whole or not at all. Throws std::system_error
+/// naming the file.
 class TrajectoryOutput {
  public:
   /// `directory` may be empty: then there is nowhere to write to.

@@ -45,7 +45,7 @@ class CameraMount {
   bool IsSlewing(const std::string& image_frame, const ros::Time& stamp,
                  const Rigid3& base_from_camera) const;
 
-  /// Why the last lookup failed, in tf's words.
+  /// Why the last lookup failed: the frames and tf's words.
   const std::string& error() const { return error_; }
 
  private:

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace arfm_vo {
+
+/// ROS_INFO also while the node ends, when rosconsole prints nothing any more.
+inline void TellAtEnd(const std::string& text) {
+  if (ros::ok()) {
+    ROS_INFO("%s", text.c_str());
+  } else {
+    std::printf("[ INFO] %s\n", text.c_str());
+    std::fflush(stdout);
+  }
+}
+
+/// Decides when a problem that is looked for again and again is told on the console: when it has
+/// lasted for `kPatience_s`, and then every `kRepeat_s` for as long as it lasts.
+class ConsoleWatch {
+ public:
+  static constexpr double kPatience_s = 2, kRepeat_s = 10;
+
+  /// Whether to tell `problem` now; empty: there is none. `now_s` is any steady time.
+  bool IsDue(const std::string& problem, double now_s) {
+    if (problem.empty()) since_s_.reset();
+    if (problem.empty()) return false;
+    if (!since_s_) since_s_ = now_s;
+    if (now_s - *since_s_ < kPatience_s || (told_s_ && now_s - *told_s_ < kRepeat_s)) return false;
+    told_s_ = now_s;
+    return true;
+  }
+
+ private:
+  std::optional<double> since_s_, told_s_;
+};
+
+}  // namespace arfm_vo

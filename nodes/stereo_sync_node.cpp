@@ -1,0 +1,131 @@
+// Makes exact pairs of images whose stamps differ: what comes on left|right/image_rect and
+// camera_info of the namespace `stereo` goes out below `synchronized`, all with the stamp of the
+// left image.
+#include <boost/make_shared.hpp>
+
+#include "arfm_vo/datasets/stamp_pairing.h"
+#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/stereo_input.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kQueueSize = 8;
+
+struct StereoSyncOptions {
+  double max_skew_s = 0.01;  ///< at most between left and right; less than half of their period
+
+  void Check() const { Require(max_skew_s > 0, "max_skew_s must be positive"); }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("max_skew_s", max_skew_s);
+  }
+};
+
+class StereoSyncNode {
+ public:
+  using Image = sensor_msgs::ImageConstPtr;
+  using Info = sensor_msgs::CameraInfoConstPtr;
+
+  StereoSyncNode(ros::NodeHandle node, ros::NodeHandle private_node)
+      : options_(ReadParameters<StereoSyncOptions>(private_node)),
+        topics_(ResolveStereoTopics(node)),
+        pairing_(options_.max_skew_s),
+        transport_(node) {
+    const ros::NodeHandle out(node, ros::names::clean(node.resolveName("synchronized")));
+    left_out_ = ros::NodeHandle(out).advertise<sensor_msgs::Image>("left/image_rect", kQueueSize);
+    right_out_ = ros::NodeHandle(out).advertise<sensor_msgs::Image>("right/image_rect", kQueueSize);
+    left_info_out_ =
+        ros::NodeHandle(out).advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize);
+    right_info_out_ =
+        ros::NodeHandle(out).advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize);
+    const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
+                                                private_node);
+    left_info_ = node.subscribe<sensor_msgs::CameraInfo>(
+        topics_.left_info, kQueueSize,
+        [this](const Info& info) { TakeInfo(info, newest_left_info_, counts_.left_info); });
+    right_info_ = node.subscribe<sensor_msgs::CameraInfo>(
+        topics_.right_info, kQueueSize,
+        [this](const Info& info) { TakeInfo(info, newest_right_info_, counts_.right_info); });
+    left_ = transport_.subscribe(
+        topics_.left_image, kQueueSize, [this](const Image& image) { TakeLeft(image); }, {}, hints);
+    right_ = transport_.subscribe(
+        topics_.right_image, kQueueSize, [this](const Image& image) { TakeRight(image); }, {},
+        hints);
+    timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
+      watch_.Tell(counts_, topics_);
+    });
+  }
+  ~StereoSyncNode() {
+    TellAtEnd("stereo_sync_node: " + std::to_string(counts_.pairs) + " pairs, " +
+              std::to_string(pairing_.CountUnpaired()) + " images without partner");
+  }
+
+ private:
+  void TakeInfo(const Info& info, Info& newest, uint32_t& count) {
+    newest = info;
+    ++count;
+  }
+  void TakeLeft(const Image& image) {
+    StartAnewAfterJump(image->header.stamp, left_stamp_);
+    ++counts_.left;
+    pairing_.AddLeft(image->header.stamp.toSec(), image);
+    PublishPairs();
+  }
+  void TakeRight(const Image& image) {
+    StartAnewAfterJump(image->header.stamp, right_stamp_);
+    ++counts_.right;
+    pairing_.AddRight(image->header.stamp.toSec(), image);
+    PublishPairs();
+  }
+
+  void StartAnewAfterJump(const ros::Time& stamp, ros::Time& stamp_before) {
+    if (stamp < stamp_before) pairing_ = StampPairing<Image>(options_.max_skew_s);
+    stamp_before = stamp;
+    counts_.stamp_difference_s = (left_stamp_ - right_stamp_).toSec();
+  }
+
+  void PublishPairs() {
+    while (const auto pair = pairing_.Take()) {
+      if (!newest_left_info_ || !newest_right_info_) continue;
+      ++counts_.pairs;
+      const ros::Time stamp = pair->first->header.stamp;
+      left_info_out_.publish(WithStamp(*newest_left_info_, stamp));
+      right_info_out_.publish(WithStamp(*newest_right_info_, stamp));
+      left_out_.publish(pair->first);
+      right_out_.publish(WithStamp(*pair->second, stamp));
+    }
+  }
+
+  template <class Message>
+  static boost::shared_ptr<Message> WithStamp(const Message& message, const ros::Time& stamp) {
+    const auto copy = boost::make_shared<Message>(message);
+    copy->header.stamp = stamp;
+    return copy;
+  }
+
+  const StereoSyncOptions options_;
+  const StereoTopics topics_;
+  StampPairing<Image> pairing_;
+  StereoInputCounts counts_;
+  StereoInputWatch watch_;
+  ros::Time left_stamp_, right_stamp_;
+  Info newest_left_info_, newest_right_info_;
+  image_transport::ImageTransport transport_;
+  ros::Publisher left_out_, right_out_, left_info_out_, right_info_out_;
+  ros::Subscriber left_info_, right_info_;
+  image_transport::Subscriber left_, right_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  return arfm_vo::RunNode<arfm_vo::StereoSyncNode, arfm_vo::StereoSyncOptions>(
+      argc, argv, "stereo_sync_node", R"(Makes exact pairs of images whose stamps differ.
+
+in    stereo/left|right/image_rect, stereo/left|right/camera_info
+out   synchronized/left|right/image_rect, synchronized/left|right/camera_info: with the left image's stamp)");
+}

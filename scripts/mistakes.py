@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Makes the mistakes of new users on the fixture and writes docs/mistakes.md: what the console says, and how soon.
+
+Usage: mistakes.py [BUILD_DIR]      default _b; exit status 1 where a mistake is not told within 10 s of the nodes' start
+"""
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+import rosbag
+import rospy
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BUILD = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "_b"))
+FIXTURE = os.path.join(ROOT, "rosbag_fixtures", "terrain.bag")
+LIMIT_S = 10
+
+
+def without(*ends):
+    return lambda topic, message: None if topic.endswith(ends) else (topic, message)
+
+
+def change(end, edit):
+    """Applies `edit` to the messages whose topic ends so."""
+    def apply(topic, message):
+        if topic.endswith(end):
+            edit(message)
+        return topic, message
+    return apply
+
+
+def scale_baseline(factor):
+    def edit(message):
+        message.P = [factor * value if i == 3 else value for i, value in enumerate(message.P)]
+    return change("right/camera_info", edit)
+
+
+def delay(message):
+    message.header.stamp += rospy.Duration(0.002)
+
+
+def make_float(message):
+    message.encoding, message.step, message.data = "32FC1", 4 * message.width, bytes(4 * len(message.data))
+
+
+def narrow(message):
+    message.width -= 8
+
+
+def darken(message):
+    message.data = bytes(len(message.data))
+
+
+def swap(topic, message):
+    if "/left/" in topic:
+        return topic.replace("left", "right"), message
+    return topic.replace("right", "left"), message
+
+
+REPLAY = "replay.launch rviz:=false bag:=input.bag "
+LIVE = ("odometry.launch & sleep 3; rosbag play --quiet input.bag & "
+        "wait %1")  # as beside a camera of one's own
+# (mistake, change of the bag, arguments of roslaunch, what the console must say)
+MISTAKES = [
+    ("no such bag", None, "replay.launch rviz:=false bag:=none.bag", "none.bag: no such file"),
+    ("damaged bag", "half", REPLAY, "cannot be read"),
+    ("wrong namespace", None, REPLAY + "stereo:=/cam", "its cameras are /stereo/left"),
+    ("one eye in the bag", without("right/image_rect"), REPLAY, "has no topic /stereo/right/image_rect"),
+    ("no camera_info in the bag", without("left/camera_info"), REPLAY, "has no topic /stereo/left/camera_info"),
+    ("raw images", lambda topic, message: (topic.replace("image_rect", "image_raw"), message), REPLAY,
+     "give rectify:=true"),
+    ("no camera runs", None, "odometry.launch", "no image is published at all"),
+    ("stamps 2 ms apart", change("right/image_rect", delay), REPLAY, "2.000 ms apart"),
+    ("no tf to the camera", None, LIVE, "base_from_camera:="),
+    ("baseline in mm", scale_baseline(1000), REPLAY, "calibrated in mm"),
+    ("baseline 0", scale_baseline(0), REPLAY, "without a baseline there is no scale"),
+    ("wrong sign of the baseline", scale_baseline(-1), REPLAY, "left and right are swapped"),
+    ("swapped eyes", swap, REPLAY, "are left and right swapped"),
+    ("float image", change("left/image_rect", make_float), REPLAY, "32FC1"),
+    ("wrong size", change("right/image_rect", narrow), REPLAY, "differ in size"),
+    ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
+    ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
+    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "display"),
+]
+
+
+def write_input(folder, edit):
+    path = os.path.join(folder, "input.bag")
+    if callable(edit):
+        with rosbag.Bag(FIXTURE) as source, rosbag.Bag(path, "w") as bag:
+            for topic, message, stamp in source.read_messages():
+                changed = edit(topic, message)
+                if changed:
+                    bag.write(*changed, stamp)
+        return
+    with open(FIXTURE, "rb") as source, open(path, "wb") as bag:
+        bag.write(source.read(1000000 if edit == "half" else -1))
+    with open(os.path.join(folder, "config.yaml"), "w") as file:
+        file.write("frontend: {no_such_key: 1}\n")
+
+
+def watch(folder, arguments, wanted):
+    """The console's line and the time to it since the nodes started (or since the call, where none does), s."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    environment = {**os.environ, "PWD": folder, "ROS_MASTER_URI": f"http://localhost:{port}"}
+    environment.pop("DISPLAY", None)
+    command = f'. {BUILD}/devel/setup.bash; {"set -m; " if "&" in arguments else "exec "}roslaunch arfm_vo {arguments}'
+    run = subprocess.Popen(["bash", "-c", command], env=environment, cwd=folder, text=True, errors="replace",
+                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+    signal.alarm(60)
+    start, found = time.monotonic(), None
+    is_started = False
+    try:
+        for line in run.stdout:
+            if "started with pid" in line and "master" not in line and not is_started:
+                start, is_started = time.monotonic(), True
+            if wanted.lower() in line.lower():
+                found = (re.sub(r"\x1b\[\d*m|\[ *(WARN|INFO|ERROR|FATAL)\] \[[\d., ]*\]: ", "", line).strip(),
+                         time.monotonic() - start)
+                break
+    except TimeoutError:
+        pass
+    signal.alarm(0)
+    for process in find_session(run.pid):  # roslaunch first, which ends its nodes
+        os.kill(process, signal.SIGINT)
+    run.stdout.read()
+    run.wait()
+    return found
+
+
+def find_session(leader):
+    """The bash, roslaunch and rosbag processes of the session that was started."""
+    listed = subprocess.run(["ps", "-o", "pid=,args=", "--sid", str(leader)], text=True, stdout=subprocess.PIPE).stdout
+    rows = [line.split(None, 1) for line in listed.splitlines()]
+    return [int(pid) for pid, command in rows if "roslaunch" in command or "rosbag" in command]
+
+
+def main():
+    def give_up(*_):
+        raise TimeoutError
+    signal.signal(signal.SIGALRM, give_up)
+    rows, num_late = [], 0
+    for mistake, edit, arguments, wanted in MISTAKES:
+        with tempfile.TemporaryDirectory(prefix="arfm_vo_mistake_") as folder:
+            write_input(folder, edit)
+            found = watch(folder, arguments, wanted)
+            text, time_s = found or ("NOTHING", float("inf"))
+            num_late += time_s > LIMIT_S
+            rows.append(f"| {mistake} | {text.replace(folder, '.').replace('|', '/')} | {time_s:.1f} |")
+            print(rows[-1], flush=True)
+    with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
+        page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
+                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started.\n\n"
+                   "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
+    sys.exit(num_late > 0)
+
+
+if __name__ == "__main__":
+    main()

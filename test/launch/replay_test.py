@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""replay.launch as a user calls it, on bags of many shapes: what it does and what its console says.
+
+Usage: replay_test.py BUILD_DIR SOURCE_DIR
+"""
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rosbag
+import rospy
+
+BUILD_DIR, SOURCE_DIR = sys.argv[1:3]
+FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class ReplayTest(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory(prefix="arfm_vo_replay_")
+        self.folder = self.directory.name
+
+    def tearDown(self):
+        self.directory.cleanup()
+
+    def launch(self, *arguments, limit_s=100):
+        """The exit code and the console of roslaunch, called in the test's folder and ended after a time."""
+        environment = {**os.environ, "PWD": self.folder,
+                       "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+        run = subprocess.run(
+            ["bash", "-c", '. "$0/devel/setup.bash" && exec timeout -s INT "$@"', BUILD_DIR, str(limit_s),
+             "roslaunch", "arfm_vo", *arguments], env=environment, cwd=self.folder, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        return run.returncode, run.stdout
+
+    def replay(self, *arguments):
+        code, console = self.launch("replay.launch", "rviz:=false", "end_delay_s:=3", *arguments)
+        self.assertEqual(code, 0, console)
+        return console
+
+    def write_bag(self, name, change):
+        """The fixture with `change(topic, message)` -> (topic, message) or None applied to all of it."""
+        with rosbag.Bag(FIXTURE) as source, rosbag.Bag(os.path.join(self.folder, name), "w") as bag:
+            for topic, message, stamp in source.read_messages():
+                changed = change(topic, message)
+                if changed:
+                    bag.write(*changed, stamp)
+
+    def test_paths_relative_to_the_caller_are_resolved_and_the_totals_are_told(self):
+        os.symlink(FIXTURE, os.path.join(self.folder, "my drive.bag"))
+        console = self.replay("bag:=my drive.bag", "trajectory_dir:=out")
+        self.assertIn("the first pose is there", console)
+        self.assertIn("36 pairs: 36 with a pose, 0 lost", console)
+        self.assertIn(f"36 poses saved in {self.folder}/out/poses.txt", console)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "out", "trajectory.tum")))
+        self.assertIn("assumed is tf base_link <- left_camera_optical", console)
+
+    def test_a_bag_that_is_not_there_is_refused_with_its_full_path(self):
+        self.assertIn(f"{self.folder}/none.bag: no such file", self.refuse("bag:=none.bag"))
+
+    def test_a_folder_that_is_not_there_is_refused_with_its_full_path(self):
+        code, console = self.launch("kitti.launch", "sequence:=none", "rviz:=false")
+        self.assertNotEqual(code, 0)
+        self.assertIn(self.folder + "/none", console)
+
+    def replay_renamed(self, left, right, image, frame):
+        """Replays the fixture as the camera of the namespaces `left` and `right` would record it."""
+        names = {"/stereo/left/image_rect": f"{left}/{image}",
+                 "/stereo/right/image_rect": f"{right}/{image}",
+                 "/stereo/left/camera_info": f"{left}/camera_info",
+                 "/stereo/right/camera_info": f"{right}/camera_info"}
+
+        def rename(topic, message):
+            message.header.frame_id = frame
+            return (names[topic], message) if topic in names else None
+
+        self.write_bag("renamed.bag", rename)
+        console = self.replay(
+            "bag:=renamed.bag", f"left_image:={left}/{image}", f"right_image:={right}/{image}",
+            f"left_info:={left}/camera_info", f"right_info:={right}/camera_info",
+            "base_from_camera:=0.1 0 0.5 -1.5707963 0 -1.5707963")
+        self.assertIn("36 pairs: 36 with a pose", console)
+        self.assertIn("tf base_link <- " + frame, console)
+        self.assertNotIn("assumed is", console)
+
+    def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
+        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw",
+                            "camera_infra1_optical_frame")
+
+    def test_a_zed_is_replayed_by_its_topics(self):
+        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray",
+                            "zed_left_camera_optical_frame")
+
+    def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
+        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
+                            "camera_gray_left")
+
+    def test_the_mount_in_the_tf_of_the_bag_goes_before_the_assumed_one(self):
+        from geometry_msgs.msg import TransformStamped
+        from tf2_msgs.msg import TFMessage
+        self.write_bag("tf.bag", lambda topic, message: (topic, message))
+        mount = TransformStamped()
+        mount.header.stamp = rospy.Time(1000)
+        mount.header.frame_id, mount.child_frame_id = "base_link", "left_camera_optical"
+        mount.transform.rotation.w = 1
+        with rosbag.Bag(os.path.join(self.folder, "tf.bag"), "a") as bag:
+            bag.write("/tf_static", TFMessage([mount]), rospy.Time(1000))
+        console = self.replay("bag:=tf.bag")
+        self.assertIn("36 pairs: 36 with a pose", console)
+        self.assertNotIn("assumed is", console)
+
+    def test_stamps_that_differ_are_told_and_paired_on_demand(self):
+        def delay_right(topic, message):
+            if "/right/" in topic:
+                message.header.stamp += rospy.Duration(0.002)
+            return topic, message
+
+        self.write_bag("apart.bag", delay_right)
+        console = self.replay("bag:=apart.bag")
+        self.assertIn("2.000 ms apart", console)
+        self.assertIn("approx_sync:=true", console)
+        self.assertIn("36 pairs: 36 with a pose",
+                      self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
+
+    def refuse(self, *arguments):
+        """What roslaunch says where it refuses to start."""
+        code, console = self.launch("replay.launch", "rviz:=false", *arguments)
+        self.assertNotEqual(code, 0, console)
+        self.assertNotIn("started with pid", console)
+        return console
+
+    def test_a_bag_with_one_eye_is_refused_with_what_it_has(self):
+        self.write_bag("left.bag", lambda topic, message: (topic, message)
+                       if "/right/image" not in topic else None)
+        console = self.refuse("bag:=left.bag")
+        self.assertIn("has no topic /stereo/right/image_rect", console)
+        self.assertIn("its cameras are /stereo/left/camera_info, /stereo/left/image_rect", console)
+
+    def test_a_damaged_bag_is_refused(self):
+        with open(FIXTURE, "rb") as source, open(os.path.join(self.folder, "half.bag"), "wb") as bag:
+            bag.write(source.read(1000000))
+        self.assertIn("half.bag: cannot be read", self.refuse("bag:=half.bag"))
+
+    def test_raw_images_are_told_and_rectified_on_demand(self):
+        self.write_bag("raw.bag",
+                       lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
+        self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
+        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
