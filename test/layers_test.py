@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Fails on an include of a higher floor, and on a ROS include below the roof.
+"""Fails on an include of a higher layer, and on a ROS include in the core.
 
-The floors and what each may use are read from the arfm_floor() lines of CMakeLists.txt, so that the build file is the
-one table. Usage: floors_test.py [PACKAGE_DIR]
+The layers and what each may use are read from the arfm_layer() lines of CMakeLists.txt, so that the build file is the
+one table. Usage: layers_test.py [PACKAGE_DIR]
 """
 import pathlib
 import re
 import sys
 
-ROOF = {"ros", "nodes"}
+WITH_ROS = {"ros", "nodes"}
 ROS_HEADERS = re.compile(
     r"^(ros|tf2?(_\w+)?|nodelet|pluginlib|class_loader|roscpp|xmlrpcpp|rosbag|rosgraph_msgs|image_transport|"
     r"cv_bridge|camera_info_manager|message_filters|diagnostic_updater|diagnostic_msgs|dynamic_reconfigure|"
@@ -16,34 +16,34 @@ ROS_HEADERS = re.compile(
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
-def read_floors(cmake_text):
-    """{floor: set of the floors that it may use, itself among them}, through all depths."""
-    floors = {}
-    for call in re.finditer(r"^arfm_floor\(([^)]*)\)", cmake_text, re.MULTILINE):
+def read_layers(cmake_text):
+    """{layer: set of the layers that it may use, itself among them}, through all depths."""
+    layers = {}
+    for call in re.finditer(r"^arfm_layer\(([^)]*)\)", cmake_text, re.MULTILINE):
         words = call.group(1).split()
         name, used, is_depends = words[0], set(), False
         for word in words[1:]:
             if word in ("DEPENDS", "LIBRARIES", "TEST_LIBRARIES"):
                 is_depends = word == "DEPENDS"
             elif is_depends:
-                if word not in floors:
-                    raise SystemExit(f"CMakeLists.txt: floor {name} depends on {word}, which is not declared above it")
-                used |= floors[word]
-        floors[name] = used | {name}
-    return floors
+                if word not in layers:
+                    raise SystemExit(f"CMakeLists.txt: layer {name} depends on {word}, which is not declared above it")
+                used |= layers[word]
+        layers[name] = used | {name}
+    return layers
 
 
-def find_violations(package, floors):
+def find_violations(package, layers):
     files = [f for folder in ("include/arfm_vo", "src", "nodes") for f in (package / folder).rglob("*")
              if f.suffix in (".h", ".cpp")]
     violations, num_includes = [], 0
     for file in sorted(files):
         parts = file.relative_to(package).parts
-        floor = "nodes" if parts[0] == "nodes" else parts[2 if parts[0] == "include" else 1]
-        if floor not in floors and floor != "nodes":
-            violations.append(f"{'/'.join(parts)}: folder {floor} is no floor of CMakeLists.txt")
+        layer = "nodes" if parts[0] == "nodes" else parts[2 if parts[0] == "include" else 1]
+        if layer not in layers and layer != "nodes":
+            violations.append(f"{'/'.join(parts)}: folder {layer} is no layer of CMakeLists.txt")
             continue
-        allowed = set(floors) if floor == "nodes" else floors[floor]
+        allowed = set(layers) if layer == "nodes" else layers[layer]
         for number, line in enumerate(file.read_text().splitlines(), 1):
             include = INCLUDE.match(line)
             if not include:
@@ -54,16 +54,16 @@ def find_violations(package, floors):
             own = re.match(r"arfm_vo/(\w+)/", header)
             is_message = re.match(r"arfm_vo/\w+\.h$", header)
             if own and own.group(1) not in allowed:
-                violations.append(f"{where}: floor {floor} may not use {own.group(1)}")
-            if (is_message or ROS_HEADERS.match(header)) and floor not in ROOF:
-                violations.append(f"{where}: ROS below the roof")
+                violations.append(f"{where}: layer {layer} may not use {own.group(1)}")
+            if (is_message or ROS_HEADERS.match(header)) and layer not in WITH_ROS:
+                violations.append(f"{where}: ROS in the core")
     return violations, len(files), num_includes
 
 
 def check_itself():
     """The check must see what it is there for."""
-    floors = read_floors("arfm_floor(base)\narfm_floor(image DEPENDS base LIBRARIES ros)\narfm_floor(ros DEPENDS image)")
-    assert floors == {"base": {"base"}, "image": {"base", "image"}, "ros": {"base", "image", "ros"}}, floors
+    layers = read_layers("arfm_layer(base)\narfm_layer(image DEPENDS base LIBRARIES ros)\narfm_layer(ros DEPENDS image)")
+    assert layers == {"base": {"base"}, "image": {"base", "image"}, "ros": {"base", "image", "ros"}}, layers
     import tempfile
     with tempfile.TemporaryDirectory() as folder:
         package = pathlib.Path(folder)
@@ -74,19 +74,19 @@ def check_itself():
                 "src/attic/d.cpp": ""}.items():
             (package / name).parent.mkdir(parents=True, exist_ok=True)
             (package / name).write_text(text)
-        violations, _, _ = find_violations(package, floors)
+        violations, _, _ = find_violations(package, layers)
         assert len(violations) == 4, violations
 
 
 def main():
     check_itself()
     package = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[1])
-    floors = read_floors((package / "CMakeLists.txt").read_text())
-    violations, num_files, num_includes = find_violations(package, floors)
+    layers = read_layers((package / "CMakeLists.txt").read_text())
+    violations, num_files, num_includes = find_violations(package, layers)
     if num_includes == 0:
         raise SystemExit(f"{package}: no sources found")
     print("\n".join(violations))
-    print(f"{len(floors)} floors, {num_files} files, {num_includes} includes, {len(violations)} violations")
+    print(f"{len(layers)} layers, {num_files} files, {num_includes} includes, {len(violations)} violations")
     raise SystemExit(1 if violations else 0)
 
 
