@@ -22,6 +22,7 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
 }
 
 void VisualOdometry::SetCorrection(const CorrectionBelief& correction) {
+  frontend_.SetCorrection(correction);
   session_.SetCorrection(camera_, correction);
   map_.SetCorrection(camera_, correction);
 }

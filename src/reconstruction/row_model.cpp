@@ -1,20 +1,19 @@
 #include "arfm_vo/reconstruction/row_model.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-
-#include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
 namespace {
 
 /// Share of the older pairs' weight that is left after a pair.
 constexpr double kMemory = 0.9;
-/// A priori the terms are zero within this, px: so few or badly spread samples do no harm.
-constexpr double kPriorSigmaPx[] = {2, 2, 2, 2, 1, 1};
 /// Residuals beyond this many standard deviations lose influence (Cauchy).
 constexpr double kRobustWidth = 2;
+/// A shift of a whole pair by more than this is a bump, no inaccuracy of the model.
+constexpr double kBumpPx = 0.3;
 /// No sample is trusted more than this.
 constexpr double kMinSigmaPx = 0.1;
 constexpr int kMaxIterations = 10;
@@ -29,33 +28,24 @@ double Median(std::vector<double> values) {
 
 }  // namespace
 
-RowModel::RowModel(int width, int height)
-    : half_width_(0.5 * width),
-      half_height_(0.5 * height),
-      information_(Information::Zero()),
-      weighted_sum_(Terms::Zero()),
-      coefficients_(Terms::Zero()) {
-  Require(width > 0 && height > 0, "row model: the image size must be positive");
-  for (int i = 0; i < kNumTerms; ++i) {
-    information_(i, i) = 1 / (kPriorSigmaPx[i] * kPriorSigmaPx[i]);
-  }
+RowModel::RowModel(const StereoCamera& camera, const CorrectionBelief& prior)
+    : camera_(camera),
+      prior_information_(prior.covariance.bottomRightCorner<kNumTerms, kNumTerms>().inverse()),
+      prior_mean_(prior.mean.coefficients_px.tail<kNumTerms>()),
+      information_(prior_information_),
+      weighted_sum_(prior_information_ * prior_mean_),
+      coefficients_(prior_mean_) {
+  camera.Check();
 }
 
-RowModel::Terms RowModel::TermsAt(double u_left, double v_left) const {
-  const double x = (u_left - half_width_) / half_width_, y = (v_left - half_height_) / half_height_;
-  Terms terms;
-  terms << 1, x, y, x * y, x * x, y * y;
-  return terms;
-}
-
-double RowModel::Predict(double u_left, double v_left) const {
-  return coefficients_.dot(TermsAt(u_left, v_left));
+double RowModel::Predict(double u_right, double v_right) const {
+  return coefficients_.dot(ImageBasis(camera_, {u_right, v_right}).values);
 }
 
 void RowModel::MeasureSpread(const std::vector<RowSample>& samples) {
   std::vector<double> deviations;
   for (const RowSample& sample : samples) {
-    deviations.push_back(std::abs(sample.residual_px - Predict(sample.u_left, sample.v_left)));
+    deviations.push_back(std::abs(sample.residual_px - Predict(sample.u_right, sample.v_right)));
   }
   spread_px_ = std::max(kMinSigmaPx, 1.4826 * Median(deviations));
 }
@@ -65,7 +55,11 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
   if (!IsLearnt()) {
     std::vector<double> residuals;
     for (const RowSample& sample : samples) residuals.push_back(sample.residual_px);
-    coefficients_ = Terms::Unit(0) * Median(residuals);
+    coefficients_ = prior_mean_;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      residuals[i] -= Predict(samples[i].u_right, samples[i].v_right);
+    }
+    coefficients_[0] += Median(residuals);
   }
   Information information;
   Terms weighted_sum;
@@ -74,7 +68,7 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
     information = information_;
     weighted_sum = weighted_sum_;
     for (const RowSample& sample : samples) {
-      const Terms terms = TermsAt(sample.u_left, sample.v_left);
+      const Terms terms = ImageBasis(camera_, {sample.u_right, sample.v_right}).values;
       const double sigma = std::hypot(sample.sigma_px, kMinSigmaPx);
       const double width = kRobustWidth * std::max(sigma, spread_px_);
       const double deviation = (sample.residual_px - coefficients_.dot(terms)) / width;
@@ -87,11 +81,15 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
     if ((coefficients_ - last).lpNorm<1>() < kConvergedPx) break;  // terms are in [-1, 1]
   }
   MeasureSpread(samples);
+  std::vector<double> deviations;
+  for (const RowSample& sample : samples) {
+    deviations.push_back(sample.residual_px - Predict(sample.u_right, sample.v_right));
+  }
+  const double shift_px = Median(std::move(deviations));
+  shift_px_ = std::abs(shift_px) > kBumpPx ? shift_px : 0;
   num_samples_ += static_cast<double>(samples.size());
-  Information prior = Information::Zero();
-  for (int i = 0; i < kNumTerms; ++i) prior(i, i) = 1 / (kPriorSigmaPx[i] * kPriorSigmaPx[i]);
-  information_ = kMemory * information + (1 - kMemory) * prior;
-  weighted_sum_ = kMemory * weighted_sum;
+  information_ = kMemory * information + (1 - kMemory) * prior_information_;
+  weighted_sum_ = kMemory * weighted_sum + (1 - kMemory) * prior_information_ * prior_mean_;
 }
 
 }  // namespace arfm_vo

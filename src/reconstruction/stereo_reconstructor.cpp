@@ -42,7 +42,7 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
       matcher_(options.matcher),
       threshold_(options.threshold),
       aligner_(options.alignment, options.slant),
-      row_model_(camera.width, camera.height),
+      row_model_(camera, CorrectionBelief::OfCalibration(camera)),
       row_search_(options.row_search) {
   camera.Check();
   options.Check();
@@ -110,8 +110,8 @@ void StereoReconstructor::LearnRows(const Features& left, const Sightings& sight
   std::vector<RowSample> samples;
   for (const Sighting& sighting : sightings) {
     const Keypoint& keypoint = left.keypoints[sighting.keypoint];
-    samples.push_back(
-        {keypoint.x, keypoint.y, sighting.right.y - keypoint.y, std::sqrt(sighting.covariance[2])});
+    samples.push_back({sighting.right.x, sighting.right.y, sighting.right.y - keypoint.y,
+                       std::sqrt(sighting.covariance[2])});
   }
   row_model_.Update(samples);
 }
@@ -119,7 +119,8 @@ void StereoReconstructor::LearnRows(const Features& left, const Sightings& sight
 std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left,
                                                             const Sighting& sighting) const {
   const double row_residual = sighting.right.y - left.y;
-  const double deviation = row_residual - row_model_.Predict(left.x, left.y);
+  const double deviation =
+      row_residual - row_model_.shift_px() - row_model_.Predict(sighting.right.x, sighting.right.y);
   const double variance_y = sighting.covariance[2];
   if (std::abs(deviation) > options_.max_row_deviation * std::sqrt(variance_y)) {
     return std::nullopt;

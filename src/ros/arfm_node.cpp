@@ -22,6 +22,7 @@ void ArfmNodeOptions::Check() const {
 ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<ArfmNodeOptions>(private_node)),
       topics_(ResolveStereoTopics(node)),
+      learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
         ++figures_.num_refused;
@@ -122,6 +123,7 @@ void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
   last_stamp_ = pair.left->header.stamp;
   if (frontend_ && camera == camera_ && !is_jump) return;
   frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
+  if (const auto known = learned_.ReadFor(camera)) frontend_->SetCorrection(*known);
   camera_ = camera;
   CheckNotRaw(pair);
   ROS_INFO("stereo camera %dx%d, focal length %.1f px, baseline %.4f m", camera.width,

@@ -9,6 +9,9 @@
 namespace arfm_vo {
 namespace {
 
+const StereoCamera kCamera{700, 700, 600, 180, 0.5, 1200, 360};
+const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kCamera);
+
 /// The rows of a right camera that is turned: a pixel down in one corner, up in the other.
 double TrueResidual(double u, double v) {
   return 0.3 + 0.2 * (u - 600) / 600 - 0.9 * (u - 600) / 600 * (v - 180) / 180;
@@ -37,14 +40,23 @@ double LargestError(const RowModel& model) {
   return largest;
 }
 
+TEST(RowModel, BeginsWithWhatIsKnown) {
+  CorrectionBelief known = CorrectionBelief::Isotropic(0.02);
+  known.mean.coefficients_px[10] = 0.4;
+  RowModel model(kCamera, known);
+  EXPECT_NEAR(model.Predict(300, 100), 0.4, 1e-12);
+  model.Update({{100, 50, 2.0, 1}});  // one odd match does not undo it
+  EXPECT_NEAR(model.Predict(300, 100), 0.4, 0.05);
+}
+
 TEST(RowModel, ExpectsNothingAtFirst) {
-  const RowModel model(1200, 360);
+  const RowModel model(kCamera, kCalibration);
   EXPECT_EQ(model.Predict(100, 50), 0);
   EXPECT_FALSE(model.IsLearnt());
 }
 
 TEST(RowModel, LearnsATurnedCameraFromOnePair) {
-  RowModel model(1200, 360);
+  RowModel model(kCamera, kCalibration);
   model.Update(Samples(400, 0.2, 0, 1));
   EXPECT_TRUE(model.IsLearnt());
   EXPECT_LT(LargestError(model), 0.15);
@@ -53,20 +65,20 @@ TEST(RowModel, LearnsATurnedCameraFromOnePair) {
 }
 
 TEST(RowModel, IsNotMisledByOneWrongMatchInFour) {
-  RowModel model(1200, 360);
+  RowModel model(kCamera, kCalibration);
   model.Update(Samples(400, 0.2, 0.25, 2));
   EXPECT_LT(LargestError(model), 0.2);
 }
 
 TEST(RowModel, GrowsBetterFromPairToPair) {
-  RowModel one(1200, 360), many(1200, 360);
+  RowModel one(kCamera, kCalibration), many(kCamera, kCalibration);
   one.Update(Samples(100, 0.5, 0.1, 1));
   for (int pair = 1; pair <= 20; ++pair) many.Update(Samples(100, 0.5, 0.1, pair));
   EXPECT_LT(LargestError(many), 0.5 * LargestError(one));
 }
 
 TEST(RowModel, FollowsACameraThatIsKnocked) {
-  RowModel model(1200, 360);
+  RowModel model(kCamera, kCalibration);
   std::vector<RowSample> knocked = Samples(300, 0.2, 0, 1);
   for (int pair = 1; pair <= 5; ++pair) model.Update(Samples(300, 0.2, 0, pair));
   for (RowSample& sample : knocked) sample.residual_px += 0.5;
@@ -74,8 +86,18 @@ TEST(RowModel, FollowsACameraThatIsKnocked) {
   EXPECT_NEAR(model.Predict(600, 180), 0.8, 0.05);
 }
 
+TEST(RowModel, TellsABumpOfOnePairAtOnce) {
+  RowModel model(kCamera, kCalibration);
+  for (int pair = 1; pair <= 10; ++pair) model.Update(Samples(300, 0.2, 0, pair));
+  EXPECT_NEAR(model.shift_px(), 0, 0.05);
+  std::vector<RowSample> bumped = Samples(300, 0.2, 0, 11);
+  for (RowSample& sample : bumped) sample.residual_px += 2;
+  model.Update(bumped);
+  EXPECT_NEAR(model.Predict(600, 180) + model.shift_px(), TrueResidual(600, 180) + 2, 0.15);
+}
+
 TEST(RowModel, OfFewSamplesInOnePlaceStaysSober) {
-  RowModel model(1200, 360);
+  RowModel model(kCamera, kCalibration);
   model.Update({{100, 50, 0.5, 0.1}, {101, 50, 0.6, 0.1}, {100, 51, 0.4, 0.1}});
   EXPECT_NEAR(model.Predict(100, 50), 0.5, 0.1);
   EXPECT_LT(std::abs(model.Predict(1100, 300)), 1.5);
@@ -83,7 +105,7 @@ TEST(RowModel, OfFewSamplesInOnePlaceStaysSober) {
 }
 
 TEST(RowModel, NoSamplesChangeNothing) {
-  RowModel model(1200, 360);
+  RowModel model(kCamera, kCalibration);
   model.Update(Samples(400, 0.2, 0, 1));
   const double before = model.Predict(10, 20);
   model.Update({});

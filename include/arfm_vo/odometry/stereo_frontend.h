@@ -37,6 +37,11 @@ class StereoFrontend {
  public:
   StereoFrontend(const StereoCamera& camera, const FrontendOptions& options);
 
+  /// What an earlier drive told of the stereo correction; before the first pair.
+  void SetCorrection(const CorrectionBelief& correction) {
+    reconstructor_.SetCorrection(correction);
+  }
+
   /// Appends the time of its stages to `stage_ms`, if not null. Throws std::invalid_argument where
   /// the images do not fit the camera.
   StereoFrame Process(const StereoImages& images, StageTimes* stage_ms = nullptr);

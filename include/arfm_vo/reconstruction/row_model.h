@@ -3,46 +3,52 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "arfm_vo/geometry/correction_belief.h"
+
 namespace arfm_vo {
 
-/// A stereo match's place in the left image and how far its row is off in the right one.
+/// A stereo match's place in the right image and how far its row is off there.
 struct RowSample {
-  double u_left = 0, v_left = 0;  ///< px
-  double residual_px = 0;         ///< v_right - v_left
+  double u_right = 0, v_right = 0;  ///< px
+  double residual_px = 0;           ///< v_right - v_left
   double sigma_px = 1;
 };
 
-/// What the rows of a rectified pair are off by, over the left image: a quadratic polynomial of
-/// (u, v). Real rectifications leave some tenths of a pixel in the middle and a pixel or more in
-/// the corners: an error of roll shows as u, of focal length as v, of yaw as u v, of pitch as v^2.
-/// Learnt robustly from the matches of the pairs so far; older pairs count less and less.
+/// The rows of a StereoCorrection, learnt robustly from the matches of the pairs so far, on top of
+/// what is known of it; older pairs count less and less. The columns do not show in one pair.
 class RowModel {
  public:
-  RowModel(int width, int height);
+  /// `prior`: what is known of the correction before.
+  RowModel(const StereoCamera& camera, const CorrectionBelief& prior);
 
   /// Adds the samples of a pair; wrong ones among them lose their influence.
   void Update(const std::vector<RowSample>& samples);
-  /// Expected v_right - v_left at a left pixel, px.
-  double Predict(double u_left, double v_left) const;
+  /// Expected v_right - v_left at a right pixel, px.
+  double Predict(double u_right, double v_right) const;
   /// Robust standard deviation of the newest samples from the model, px; 0 before the first.
   double spread_px() const { return spread_px_; }
+  /// How far the newest pair's rows are off the model as a whole, px (median): a bump between the
+  /// exposures of the eyes, which the model does not follow at once. Zero below 0.3 px.
+  double shift_px() const { return shift_px_; }
   /// True once enough samples have been seen for the model to be trusted.
   bool IsLearnt() const { return num_samples_ >= kMinSamples; }
 
  private:
-  static constexpr int kNumTerms = 6;
+  static constexpr int kNumTerms = ImageBasis::kNumTerms;
   static constexpr double kMinSamples = 30;
   using Terms = Eigen::Matrix<double, kNumTerms, 1>;
   using Information = Eigen::Matrix<double, kNumTerms, kNumTerms>;
 
-  Terms TermsAt(double u_left, double v_left) const;
   void MeasureSpread(const std::vector<RowSample>& samples);
 
-  double half_width_, half_height_;
+  StereoCamera camera_;
+  Information prior_information_;  ///< of the rows' coefficients
+  Terms prior_mean_;
   Information information_;  ///< of the older pairs and the prior
   Terms weighted_sum_;
   Terms coefficients_;
   double spread_px_ = 0;
+  double shift_px_ = 0;
   double num_samples_ = 0;
 };
 

@@ -68,6 +68,11 @@ class StereoReconstructor {
   /// Throws std::invalid_argument where the camera or an option is wrong.
   StereoReconstructor(const StereoCamera& camera, const StereoReconstructionOptions& options);
 
+  /// What is known of the stereo correction before the first pair.
+  void SetCorrection(const CorrectionBelief& correction) {
+    row_model_ = RowModel(camera_, correction);
+  }
+
   /// Points in the order of the left keypoints, at most one a keypoint. Throws
   /// std::invalid_argument where the images do not fit the camera.
   StereoPoints Reconstruct(const Features& left, const Features& right, const StereoImages& images);

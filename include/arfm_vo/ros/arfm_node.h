@@ -10,6 +10,7 @@
 #include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/console_watch.h"
+#include "arfm_vo/ros/learned_calibration.h"
 #include "arfm_vo/ros/stereo_input.h"
 #include "arfm_vo/ros/wall_rate.h"
 #include "arfm_vo/ros/worker.h"
@@ -19,16 +20,18 @@ namespace arfm_vo {
 struct ArfmNodeOptions {
   OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
   int max_waiting_pairs = 4;  ///< older ones are dropped
+  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
 
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     algorithm.VisitFields(visit);
     visit("max_waiting_pairs", max_waiting_pairs);
+    learned.VisitFields(visit);
   }
 };
 
-/// Rectified stereo pairs in, `features` out: floors image to reconstruction. Subscribes to the
+/// Rectified stereo pairs in, `features` out: layers image to reconstruction. Subscribes to the
 /// pairs only while somebody subscribes to `features`, so that a player which waits for subscribers
 /// waits for the whole chain.
 class ArfmNode {
@@ -71,6 +74,7 @@ class ArfmNode {
   StereoCamera camera_;
   GreyWindow window_;
   std::unique_ptr<StereoFrontend> frontend_;
+  LearnedCalibration learned_;
   ros::Time last_stamp_;
   Figures figures_;
   diagnostic_updater::Updater diagnostics_;
