@@ -26,6 +26,13 @@ void LocalOdometryOptions::Check() const {
   Require(restart_after_lost_s >= 0, "odometry.restart_after_lost_s must not be negative");
 }
 
+namespace {
+
+/// About so many points tell how a frame's pose errs with the stereo correction.
+constexpr size_t kDriftPoints = 100;
+
+}  // namespace
+
 class LocalOdometry::Implementation {
  public:
   Implementation(const StereoCamera& camera, const LocalOdometryOptions& options,
@@ -219,11 +226,14 @@ class LocalOdometry::Implementation {
     BundleResult result;
     result.correction = correction_.mean;
     result.camera_from_world = {newest.camera_from_world, update.pose.camera_from_world};
+    const size_t every = 1 + update.observations.size() / kDriftPoints;
+    size_t num_shared = 0;
     auto seen = newest.observations.begin();
     for (const LandmarkObservation& observation : update.observations) {
       while (seen != newest.observations.end() && seen->landmark < observation.landmark) ++seen;
       if (seen == newest.observations.end()) break;
       if (seen->landmark != observation.landmark) continue;
+      if (num_shared++ % every != 0) continue;
       const int point = static_cast<int>(result.points.size());
       result.points.push_back(map_.landmarks().at(observation.landmark).x_in_world);
       for (const auto* sighting : {&*seen, &observation}) {

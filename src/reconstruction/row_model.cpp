@@ -42,50 +42,52 @@ double RowModel::Predict(double u_right, double v_right) const {
   return coefficients_.dot(ImageBasis(camera_, {u_right, v_right}).values);
 }
 
-void RowModel::MeasureSpread(const std::vector<RowSample>& samples) {
-  std::vector<double> deviations;
-  for (const RowSample& sample : samples) {
-    deviations.push_back(std::abs(sample.residual_px - Predict(sample.u_right, sample.v_right)));
+std::vector<double> RowModel::Deviations(const std::vector<RowSample>& samples,
+                                         const std::vector<Terms>& terms) const {
+  std::vector<double> deviations(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    deviations[i] = samples[i].residual_px - coefficients_.dot(terms[i]);
   }
-  spread_px_ = std::max(kMinSigmaPx, 1.4826 * Median(deviations));
+  return deviations;
+}
+
+void RowModel::MeasureSpread(std::vector<double> deviations) {
+  for (double& deviation : deviations) deviation = std::abs(deviation);
+  spread_px_ = std::max(kMinSigmaPx, 1.4826 * Median(std::move(deviations)));
 }
 
 void RowModel::Update(const std::vector<RowSample>& samples) {
   if (samples.empty()) return;
+  std::vector<Terms> terms;
+  terms.reserve(samples.size());
+  for (const RowSample& sample : samples) {
+    terms.push_back(ImageBasis(camera_, {sample.u_right, sample.v_right}).values);
+  }
   if (!IsLearnt()) {
-    std::vector<double> residuals;
-    for (const RowSample& sample : samples) residuals.push_back(sample.residual_px);
     coefficients_ = prior_mean_;
-    for (size_t i = 0; i < samples.size(); ++i) {
-      residuals[i] -= Predict(samples[i].u_right, samples[i].v_right);
-    }
-    coefficients_[0] += Median(residuals);
+    coefficients_[0] += Median(Deviations(samples, terms));
   }
   Information information;
   Terms weighted_sum;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    MeasureSpread(samples);
+    const std::vector<double> deviations = Deviations(samples, terms);
+    MeasureSpread(deviations);
     information = information_;
     weighted_sum = weighted_sum_;
-    for (const RowSample& sample : samples) {
-      const Terms terms = ImageBasis(camera_, {sample.u_right, sample.v_right}).values;
-      const double sigma = std::hypot(sample.sigma_px, kMinSigmaPx);
-      const double width = kRobustWidth * std::max(sigma, spread_px_);
-      const double deviation = (sample.residual_px - coefficients_.dot(terms)) / width;
+    for (size_t i = 0; i < samples.size(); ++i) {
+      const double sigma = std::hypot(samples[i].sigma_px, kMinSigmaPx);
+      const double deviation = deviations[i] / (kRobustWidth * std::max(sigma, spread_px_));
       const double weight = 1 / ((1 + deviation * deviation) * sigma * sigma);
-      information += weight * terms * terms.transpose();
-      weighted_sum += weight * sample.residual_px * terms;
+      information.noalias() += (weight * terms[i]) * terms[i].transpose();
+      weighted_sum += weight * samples[i].residual_px * terms[i];
     }
     const Terms last = coefficients_;
     coefficients_ = information.ldlt().solve(weighted_sum);
     if ((coefficients_ - last).lpNorm<1>() < kConvergedPx) break;  // terms are in [-1, 1]
   }
-  MeasureSpread(samples);
-  std::vector<double> deviations;
-  for (const RowSample& sample : samples) {
-    deviations.push_back(sample.residual_px - Predict(sample.u_right, sample.v_right));
-  }
-  const double shift_px = Median(std::move(deviations));
+  const std::vector<double> deviations = Deviations(samples, terms);
+  MeasureSpread(deviations);
+  const double shift_px = Median(deviations);
   shift_px_ = std::abs(shift_px) > kBumpPx ? shift_px : 0;
   num_samples_ += static_cast<double>(samples.size());
   information_ = kMemory * information + (1 - kMemory) * prior_information_;

@@ -39,7 +39,9 @@ class RowModel {
   using Terms = Eigen::Matrix<double, kNumTerms, 1>;
   using Information = Eigen::Matrix<double, kNumTerms, kNumTerms>;
 
-  void MeasureSpread(const std::vector<RowSample>& samples);
+  std::vector<double> Deviations(const std::vector<RowSample>& samples,
+                                 const std::vector<Terms>& terms) const;
+  void MeasureSpread(std::vector<double> deviations);
 
   StereoCamera camera_;
   Information prior_information_;  ///< of the rows' coefficients
