@@ -1,6 +1,5 @@
 // Shows the recorded truth, stereo/ground_truth, as a path beside the odometry's: path_truth.
 #include <geometry_msgs/PoseStamped.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <deque>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/pose_message.h"
 #include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/transform_input.h"
 #include "arfm_vo/ros/truth_path.h"
 
 namespace arfm_vo {
@@ -39,7 +39,7 @@ class TruthPathNode {
  public:
   TruthPathNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : options_(ReadParameters<TruthPathOptions>(private_node)),
-        listener_(buffer_, node),
+        transforms_(node, buffer_),
         path_(options_.path),
         publisher_(node.advertise<nav_msgs::Path>("path_truth", 1, true)),
         truth_(node.subscribe(StereoTopic(node, "ground_truth"), 100, &TruthPathNode::Take, this)),
@@ -97,8 +97,8 @@ class TruthPathNode {
   }
 
   const TruthPathOptions options_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore buffer_;
+  TransformInput transforms_;
   std::optional<TruthAlignment> alignment_;
   BoundedPath path_;
   std::deque<geometry_msgs::PoseStamped> waiting_;

@@ -28,7 +28,6 @@ void PoseNodeOptions::Check() const {
 
 PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<PoseNodeOptions>(private_node)),
-      listener_(buffer_, node),
       mount_(buffer_, options_.mount),
       trajectory_output_(options_.trajectory_dir),
       outputs_(node, options_.output, options_.mount.base_frame),
@@ -73,6 +72,7 @@ void PoseNode::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
 }
 
 void PoseNode::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node) {
+  transforms_ = std::make_unique<TransformInput>(node, buffer_);
   synchronizer_.connectInput(frames_, left_, right_);
   using namespace boost::placeholders;
   synchronizer_.registerCallback(boost::bind<void>(

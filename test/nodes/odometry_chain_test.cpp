@@ -11,6 +11,7 @@
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <filesystem>
@@ -122,6 +123,20 @@ class OdometryChain : public testing::Test {
   Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
 };
 double OdometryChain::stamp_s_ = 0;
+
+/// tf2's own listener ends the program there.
+TEST_F(OdometryChain, ATransformOfTheEndOfTimeIsIgnored) {
+  ros::Publisher publisher = node_.advertise<tf2_msgs::TFMessage>("/tf", 1);
+  WaitUntil([&] { return publisher.getNumSubscribers() > 0; }, "a listener to tf");
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  message.transforms[0].header.stamp = ros::TIME_MAX;
+  message.transforms[0].header.frame_id = "odom";
+  message.transforms[0].child_frame_id = "base_link";
+  message.transforms[0].transform.rotation.w = 1;
+  publisher.publish(message);
+  for (int i = 1; i <= 3; ++i) EXPECT_EQ(Step(0.05 * i).state, OdometryStatus::TRACKED) << i;
+}
 
 TEST_F(OdometryChain, FollowsTheCameraAndTellsItInAllWays) {
   tf2_ros::Buffer buffer;

@@ -9,7 +9,7 @@
 #include <message_filters/synchronizer.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
 
 #include <memory>
 #include <string>
@@ -20,6 +20,7 @@
 #include "arfm_vo/ros/odometry_health.h"
 #include "arfm_vo/ros/pose_outputs.h"
 #include "arfm_vo/ros/trajectory_output.h"
+#include "arfm_vo/ros/transform_input.h"
 #include "arfm_vo/ros/transforms.h"
 #include "arfm_vo/ros/worker.h"
 
@@ -71,8 +72,7 @@ class PoseNode {
   void ApplyUpdate(const MapUpdateStamped& message);
 
   const PoseNodeOptions options_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore buffer_;
   const CameraMount mount_;
   TrajectoryOutput trajectory_output_;
   PoseOutputs outputs_;
@@ -89,6 +89,7 @@ class PoseNode {
   message_filters::Subscriber<Frame> frames_;
   image_transport::SubscriberFilter left_, right_;
   message_filters::Synchronizer<Policy> synchronizer_;  ///< goes before what it listens to
+  std::unique_ptr<TransformInput> transforms_;          ///< of buffer_
   ros::Subscriber updates_, tracks_;
   ros::ServiceServer reset_, save_;
   ros::WallTimer timer_;
