@@ -1,14 +1,10 @@
 #include "arfm_vo/odometry/global_map.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/pose_graph.h"
-#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {
@@ -55,7 +51,7 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
       detector_(camera, options.loops),
       prior_(correction),
       correction_(correction),
-      is_learning_(options.learn_correction && correction.MaxColumnSigma(camera) > kKnownSigmaPx) {
+      is_learning_(options.learn_correction && !IsKnown(correction, camera)) {
   camera.Check();
   options.Check();
 }

@@ -153,6 +153,23 @@ TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenHoldsIt) {
   EXPECT_EQ(told.back().mean.coefficients_px, told[told.size() - 2].mean.coefficients_px);
 }
 
+TEST(GlobalMap, HoldsFromTheStartWhatAnEarlierDriveHasLearnt) {
+  const auto drive = [](const CorrectionBelief& known) {
+    GlobalMap map(kBundleCamera, {}, known);
+    std::vector<CorrectionBelief> told;
+    for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
+      map.Add(record);
+      if (!map.IsAdjustmentDue()) continue;
+      if (const auto update = map.Adjust()) told.push_back(update->correction);
+    }
+    return told;
+  };
+  const CorrectionBelief learnt = drive(kCalibration).back();
+  for (const CorrectionBelief& told : drive(learnt)) {
+    EXPECT_EQ(told.mean.coefficients_px, learnt.mean.coefficients_px);
+  }
+}
+
 TEST(GlobalMap, ForgetsACorrectionThatTheRowsContradict) {
   CorrectionBelief wrong = CorrectionBelief::Isotropic(0.01);  // as from another camera's drive
   wrong.mean.coefficients_px[10] = 0.8;
