@@ -49,6 +49,7 @@ std::string FormatRun(const OdometryRun& run) {
   const double num_pairs = static_cast<double>(run.pair_ms.size());
   std::string text = FormatLine("pairs: %zu\n", run.pair_ms.size()) +
                      FormatLine("lost: %d\n", run.CountLost()) +
+                     FormatLine("degraded: %d\n", run.num_degraded) +
                      FormatLine("path_length_m: %.4f\n", ComputePathLength(run.trajectory)) +
                      FormatLine("ms_per_pair_median: %.3f\n", ComputeQuantile(run.pair_ms, 0.5)) +
                      FormatLine("ms_per_pair_p95: %.3f\n", ComputeQuantile(run.pair_ms, 0.95)) +

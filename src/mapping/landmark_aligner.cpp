@@ -74,7 +74,8 @@ std::optional<cv::Matx22f> LandmarkAligner::FindWarp(const Landmark& landmark,
 std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
                                                           const Keyframe& reference,
                                                           const StereoImages& images,
-                                                          const Rigid3& camera_from_world) const {
+                                                          const Rigid3& camera_from_world,
+                                                          bool use_right) const {
   const cv::Point2f place(landmark.keypoint.x, landmark.keypoint.y);
   const auto warp = FindWarp(landmark, reference, camera_from_world);
   if (!warp) return std::nullopt;
@@ -96,7 +97,9 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   const Rigid3 right_from_world(
       camera_from_world.rotation,
       camera_from_world.translation - Eigen::Vector3d(camera_.baseline_m, 0, 0));
-  if (const auto right_warp = FindWarp(landmark, reference, right_from_world)) {
+  const auto right_warp =
+      use_right ? FindWarp(landmark, reference, right_from_world) : std::nullopt;
+  if (right_warp) {
     if (LookAlike(*warp, *right_warp)) {
       right = aligner_.Align(*patch, images.right, guess);
     } else if (const auto right_patch = Patch::Sample(reference.left, place, *right_warp)) {

@@ -61,7 +61,8 @@ LocalMap::LocalMap(const StereoCamera& camera, const LocalMapOptions& options)
 
 const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& left,
                                       const Rigid3& camera_from_world,
-                                      const LandmarkObservations& tracked) {
+                                      const LandmarkObservations& tracked,
+                                      const LandmarkObservations& contradicting) {
   Keyframe keyframe;
   keyframe.id = next_keyframe_++;
   keyframe.stamp_s = frame.stamp_s;
@@ -74,18 +75,27 @@ const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& l
     ++landmark->second.num_keyframes;
     keyframe.observations.push_back(observation);
   }
-  AddNewLandmarks(frame, keyframe);
+  AddNewLandmarks(frame, contradicting, keyframe);
   keyframes_.push_back(std::move(keyframe));
   if (static_cast<int>(keyframes_.size()) > options_.max_keyframes) RemoveOldestKeyframe();
   return keyframes_.back();
 }
 
-void LocalMap::AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe) {
+void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservations& contradicting,
+                               Keyframe& keyframe) {
   OccupancyGrid grid(camera_.width, camera_.height, options_.grid_cell_px,
                      options_.min_separation_px);
   for (const LandmarkObservation& known : keyframe.observations) {
     grid.Add(known.pixels.x(), known.pixels.y());
   }
+  OccupancyGrid moving = grid, agreeing = grid;
+  for (const LandmarkObservation& other : contradicting) {
+    moving.Add(other.pixels.x(), other.pixels.y());
+  }
+  const auto is_suspect = [&](double u, double v) {
+    const int num_agreeing = agreeing.Count(u, v);
+    return moving.Count(u, v) - num_agreeing > std::max(1, num_agreeing);
+  };
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);
   std::stable_sort(candidates.begin(), candidates.end(), [&](const auto* a, const auto* b) {
@@ -104,14 +114,15 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe) {
         continue;
       }
       grid.Add(u, v);
-      AddLandmark(frame, *point, keyframe);
+      AddLandmark(frame, *point, is_suspect(u, v), keyframe);
       --room;
     }
     candidates = std::move(later);
   }
 }
 
-void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe) {
+void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, bool is_suspect,
+                           Keyframe& keyframe) {
   const Rigid3 world_from_camera = keyframe.camera_from_world.Inverse();
   const Eigen::Matrix3d rotation = world_from_camera.RotationMatrix();
   Landmark landmark;
@@ -128,11 +139,13 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, K
   std::copy_n(frame.features.descriptors.ptr<float>(point.keypoint), 64,
               landmark.descriptor.begin());
   landmark.num_keyframes = 1;
+  landmark.is_suspect = is_suspect;
 
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   observation.pixels << point.observation.x(), point.observation.y(), point.observation.z(),
       point.observation.y() + point.row_residual_px;
+  observation.has_right = point.has_right;
   observation.sigma_px = point.sigma_px;
   keyframe.observations.push_back(observation);
   landmarks_.emplace_hint(landmarks_.end(), landmark.id, landmark);
@@ -187,8 +200,9 @@ void LocalMap::CountSightings(const std::vector<LandmarkId>& expected,
   for (const LandmarkId id : expected) {
     const auto found = landmarks_.find(id);
     if (found == landmarks_.end()) continue;
-    int& num_missed = found->second.num_missed;
-    num_missed = FindObservation(tracked, id) != nullptr ? 0 : num_missed + 1;
+    const bool is_seen = FindObservation(tracked, id) != nullptr;
+    found->second.num_missed = is_seen ? 0 : found->second.num_missed + 1;
+    found->second.num_agreed += is_seen;
   }
 }
 

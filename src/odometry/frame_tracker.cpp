@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
@@ -16,15 +17,15 @@ struct FrameTracker::Correspondences {
   std::vector<LandmarkObservation> observed;  ///< [N]
   std::vector<PointObservation> points;       ///< [N] the same for the pose
 
-  /// Those that `is_inlier` marks, sorted by landmark.
-  LandmarkObservations Inliers(const std::vector<char>& is_inlier) const {
-    LandmarkObservations inliers;
+  /// Those that have this flag, sorted by landmark.
+  LandmarkObservations Select(const std::vector<char>& flags, char flag) const {
+    LandmarkObservations selected;
     for (size_t i = 0; i < observed.size(); ++i) {
-      if (is_inlier[i]) inliers.push_back(observed[i]);
+      if (flags[i] == flag) selected.push_back(observed[i]);
     }
-    std::sort(inliers.begin(), inliers.end(),
+    std::sort(selected.begin(), selected.end(),
               [](const auto& a, const auto& b) { return a.landmark < b.landmark; });
-    return inliers;
+    return selected;
   }
 };
 
@@ -43,6 +44,31 @@ std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   std::vector<LandmarkId> ids;
   for (const Landmark* landmark : landmarks) ids.push_back(landmark->id);
   return ids;
+}
+
+bool Contains(const LandmarkObservations& observations, LandmarkId id) {
+  const auto found = std::lower_bound(
+      observations.begin(), observations.end(), id,
+      [](const LandmarkObservation& a, LandmarkId landmark) { return a.landmark < landmark; });
+  return found != observations.end() && found->landmark == id;
+}
+
+/// A point that agreed with more frames has no more votes.
+constexpr int kMaxAgreed = 2;
+constexpr double kNewVotes = 0.25, kSuspectVotes = 0.05;
+constexpr int kCellsAcross = 12, kFewInCell = 3;
+
+/// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
+void ShareVotes(int cell_px, std::vector<PointObservation>& points) {
+  std::map<std::pair<int, int>, int> num_in_cell;
+  const auto cell = [&](const PointObservation& point) {
+    return std::pair(static_cast<int>(point.pixels.x()) / cell_px,
+                     static_cast<int>(point.pixels.y()) / cell_px);
+  };
+  for (const PointObservation& point : points) ++num_in_cell[cell(point)];
+  for (PointObservation& point : points) {
+    point.votes /= std::max(num_in_cell[cell(point)], kFewInCell);
+  }
 }
 
 }  // namespace
@@ -79,6 +105,8 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
   point.pixels = observation.pixels.head<3>();
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
+  point.votes =
+      (landmark.is_suspect ? kSuspectVotes : kNewVotes) + std::min(landmark.num_agreed, kMaxAgreed);
   if (point.has_right) {
     point.pixels[2] = NominalRightPixel(camera_, correction_, observation.pixels.tail<2>()).x();
   }
@@ -86,20 +114,19 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
 }
 
 TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& images,
-                                 const LocalMap& map,
-                                 const std::optional<Rigid3>& predicted) const {
+                                 const LocalMap& map, const std::optional<PredictedPose>& predicted,
+                                 bool use_right) const {
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
-  if (predicted) tracked = Localise(MatchNear(frame, map, *predicted), predicted);
-  if (!tracked.pose.IsTracked() || tracked.pose.num_inliers < options_.min_guided_inliers) {
+  if (predicted) tracked = Localise(MatchNear(frame, map, predicted->camera_from_world), predicted);
+  if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
     const TrackedFrame found = Localise(MatchAll(frame, map), predicted);
     const bool is_better =
-        found.pose.IsTracked() &&
-        (!tracked.pose.IsTracked() || found.pose.num_inliers > tracked.pose.num_inliers);
-    if (is_better || !tracked.pose.IsTracked()) tracked = found;
+        found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
+    if (is_better || !tracked.pose.HasPose()) tracked = found;
   }
-  if (!tracked.pose.IsTracked() || !options_.align_patches) return tracked;
-  return Align(images, map, tracked);
+  if (!tracked.pose.HasPose() || !options_.align_patches) return tracked;
+  return Align(images, map, tracked, use_right);
 }
 
 FrameTracker::Correspondences FrameTracker::MatchNear(const StereoFrame& frame, const LocalMap& map,
@@ -162,44 +189,53 @@ FrameTracker::Correspondences FrameTracker::Correspond(
   return correspondences;
 }
 
-TrackedFrame FrameTracker::Localise(const Correspondences& correspondences,
-                                    const std::optional<Rigid3>& predicted) const {
+TrackedFrame FrameTracker::Localise(Correspondences correspondences,
+                                    const std::optional<PredictedPose>& predicted) const {
   TrackedFrame tracked;
   std::vector<char> is_inlier;
+  ShareVotes(camera_.width / kCellsAcross, correspondences.points);
   tracked.pose =
       EstimatePose(camera_, correspondences.points, predicted, options_.pose, &is_inlier);
-  if (!tracked.pose.IsTracked()) return tracked;
-  tracked.observations = correspondences.Inliers(is_inlier);
+  if (!tracked.pose.HasPose()) return tracked;
+  tracked.observations = correspondences.Select(is_inlier, 1);
   for (const auto& observation : tracked.observations) {
     tracked.expected.push_back(observation.landmark);
   }
+  tracked.contradicting = correspondences.Select(is_inlier, 0);
   return tracked;
 }
 
 std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
     const StereoImages& images, const LocalMap& map, const std::vector<const Landmark*>& landmarks,
-    const Rigid3& camera_from_world) const {
+    const Rigid3& camera_from_world, bool use_right) const {
   std::vector<std::optional<LandmarkObservation>> observations(landmarks.size());
   const cv::Range all(0, static_cast<int>(landmarks.size()));
   cv::parallel_for_(all, [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const Keyframe* reference = map.FindKeyframe(landmarks[i]->reference);
       if (reference == nullptr) continue;
-      observations[i] = aligner_.Align(*landmarks[i], *reference, images, camera_from_world);
+      observations[i] =
+          aligner_.Align(*landmarks[i], *reference, images, camera_from_world, use_right);
     }
   });
   return observations;
 }
 
 TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map,
-                                 const TrackedFrame& coarse) const {
+                                 const TrackedFrame& coarse, bool use_right) const {
   TrackedFrame tracked;
   tracked.pose = coarse.pose;
+  tracked.contradicting = coarse.contradicting;
   const Rigid3& coarse_pose = coarse.pose.camera_from_world;
-  const auto landmarks = map.LandmarksInView(coarse_pose, 8);
+  auto landmarks = map.LandmarksInView(coarse_pose, 8);
+  const auto moves = [&](const Landmark* landmark) {
+    return landmark->is_suspect && landmark->num_agreed == 0 &&
+           !Contains(coarse.observations, landmark->id);
+  };
+  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
   tracked.expected = Ids(landmarks);
   const std::vector<std::optional<LandmarkObservation>> observations =
-      Measure(images, map, landmarks, coarse_pose);
+      Measure(images, map, landmarks, coarse_pose, use_right);
   Correspondences correspondences;
   for (size_t i = 0; i < landmarks.size(); ++i) {
     if (observations[i]) Add(*landmarks[i], *observations[i], correspondences);
@@ -208,15 +244,23 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
   const double enough = std::max<double>(
       options_.pose.min_inliers, options_.pose.min_inlier_share * correspondences.points.size());
+  if (getenv("DBG"))
+    fprintf(stderr, "    align: coarse %d exp %zu found %zu inl %d moved %.3f\n",
+            coarse.pose.num_inliers, landmarks.size(), correspondences.points.size(),
+            refined.num_inliers,
+            (refined.camera_from_world * coarse_pose.Inverse()).translation.norm());
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
     return coarse;  // too few patches are no better than the keypoints that agreed
   }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
+  if (coarse.pose.status == PoseStatus::kDegraded) {  // the other group may be right
+    tracked.pose.covariance += coarse.pose.covariance;
+  }
   tracked.pose.num_matches = static_cast<int>(correspondences.points.size());
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;
-  tracked.observations = correspondences.Inliers(refined.is_inlier);
+  tracked.observations = correspondences.Select(refined.is_inlier, 1);
   return tracked;
 }
 

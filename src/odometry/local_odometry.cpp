@@ -8,7 +8,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/odometry/drift_estimator.h"
-#include "arfm_vo/odometry/motion_model.h"
+#include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
 
 namespace arfm_vo {
@@ -30,6 +30,8 @@ namespace {
 
 /// About so many points tell how a frame's pose errs with the stereo correction.
 constexpr size_t kDriftPoints = 100;
+/// An eye with fewer keypoints, against the other's, is dark or covered.
+constexpr double kBlindShare = 0.1;
 
 }  // namespace
 
@@ -49,9 +51,12 @@ class LocalOdometry::Implementation {
     drift_.SetCorrection(correction);
   }
 
-  OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images) {
+  OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images,
+                         const std::optional<PredictedPose>& predicted) {
     Stopwatch stopwatch;
-    const StereoFrame frame = Corrected(measured, camera_, correction_.mean);
+    StereoFrame frame = Corrected(measured, camera_, correction_.mean);
+    const std::string right_fault = RightFault(frame);
+    if (!right_fault.empty()) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.median_row_residual_px = MedianRowResidual(frame.points);
@@ -60,10 +65,14 @@ class LocalOdometry::Implementation {
     if (map_.keyframes().empty()) {
       Start(frame, update);
     } else {
-      Continue(frame, images, update);
+      Continue(frame, images, predicted, right_fault, update);
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
-    if (update.is_keyframe) AddKeyframe(frame, images, update);
+    if (update.is_keyframe) {
+      if (!right_fault.empty()) frame.points = PointsByMotion(frame, update);
+      AddKeyframe(frame, images, update);
+      newest_features_ = frame.features;
+    }
     update.stage_ms.emplace_back("map", stopwatch.LapMs());
     return update;
   }
@@ -104,7 +113,6 @@ class LocalOdometry::Implementation {
     standstill_.Reset();
     drift_.Clear();
     archive_.Clear();
-    motion_.Reset();
     record_.reset();
   }
 
@@ -130,19 +138,29 @@ class LocalOdometry::Implementation {
     pose_drift_ = {update.pose.covariance, {}};
     pose_drift_.by_columns.setZero();
     update.is_keyframe = true;
-    motion_.Reset();
-    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
   }
 
-  void Continue(const StereoFrame& frame, const StereoImages& images, OdometryUpdate& update) {
-    const auto predicted = options_.predict_motion ? motion_.Predict(frame.stamp_s) : std::nullopt;
-    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted);
+  void Continue(const StereoFrame& frame, const StereoImages& images,
+                const std::optional<PredictedPose>& predicted, const std::string& right_fault,
+                OdometryUpdate& update) {
+    if (frame.left_is_repeated) {
+      update.pose.status = PoseStatus::kTooFewFeatures;
+      update.remark = "the left camera repeats its picture";
+      return;
+    }
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted, right_fault.empty());
     update.pose = tracked.pose;
-    if (!tracked.pose.IsTracked()) {
-      motion_.Reset();
+    if (!tracked.pose.HasPose()) {
       standstill_.Reset();
       Recover(frame, update);
       return;
+    }
+    if (tracked.pose.status == PoseStatus::kDegraded) {
+      update.remark = "two groups of points move differently";
+      update.is_contradicted = true;
+    } else if (!right_fault.empty()) {
+      update.pose.status = PoseStatus::kDegraded;
+      update.remark = right_fault + ", the left one alone tells";
     }
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
     if (resting) {
@@ -151,11 +169,28 @@ class LocalOdometry::Implementation {
       map_.CountSightings(tracked.expected, tracked.observations);
     }
     update.is_keyframe =
-        !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
-                                  tracked.observations, options_.keyframes);
+        !resting && tracked.pose.IsTracked() &&
+        NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
+                      tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
-    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
+    contradicting_ = std::move(tracked.contradicting);
     AddDrift(update);
+  }
+
+  /// Why the right image is not to be used; empty where it is.
+  static std::string RightFault(const StereoFrame& frame) {
+    if (frame.right_is_repeated) return "the right camera repeats its picture";
+    if (frame.num_right_keypoints < kBlindShare * frame.features.size()) {
+      return "the right camera sees nothing";
+    }
+    return "";
+  }
+
+  /// New points without a right image.
+  StereoPoints PointsByMotion(const StereoFrame& frame, const OdometryUpdate& update) const {
+    return TriangulateByMotion(camera_, {frame.features, update.pose.camera_from_world},
+                               {newest_features_, map_.keyframes().back().camera_from_world},
+                               options_.tracker.keypoint_sigma);
   }
 
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
@@ -170,7 +205,7 @@ class LocalOdometry::Implementation {
     pose_drift_ = {place->covariance_from_start, {}};
     pose_drift_.by_columns.setZero();
     update.is_keyframe = true;
-    motion_.Add(frame.stamp_s, update.pose.camera_from_world);
+    contradicting_.clear();
   }
 
   void Retire(const Keyframe& keyframe) {
@@ -182,8 +217,8 @@ class LocalOdometry::Implementation {
     const LandmarkId first_new = map_.next_landmark();
     const bool is_full = static_cast<int>(map_.keyframes().size()) == options_.map.max_keyframes;
     if (is_full) Retire(map_.keyframes().front());
-    const Keyframe& keyframe =
-        map_.AddKeyframe(frame, images.left, update.pose.camera_from_world, update.observations);
+    const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
+                                                update.observations, contradicting_);
     record_ = KeyframeRecord{
         keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
     for (auto landmark = map_.landmarks().lower_bound(first_new);
@@ -269,7 +304,8 @@ class LocalOdometry::Implementation {
   LocalMap map_;
   StandstillLock standstill_;
   KeyframeArchive archive_;
-  MotionModel motion_;
+  Features newest_features_;            ///< of the newest keyframe
+  LandmarkObservations contradicting_;  ///< of the last tracked frame
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
   PoseDrift pose_drift_;  ///< of the last tracked frame
@@ -281,8 +317,9 @@ LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOpti
     : implementation_(std::make_unique<Implementation>(camera, options, correction)) {}
 LocalOdometry::~LocalOdometry() = default;
 
-OdometryUpdate LocalOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
-  return implementation_->Process(frame, images);
+OdometryUpdate LocalOdometry::Process(const StereoFrame& frame, const StereoImages& images,
+                                      const std::optional<PredictedPose>& predicted) {
+  return implementation_->Process(frame, images, predicted);
 }
 std::optional<KeyframeRecord> LocalOdometry::TakeKeyframe() {
   return implementation_->TakeKeyframe();

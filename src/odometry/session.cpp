@@ -1,6 +1,8 @@
 #include "arfm_vo/odometry/session.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace arfm_vo {
 namespace {
@@ -8,9 +10,24 @@ namespace {
 /// Between pairs further apart the speed is not told.
 constexpr double kMaxTwistInterval_s = 1;
 
-/// How far a base that kept its last speed may have come.
+/// So long the base is taken to go on as it went, without a picture that tells.
+constexpr double kMaxBridge_s = 2;
+/// A base that stood may have begun to move as fast.
+constexpr double kUnknownSpeed_m_s = 0.1, kUnknownTurn_rad_s = 0.1;
+/// What a vehicle, or a hand, cannot do; and how wrong the speed before may be.
+constexpr double kMaxAcceleration_m_s2 = 10, kMaxTurnAcceleration_rad_s2 = 10;
+constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
+/// After so many good pairs that the map does not know it is given up, where the base has gone on
+/// by this part of the distance of what it sees.
+constexpr int kMaxUnknownPairs = 3;
+constexpr double kNewGround = 0.05;
+
+/// How far a base may be from where its last speed would have brought it: it may stop, or go twice
+/// as fast, within a second.
 Matrix6 GapCovariance(const Eigen::Matrix<double, 6, 1>& twist, double gap_s) {
-  const double way_m = twist.head<3>().norm() * gap_s, turn_rad = twist.tail<3>().norm() * gap_s;
+  const double change = std::min(gap_s, 1.0);
+  const double way_m = (twist.head<3>().norm() * change + kUnknownSpeed_m_s) * gap_s;
+  const double turn_rad = (twist.tail<3>().norm() * change + kUnknownTurn_rad_s) * gap_s;
   Matrix6 covariance = Matrix6::Zero();
   covariance.diagonal() << Eigen::Vector3d::Constant(way_m * way_m),
       Eigen::Vector3d::Constant(turn_rad * turn_rad);
@@ -39,19 +56,83 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   PrepareFor(camera);
   if (offer_ && num_frames_ >= TakeoverFrame(*offer_)) TakeOffer();
   SessionUpdate pose;
-  pose.epoch = epoch_;
-  pose.odom_from_base = base_.odom_from_base();
-  pose.update = odometry_->Process(frame, images);
+  Track(frame, images, base_from_camera, pose);
+  if (!pose.update.pose.IsMeasured() &&
+      (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
+    StartEpoch();
+    Track(frame, images, base_from_camera, pose);
+  }
   pose.text = ToString(pose.update.pose.status);
-  if (pose.IsTracked()) FollowBase(base_from_camera, pose);
+  if (!pose.update.remark.empty()) pose.text += ": " + pose.update.remark;
   log_.Add(pose.update, odometry_->map());
   ++num_frames_;
-  if (pose.IsTracked()) {
-    lost_since_s_.reset();
-  } else {
-    CountLost(frame.stamp_s);
-  }
   return pose;
+}
+
+std::optional<PredictedPose> Session::Predict(double stamp_s,
+                                              const Rigid3& base_from_camera) const {
+  if (!options_.predict_motion) return std::nullopt;
+  const auto base_from_world = motion_.Predict(stamp_s);
+  if (!base_from_world) return std::nullopt;
+  PredictedPose predicted(base_from_camera.Inverse() * *base_from_world);
+  if (motion_.KnowsSpeed() && last_) {
+    const double gap_s = stamp_s - last_->stamp_s;
+    predicted.max_shift_m = kMaxAcceleration_m_s2 * gap_s * gap_s + kMaxShift_m;
+    predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * gap_s * gap_s + kMaxTurn_rad;
+  }
+  return predicted;
+}
+
+void Session::Track(const StereoFrame& frame, const StereoImages& images,
+                    const Rigid3& base_from_camera, SessionUpdate& pose) {
+  if (last_ && frame.stamp_s - last_->stamp_s > kMaxBridge_s) motion_.Reset();
+  pose.epoch = epoch_;
+  pose.odom_from_base = base_.odom_from_base();
+  pose.update = odometry_->Process(frame, images, Predict(frame.stamp_s, base_from_camera));
+  const PoseEstimate& estimate = pose.update.pose;
+  if (!estimate.HasPose()) {
+    if (!lost_since_s_) lost_since_s_ = frame.stamp_s;
+    Bridge(base_from_camera, pose);
+    return;
+  }
+  FollowBase(base_from_camera, pose);
+  lost_since_s_.reset();
+  num_unknown_ = 0;
+  if (pose.update.is_contradicted) return;  // the motion before goes on
+  motion_.Add(frame.stamp_s, base_from_camera * estimate.camera_from_world);
+}
+
+void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
+  if (!last_ || !motion_.KnowsSpeed() || !base_.has_world()) return;
+  const double gap_s = pose.update.stamp_s - last_->stamp_s;
+  PoseEstimate& estimate = pose.update.pose;
+  pose.update.remark =
+      (pose.update.remark.empty() ? ToString(estimate.status) : pose.update.remark) +
+      std::string(", gone on as before");
+  estimate.status = PoseStatus::kDegraded;
+  estimate.num_inliers = 0;
+  estimate.camera_from_world = base_from_camera.Inverse() * *motion_.Predict(pose.update.stamp_s);
+  pose.odom_from_base = base_.Move(estimate.camera_from_world, base_from_camera);
+  pose.covariance = last_->covariance + GapCovariance(last_->twist, gap_s);
+  pose.twist = last_->twist;
+}
+
+/// Whether the pair is good, the map has not known some in a row, and the base has moved on.
+bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
+  if (!last_ || static_cast<int>(frame.points.size()) < options_.min_points_to_start) return false;
+  if (frame.left_is_repeated || ++num_unknown_ < kMaxUnknownPairs) return false;
+  std::vector<double> depths;
+  for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
+  const auto middle = depths.begin() + depths.size() / 2;
+  std::nth_element(depths.begin(), middle, depths.end());
+  const Rigid3 gone = last_->odom_from_base.Inverse() * pose.odom_from_base;
+  return gone.translation.norm() > kNewGround * *middle;
+}
+
+bool Session::IsLostTooLong(double stamp_s) const {
+  return options_.restart_after_lost_s > 0 && lost_since_s_ &&
+         stamp_s - *lost_since_s_ >= options_.restart_after_lost_s &&
+         !odometry_->map().keyframes().empty();
 }
 
 SessionUpdate Session::Skip(double stamp_s, PoseStatus status, const std::string& text) {
@@ -74,7 +155,7 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     map_.StartEpoch(base_.odom_from_world());
     if (!map_from_first_) map_from_first_ = map_.map_from_world();
     if (last_) {
-      drift_.StartEpoch(last_->odom_from_base, last_->covariance,
+      drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
     }
   }
@@ -85,6 +166,7 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     pose.keyframe = PlacedKeyframe{std::move(*record), epoch_, camera_, base_.odom_from_world(),
                                    base_from_camera};
   }
+  if (pose.update.is_contradicted) return;
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
 }
 
@@ -94,13 +176,6 @@ void Session::SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) cons
   const Rigid3 motion = last_->odom_from_base.Inverse() * pose.odom_from_base;
   pose.twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
   pose.twist_covariance = base_covariance * (2 / (interval_s * interval_s));
-}
-
-void Session::CountLost(double stamp_s) {
-  if (!lost_since_s_) lost_since_s_ = stamp_s;
-  const bool is_too_long = options_.restart_after_lost_s > 0 &&
-                           stamp_s - *lost_since_s_ >= options_.restart_after_lost_s;
-  if (is_too_long && !odometry_->map().keyframes().empty()) StartEpoch();
 }
 
 void Session::Offer(MapUpdate update, uint32_t epoch) {
@@ -129,6 +204,8 @@ void Session::StartEpoch() {
   offer_.reset();
   if (odometry_) odometry_->Reset();
   base_.StartEpoch();
+  motion_.Reset();
+  num_unknown_ = 0;
   ++epoch_;
 }
 

@@ -25,6 +25,8 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   Stopwatch stopwatch;
   StereoFrame frame;
   frame.stamp_s = images.stamp_s;
+  frame.left_is_repeated = left_repeated_.Look(images.left);
+  frame.right_is_repeated = right_repeated_.Look(images.right);
   auto right = std::async(std::launch::async, [&] { return right_surf_.Extract(images.right); });
   frame.features = left_surf_.Extract(images.left);
   frame.grey = ComputeGreyStatistics(images.left);
@@ -32,7 +34,9 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   frame.num_right_keypoints = right_features.size();
   const double features_ms = stopwatch.LapMs();
   frame.ratio_threshold = reconstructor_.RatioThreshold(frame.grey);
-  frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
+  if (!frame.right_is_repeated) {
+    frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
+  }
   if (stage_ms != nullptr) {
     stage_ms->emplace_back("features", features_ms);
     stage_ms->emplace_back("stereo", stopwatch.LapMs());

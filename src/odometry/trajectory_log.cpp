@@ -10,7 +10,7 @@ void TrajectoryLog::Add(const OdometryUpdate& update, const LocalMap& map) {
     if (is_new) place->second.frame = first_frame_ + frames_.size();
     place->second.camera_from_world = keyframe.camera_from_world;
   }
-  if (!update.pose.IsTracked() || map.keyframes().empty()) return AddLost(update.stamp_s);
+  if (!update.pose.IsMeasured() || map.keyframes().empty()) return AddLost(update.stamp_s);
   const Keyframe& keyframe = map.keyframes().back();
   frames_.push_back({update.stamp_s, true, keyframe.id,
                      update.pose.camera_from_world * keyframe.camera_from_world.Inverse()});

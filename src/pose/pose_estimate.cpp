@@ -16,6 +16,8 @@ const char* ToString(PoseStatus status) {
       return "no transform";
     case PoseStatus::kHeadSlewing:
       return "head slewing";
+    case PoseStatus::kDegraded:
+      return "degraded";
   }
   return "unknown";
 }

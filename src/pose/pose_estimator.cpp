@@ -12,6 +12,10 @@ namespace arfm_vo {
 namespace {
 
 constexpr int kMaxSample = 8;
+/// A pose with this part of the best one's votes contradicts it.
+constexpr double kRivalShare = 0.5;
+/// What a vote counts for a pose that the motion before does not allow.
+constexpr double kImplausible = 0.25;
 
 /// The covariance of a point as one long axis in a round rest: what stereo makes of a point, and
 /// quick to carry through a projection.
@@ -35,6 +39,7 @@ class Consensus {
             const PoseEstimatorOptions& options)
       : camera_(camera),
         observations_(observations),
+        min_inliers_(options.min_inliers),
         bounds_{ChiSquareQuantile(2, options.inlier_probability),
                 ChiSquareQuantile(3, options.inlier_probability)} {
     spreads_.reserve(observations.size());
@@ -75,19 +80,23 @@ class Consensus {
   double Classify(const Rigid3& camera_from_world, std::vector<char>& is_inlier) const {
     const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
     double score = 0;
+    int num_inliers = 0;
     for (size_t i = 0; i < observations_.size(); ++i) {
       const double ratio =
           SquaredError(static_cast<int>(i), rotation, camera_from_world.translation) /
           bounds_[observations_[i].has_right];
       is_inlier[i] = ratio <= 1;
-      if (ratio <= 1) score += 1 - ratio;
+      num_inliers += is_inlier[i];
+      if (ratio <= 1) score += observations_[i].votes * (1 - ratio);
     }
-    return score;
+    // However many votes they have, a few agree by chance.
+    return num_inliers < min_inliers_ ? score * num_inliers / (10.0 * min_inliers_) : score;
   }
 
  private:
   const StereoCamera& camera_;
   const std::vector<PointObservation>& observations_;
+  const int min_inliers_;
   const double bounds_[2];
   std::vector<PointSpread> spreads_;
 };
@@ -97,13 +106,30 @@ struct Hypothesis {
   Rigid3 camera_from_world;
   std::vector<char> agrees;  ///< [N]
   double score;
+  double plausibility = 1;  ///< by the motion before; counted in the score
 
   Hypothesis(const Consensus& consensus, const Rigid3& pose, size_t num_observations)
       : camera_from_world(pose),
         agrees(num_observations),
         score(consensus.Classify(pose, agrees)) {}
-  int Count() const { return static_cast<int>(std::count(agrees.begin(), agrees.end(), 1)); }
 };
+
+/// A pose and, where many of the points that contradict it agree with each other, theirs.
+struct Agreement {
+  PoseRefinement refinement;
+  std::optional<Rigid3> rival;
+  double plausibility = 1;
+};
+
+/// The votes of those that agree with `a` and not with `b`; of all with `a` where there is no b.
+double CountVotes(const std::vector<PointObservation>& observations, const Hypothesis& a,
+                  const Hypothesis* b = nullptr) {
+  double votes = 0;
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (a.agrees[i] && (b == nullptr || !b->agrees[i])) votes += observations[i].votes;
+  }
+  return votes;
+}
 
 /// The pose on which most agree, by samples.
 std::optional<Rigid3> Sample(const StereoCamera& camera,
@@ -128,39 +154,126 @@ std::optional<Rigid3> Sample(const StereoCamera& camera,
   return consent->model;
 }
 
-/// The refined pose on which most agree.
-PoseRefinement Agree(const StereoCamera& camera, const std::vector<PointObservation>& observations,
-                     const std::optional<Rigid3>& predicted, PoseEstimatorOptions options) {
-  const size_t num_observations = observations.size();
-  const Consensus consensus(camera, observations, options);
-  std::optional<Hypothesis> best;
-  const auto propose = [&](const Rigid3& pose) {
-    Hypothesis hypothesis(consensus, pose, num_observations);
-    if (!best || hypothesis.score > best->score) best = std::move(hypothesis);
-  };
-  std::vector<PointObservation> rest = observations;
-  if (predicted && predicted->IsFinite()) {
-    propose(*predicted);
-    const PoseRefinement refined = RefinePose(camera, observations, *predicted, options.refinement);
-    if (refined.status == RefinementStatus::kConverged) propose(refined.camera_from_world);
-    const size_t num_friends = best->Count();
-    // No other pose can have more than the rest. One that has must have them among the rest, but
-    // for those, far away as a rule, that agree with both: few samples find it there.
-    if (refined.status == RefinementStatus::kConverged && 2 * num_friends > num_observations) {
-      return refined;
-    }
-    rest.clear();
-    for (size_t i = 0; i < num_observations; ++i) {
-      if (!best->agrees[i]) rest.push_back(observations[i]);
-    }
-    options.ransac.max_iterations =
-        CountSamples(static_cast<double>(num_friends) / std::max<size_t>(rest.size(), 1),
-                     options.sample_size, options.ransac);
+/// The poses on which most agree.
+class Election {
+ public:
+  Election(const StereoCamera& camera, const std::vector<PointObservation>& observations,
+           const std::optional<PredictedPose>& predicted, const PoseEstimatorOptions& options)
+      : camera_(camera),
+        observations_(observations),
+        options_(options),
+        consensus_(camera, observations, options) {
+    if (predicted && predicted->camera_from_world.IsFinite()) predicted_ = predicted;
+    for (const PointObservation& observation : observations) all_votes_ += observation.votes;
   }
-  if (const auto sampled = Sample(camera, rest, options)) propose(*sampled);
-  if (!best) return {};
-  return RefinePose(camera, observations, best->camera_from_world, options.refinement,
-                    best->agrees);
+
+  Agreement Hold() {
+    if (predicted_) {
+      const Rigid3& predicted = predicted_->camera_from_world;
+      Propose(predicted);
+      const PoseRefinement refined =
+          RefinePose(camera_, observations_, predicted, options_.refinement);
+      if (refined.status == RefinementStatus::kConverged) {
+        Propose(refined.camera_from_world);
+        if (HasMajority() &&
+            best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
+          return {refined, std::nullopt, 1};
+        }
+      }
+      const auto& friends = Hypothesis(consensus_, predicted, observations_.size()).agrees;
+      const PoseRefinement near =
+          RefinePose(camera_, observations_, predicted, options_.refinement, friends);
+      if (near.status == RefinementStatus::kConverged) Propose(near.camera_from_world);
+    } else if (const auto sampled = Sample(camera_, observations_, options_)) {
+      Propose(*sampled);
+    }
+    if (!HasMajority()) ProposeRest();
+    if (!best_) return {};
+    Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
+                                   options_.refinement, best_->agrees),
+                        std::nullopt, best_->plausibility};
+    if (best_->plausibility < 1) agreement.rival = predicted_->camera_from_world;
+    if (getenv("DBG")) {
+      auto n = [&](const Hypothesis& h) {
+        return (int)std::count(h.agrees.begin(), h.agrees.end(), 1);
+      };
+      fprintf(stderr, "  election: N %zu votes %.1f best %.1f (%d) t %.3f", observations_.size(),
+              all_votes_, CountVotes(observations_, *best_), n(*best_),
+              predicted_ ? (best_->camera_from_world * predicted_->camera_from_world.Inverse())
+                               .translation.norm()
+                         : -1);
+      if (second_)
+        fprintf(stderr, " second %.1f (%d) excl %.1f vs %.1f t %.3f",
+                CountVotes(observations_, *second_), n(*second_),
+                CountVotes(observations_, *best_, &*second_),
+                CountVotes(observations_, *second_, &*best_),
+                predicted_ ? (second_->camera_from_world * predicted_->camera_from_world.Inverse())
+                                 .translation.norm()
+                           : -1);
+      fprintf(stderr, "\n");
+    }
+    if (second_ && IsRival(*second_)) agreement.rival = second_->camera_from_world;
+    return agreement;
+  }
+
+ private:
+  void Propose(const Rigid3& pose) {
+    Hypothesis hypothesis(consensus_, pose, observations_.size());
+    hypothesis.plausibility = Plausibility(pose);
+    hypothesis.score *= hypothesis.plausibility;
+    if (!best_ || hypothesis.score > best_->score)
+      std::swap(best_, second_), best_ = hypothesis;
+    else
+      second_ = hypothesis;
+  }
+
+  /// No other pose can have more votes.
+  bool HasMajority() const {
+    return best_ && best_->plausibility == 1 && 2 * CountVotes(observations_, *best_) > all_votes_;
+  }
+  double Plausibility(const Rigid3& pose) const {
+    return !predicted_ || predicted_->Allows(pose) ? 1 : kImplausible;
+  }
+
+  /// Another pose that has as many votes must have them among those that contradict, but for
+  /// those, far away as a rule, that agree with both: few samples find it there.
+  void ProposeRest() {
+    std::vector<PointObservation> rest;
+    double rest_votes = 0;
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      if (best_ && best_->agrees[i]) continue;
+      rest.push_back(observations_[i]);
+      rest_votes += observations_[i].votes;
+    }
+    PoseEstimatorOptions options = options_;
+    if (best_) {
+      const double share =
+          kRivalShare * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
+      options.ransac.max_iterations = CountSamples(share, options.sample_size, options.ransac);
+    }
+    if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
+  }
+
+  bool IsRival(const Hypothesis& second) const {
+    return second.plausibility * CountVotes(observations_, second, &*best_) >=
+           kRivalShare * best_->plausibility * CountVotes(observations_, *best_, &second);
+  }
+
+  const StereoCamera& camera_;
+  const std::vector<PointObservation>& observations_;
+  const PoseEstimatorOptions& options_;
+  const Consensus consensus_;
+  std::optional<PredictedPose> predicted_;
+  double all_votes_ = 0;
+  std::optional<Hypothesis> best_, second_;
+};
+
+/// The covariance of a pose that may as well be `other`.
+Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
+  const Rigid3 between = other * pose.Inverse();
+  Eigen::Matrix<double, 6, 1> step;
+  step << LogSO3(between.rotation), between.translation;
+  return step * step.transpose();
 }
 
 }  // namespace
@@ -179,7 +292,7 @@ void PoseEstimatorOptions::Check() const {
 
 PoseEstimate EstimatePose(const StereoCamera& camera,
                           const std::vector<PointObservation>& observations,
-                          const std::optional<Rigid3>& predicted_camera_from_world,
+                          const std::optional<PredictedPose>& predicted,
                           const PoseEstimatorOptions& options, std::vector<char>* is_inlier) {
   options.Check();
   RequireValid(observations);
@@ -191,16 +304,25 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   if (num_observations < options.min_inliers) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;
-  const PoseRefinement refinement =
-      Agree(camera, observations, predicted_camera_from_world, options);
+  const Agreement agreement = Election(camera, observations, predicted, options).Hold();
+  const PoseRefinement& refinement = agreement.refinement;
   if (refinement.status != RefinementStatus::kConverged) return estimate;
-  const double min_inliers =
-      std::max<double>(options.min_inliers, options.min_inlier_share * num_observations);
-  if (refinement.num_inliers < min_inliers) return estimate;
+  if (refinement.num_inliers < options.min_inliers) return estimate;
+  double votes = 0, all_votes = 0;
+  for (size_t i = 0; i < observations.size(); ++i) {
+    votes += refinement.is_inlier[i] * observations[i].votes;
+    all_votes += observations[i].votes;
+  }
+  if (votes < options.min_inlier_share * all_votes) return estimate;
 
+  estimate.votes = agreement.plausibility * votes;
   estimate.status = PoseStatus::kTracked;
   estimate.camera_from_world = refinement.camera_from_world;
   estimate.covariance = refinement.covariance;
+  if (agreement.rival) {
+    estimate.status = PoseStatus::kDegraded;
+    estimate.covariance += SpreadTo(*agreement.rival, refinement.camera_from_world);
+  }
   estimate.num_inliers = refinement.num_inliers;
   estimate.rms_px = refinement.rms_px;
   if (is_inlier) *is_inlier = refinement.is_inlier;

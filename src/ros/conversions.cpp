@@ -180,6 +180,8 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
     }
   }
   message.num_right_keypoints = frame.num_right_keypoints;
+  message.left_is_repeated = frame.left_is_repeated;
+  message.right_is_repeated = frame.right_is_repeated;
   message.grey_mean = frame.grey.mean;
   message.grey_variance = frame.grey.variance;
   message.ratio_threshold = frame.ratio_threshold;
@@ -192,6 +194,8 @@ StereoFrame FromMessage(const StereoFrameStamped& message) {
   frame.features = ImportFeatures(message);
   frame.points = ImportPoints(message);
   frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
+  frame.left_is_repeated = message.left_is_repeated;
+  frame.right_is_repeated = message.right_is_repeated;
   frame.grey = {message.grey_mean, message.grey_variance};
   frame.ratio_threshold = message.ratio_threshold;
   return frame;

@@ -28,6 +28,7 @@ StereoFrame MakeFrame() {
   frame.points.push_back({0, {10.5, 20.25, 3.0}, 0.25, 0.5, {1, 2, 30}, {0.125, 0.25}});
   frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}, {0, 0.5}});
   frame.num_right_keypoints = 7;
+  frame.right_is_repeated = true;
   frame.grey = {101.5, 2500.25};
   frame.ratio_threshold = 0.8125;
   return frame;
@@ -89,6 +90,8 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
     EXPECT_EQ(back.points[i].disparity_gradient, frame.points[i].disparity_gradient);
   }
   EXPECT_EQ(back.num_right_keypoints, 7);
+  EXPECT_FALSE(back.left_is_repeated);
+  EXPECT_TRUE(back.right_is_repeated);
   EXPECT_EQ(back.grey.mean, 101.5);
   EXPECT_EQ(back.grey.variance, 2500.25);
   EXPECT_EQ(back.ratio_threshold, 0.8125);

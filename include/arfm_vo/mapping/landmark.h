@@ -24,8 +24,10 @@ struct Landmark {
   Keypoint keypoint;         ///< in the reference's left image
   std::array<float, 64> descriptor;
 
-  int num_keyframes = 0;  ///< keyframes that observe it
-  int num_missed = 0;     ///< frames in a row that should have seen it and did not
+  int num_keyframes = 0;    ///< keyframes that observe it
+  int num_missed = 0;       ///< frames in a row that should have seen it and did not
+  int num_agreed = 0;       ///< frames whose pose it agreed with
+  bool is_suspect = false;  ///< began where other points moved on their own
 };
 
 /// Where a frame saw a landmark.

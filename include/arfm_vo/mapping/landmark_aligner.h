@@ -37,7 +37,8 @@ class LandmarkAligner {
   /// the left image does not show the patch there; has_right is false where the right one does not.
   std::optional<LandmarkObservation> Align(const Landmark& landmark, const Keyframe& reference,
                                            const StereoImages& images,
-                                           const Rigid3& camera_from_world) const;
+                                           const Rigid3& camera_from_world,
+                                           bool use_right = true) const;
   /// What is known of the right image's displacement: tells where to look there.
   void SetCorrection(const StereoCorrection& correction) { correction_ = correction; }
 

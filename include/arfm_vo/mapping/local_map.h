@@ -39,8 +39,10 @@ class LocalMap {
 
   /// Adds a keyframe of a localised frame. `tracked` are its observations of known landmarks,
   /// sorted by landmark; new landmarks are made from the stereo points that lie apart from them.
+  /// `contradicting`: known ones that moved on their own; new ones among them are suspect.
   const Keyframe& AddKeyframe(const StereoFrame& frame, const cv::Mat& left,
-                              const Rigid3& camera_from_world, const LandmarkObservations& tracked);
+                              const Rigid3& camera_from_world, const LandmarkObservations& tracked,
+                              const LandmarkObservations& contradicting = {});
 
   /// The landmarks in the field of view of a camera, in front of it, sorted by id; without those
   /// that were missed too often of late.
@@ -68,8 +70,10 @@ class LocalMap {
   void Clear();
 
  private:
-  void AddNewLandmarks(const StereoFrame& frame, Keyframe& keyframe);
-  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe);
+  void AddNewLandmarks(const StereoFrame& frame, const LandmarkObservations& contradicting,
+                       Keyframe& keyframe);
+  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, bool is_suspect,
+                   Keyframe& keyframe);
   void RemoveOldestKeyframe();
   void MoveReference(Landmark& landmark, const Rigid3& old_from_world) const;
 

@@ -44,8 +44,9 @@ struct FrameTrackerOptions {
 /// A frame found again in the map.
 struct TrackedFrame {
   PoseEstimate pose;
-  LandmarkObservations observations;  ///< those that agree with the pose, sorted by landmark
-  std::vector<LandmarkId> expected;   ///< landmarks that should have been seen
+  LandmarkObservations observations;   ///< those that agree with the pose, sorted by landmark
+  std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
+  LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
@@ -55,8 +56,9 @@ class FrameTracker {
  public:
   FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
 
+  /// `use_right`: whether the right image is worth looking at.
   TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
-                     const std::optional<Rigid3>& predicted_camera_from_world) const;
+                     const std::optional<PredictedPose>& predicted, bool use_right = true) const;
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
 
@@ -70,14 +72,15 @@ class FrameTracker {
   Correspondences Correspond(const StereoFrame& frame,
                              const std::vector<const Landmark*>& landmarks,
                              const Matches& matches) const;
-  TrackedFrame Localise(const Correspondences& correspondences,
-                        const std::optional<Rigid3>& predicted) const;
+  TrackedFrame Localise(Correspondences correspondences,
+                        const std::optional<PredictedPose>& predicted) const;
   /// [landmarks] where each is seen, by its patch; in parallel.
   std::vector<std::optional<LandmarkObservation>> Measure(
       const StereoImages& images, const LocalMap& map,
-      const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world) const;
-  TrackedFrame Align(const StereoImages& images, const LocalMap& map,
-                     const TrackedFrame& coarse) const;
+      const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world,
+      bool use_right) const;
+  TrackedFrame Align(const StereoImages& images, const LocalMap& map, const TrackedFrame& coarse,
+                     bool use_right) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;

@@ -55,8 +55,10 @@ class LocalOdometry {
                 const CorrectionBelief& correction);
   ~LocalOdometry();
 
-  /// Localises the next frame, later than the one before; `images` are those it was made from.
-  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images);
+  /// Localises the next frame, later than the one before; `images` are those it was made from,
+  /// `predicted`, never required, is where it may be.
+  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images,
+                         const std::optional<PredictedPose>& predicted);
 
   /// The record of the newest keyframe, once: nothing where no keyframe was added since.
   std::optional<KeyframeRecord> TakeKeyframe();

@@ -8,6 +8,7 @@
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/odometry/local_odometry.h"
 #include "arfm_vo/odometry/map_frame.h"
+#include "arfm_vo/odometry/motion_model.h"
 #include "arfm_vo/odometry/trajectory_log.h"
 
 namespace arfm_vo {
@@ -15,7 +16,7 @@ namespace arfm_vo {
 /// What one pair says of the rover. The pose is known at once: no later pair changes it.
 struct SessionUpdate {
   OdometryUpdate update;
-  std::string text;       ///< its status in words
+  std::string text;       ///< its status in words, and why
   uint32_t epoch = 0;     ///< counts the maps begun: at the start, after a loss, at a reset
   Rigid3 odom_from_base;  ///< the last known where the pair is not tracked
   Matrix6 covariance = Matrix6::Identity() * kUnknownVariance;  ///< of odom_from_base, axes of odom
@@ -25,6 +26,7 @@ struct SessionUpdate {
   std::optional<PlacedKeyframe> keyframe;  ///< where the pair became one
 
   bool IsTracked() const { return update.pose.IsTracked(); }
+  bool HasPose() const { return update.pose.HasPose(); }
   /// Whether there was a pair to track at all: the camera's place known, the head at rest.
   bool IsTried() const {
     return update.pose.status != PoseStatus::kNoTransform &&
@@ -72,9 +74,15 @@ class Session {
     Eigen::Matrix<double, 6, 1> twist;
   };
   void PrepareFor(const StereoCamera& camera);
+  /// Where the camera may be by the base's motion.
+  std::optional<PredictedPose> Predict(double stamp_s, const Rigid3& base_from_camera) const;
+  void Track(const StereoFrame& frame, const StereoImages& images, const Rigid3& base_from_camera,
+             SessionUpdate& pose);
   void FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose);
+  void Bridge(const Rigid3& base_from_camera, SessionUpdate& pose);
+  bool IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose);
+  bool IsLostTooLong(double stamp_s) const;
   void SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const;
-  void CountLost(double stamp_s);
 
   LocalOdometryOptions options_;
   uint32_t epoch_;
@@ -86,8 +94,10 @@ class Session {
   std::optional<MapUpdate> offer_;  // of this epoch
   BaseMotion base_;
   DriftCovariance drift_;
-  std::optional<Tracked> last_;
+  MotionModel motion_;           // of the base in the odometry's world
+  std::optional<Tracked> last_;  // measured
   std::optional<double> lost_since_s_;
+  int num_unknown_ = 0;  // good pairs in a row that the map does not know
   MapFrame map_;
   TrajectoryLog log_;                     // of this epoch
   Trajectory closed_;                     // of the epochs before, in the map

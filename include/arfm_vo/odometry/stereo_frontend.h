@@ -2,6 +2,7 @@
 
 #include "arfm_vo/features/surf.h"
 #include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/image/repeated_image.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
@@ -50,6 +51,7 @@ class StereoFrontend {
   StereoCamera camera_;
   FrontendOptions options_;
   Surf left_surf_, right_surf_;
+  RepeatedImage left_repeated_, right_repeated_;
   StereoReconstructor reconstructor_;
 };
 

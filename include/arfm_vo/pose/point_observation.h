@@ -16,6 +16,7 @@ struct PointObservation {
   Eigen::Vector3d pixels;  ///< (u_left, v, u_right), px; u_right is not read unless has_right
   bool has_right = true;
   double sigma_px = 1;  ///< standard deviation of each of `pixels`; positive
+  double votes = 1;     ///< for a pose that it agrees with, against others; not negative
 
   /// Number of coordinates seen: 3, or 2 where the right image does not see the point.
   int NumCoordinates() const { return has_right ? 3 : 2; }

@@ -14,12 +14,13 @@ enum class PoseStatus {
   kNoConsensus,     ///< matches, but no motion that enough of them agree with
   kNoTransform,     ///< not tried: where the camera sat on the rover is not known
   kHeadSlewing,     ///< not tried: the head turned faster than the limit
+  kDegraded,        ///< a pose to be wary of: its covariance says how wrong it may be
 };
 
 /// The name of a status as messages and files show it, such as "too few matches".
 const char* ToString(PoseStatus status);
 
-/// The pose of one frame. Where status is not kTracked, pose and covariance hold nothing.
+/// The pose of one frame. Where HasPose() is false, pose and covariance hold nothing.
 struct PoseEstimate {
   PoseStatus status = PoseStatus::kTooFewFeatures;
   Rigid3 camera_from_world;
@@ -28,9 +29,13 @@ struct PoseEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int num_matches = 0;
   int num_inliers = 0;
+  double votes = 0;   ///< for the pose, against another one of the same frame
   double rms_px = 0;  ///< root mean square of the inliers' reprojection errors
 
   bool IsTracked() const { return status == PoseStatus::kTracked; }
+  bool HasPose() const { return IsTracked() || status == PoseStatus::kDegraded; }
+  /// Whether the picture told the pose, not the motion before alone.
+  bool IsMeasured() const { return HasPose() && num_inliers > 0; }
 };
 
 }  // namespace arfm_vo

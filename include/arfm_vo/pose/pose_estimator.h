@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct PoseEstimatorOptions {
   int sample_size = 5;               ///< points of an EPnP sample, 4..8
   double inlier_probability = 0.99;  ///< of the chi-square test within RANSAC
   int min_inliers = 15;
-  double min_inlier_share = 0.15;  ///< of the observations
+  double min_inlier_share = 0.15;  ///< of the observations' votes
   PoseRefinementOptions refinement;
 
   /// Throws std::invalid_argument naming the key.
@@ -30,18 +31,33 @@ struct PoseEstimatorOptions {
   }
 };
 
+/// Where the camera may be by its motion before.
+struct PredictedPose {
+  Rigid3 camera_from_world;
+  /// How far it can be from there at most: the centre, m, and the axes, rad.
+  double max_shift_m = std::numeric_limits<double>::infinity();
+  double max_turn_rad = std::numeric_limits<double>::infinity();
+
+  PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
+  bool Allows(const Rigid3& other_camera_from_world) const {
+    const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
+    return between.translation.norm() <= max_shift_m && between.Angle() <= max_turn_rad;
+  }
+};
+
 /// The camera's pose from points of the map and where it sees them: EPnP inside RANSAC with the
 /// score of MSAC (Torr and Zisserman 2000) on the stereo reprojection errors in units of their
 /// standard deviation, promising hypotheses refined (Chum, Matas, Kittler 2003), then RefinePose on
-/// the inliers. `predicted_camera_from_world`, as it is and refined, makes two hypotheses more, and
-/// nothing else is tried where more than half of the observations agree with the refined one; it
-/// is never needed and never trusted.
+/// the inliers. Where more than half of the votes are for the refined prediction nothing else is
+/// tried; a pose that the prediction does not allow needs four times the votes. The prediction is
+/// never needed. Status kDegraded, and the covariance covers both poses, where many points that
+/// contradict the pose agree with one another.
 /// Status kTooFewMatches below min_inliers observations, kNoConsensus where too few agree.
 /// `is_inlier`, if not null, becomes [N]: what agrees with the pose; all 0 where there is none.
 /// Throws std::invalid_argument for wrong options and for observations that are not IsValid().
 PoseEstimate EstimatePose(const StereoCamera& camera,
                           const std::vector<PointObservation>& observations,
-                          const std::optional<Rigid3>& predicted_camera_from_world,
+                          const std::optional<PredictedPose>& predicted,
                           const PoseEstimatorOptions& options,
                           std::vector<char>* is_inlier = nullptr);
 

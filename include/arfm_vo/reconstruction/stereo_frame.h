@@ -15,8 +15,10 @@ struct StereoFrame {
   Features features;    ///< of the left image
   StereoPoints points;  ///< in the order of their keypoints
   int num_right_keypoints = 0;
-  GreyStatistics grey;         ///< of the left image, eqs 4, 5
-  double ratio_threshold = 0;  ///< nearest / second-nearest distance that was allowed
+  bool left_is_repeated = false;   ///< bit by bit the picture of the pair before: a frozen camera
+  bool right_is_repeated = false;  ///< the same; then there are no `points`
+  GreyStatistics grey;             ///< of the left image, eqs 4, 5
+  double ratio_threshold = 0;      ///< nearest / second-nearest distance that was allowed
 
   /// [features] the point of each keypoint, null where one eye alone sees it.
   std::vector<const StereoPoint*> PointsByKeypoint() const {

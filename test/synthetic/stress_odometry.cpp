@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "arfm_vo/configuration/program.h"
+#include "arfm_vo/configuration/yaml_reader.h"
+#include "arfm_vo/datasets/kitti_sequence.h"
+#include "arfm_vo/odometry/trajectory_error.h"
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "synthetic/disturbances.h"
+
+namespace {
+
+using namespace arfm_vo;
+
+struct Arguments {
+  std::string sequence, config, states;
+  std::vector<std::string> only;
+  PairSelection selection{1, 60};
+};
+
+/// What the odometry said of a disturbed drive.
+struct Drive {
+  std::vector<SessionUpdate> live;  ///< [pairs]
+  std::vector<Rigid3> after;        ///< [pairs]
+  std::vector<Rigid3> truth;        ///< [pairs], or none
+};
+
+Drive Run(const Arguments& arguments, const Disturbance& disturbance) {
+  KittiSequence sequence(arguments.sequence, arguments.selection);
+  VisualOdometry odometry(sequence.camera(), arguments.config.empty()
+                                                 ? OdometryOptions()
+                                                 : ReadYamlFile<OdometryOptions>(arguments.config));
+  Drive drive;
+  while (const auto pair = sequence.Next()) {
+    StereoImages images{pair->images.stamp_s, pair->images.left.clone(),
+                        pair->images.right.clone()};
+    disturbance.apply(static_cast<int>(drive.live.size()), images);
+    drive.live.push_back(odometry.Process(images));
+    if (pair->true_world_from_camera) drive.truth.push_back(*pair->true_world_from_camera);
+  }
+  for (const TrajectoryPose& pose : odometry.Finish())
+    drive.after.push_back(pose.world_from_camera);
+  return drive;
+}
+
+/// How far a pose is from that of the undisturbed drive, in standard deviations of both: the larger
+/// of place and rotation, each as length over the root of the covariance's trace.
+double Deviation(const SessionUpdate& pose, const SessionUpdate& clean) {
+  const Eigen::Vector3d shift = pose.odom_from_base.translation - clean.odom_from_base.translation;
+  const Eigen::Vector3d turn =
+      LogSO3(pose.odom_from_base.rotation * clean.odom_from_base.rotation.conjugate());
+  const Matrix6 covariance = pose.covariance + clean.covariance;
+  return std::max(shift.norm() / std::sqrt(covariance.topLeftCorner<3, 3>().trace() + 1e-10),
+                  turn.norm() / std::sqrt(covariance.bottomRightCorner<3, 3>().trace() + 1e-10));
+}
+
+struct Errors {
+  double short_percent = NAN, ate_m = NAN;
+};
+
+Errors Compare(const std::vector<Rigid3>& truth, const std::vector<Rigid3>& estimate) {
+  const TrajectoryError error = ComputeTrajectoryError(truth, estimate);
+  return {error.brief.translation_percent, error.ate_rmse_m};
+}
+
+void Print(const Arguments& arguments, const Disturbance& disturbance, const Drive& clean) {
+  const Drive drive = Run(arguments, disturbance);
+  std::vector<Rigid3> live, reference = clean.truth;
+  int num_tracked = 0, num_degraded = 0, num_wrong = 0;
+  double worst = 0;
+  std::ofstream states;
+  if (!arguments.states.empty()) {
+    states.open(arguments.states + "/" + disturbance.name + ".csv");
+    states << "pair,state,deviation_sigma,error_m,sigma_m,text\n";
+  }
+  for (size_t i = 0; i < drive.live.size(); ++i) {
+    const SessionUpdate& pose = drive.live[i];
+    live.push_back(pose.odom_from_base);
+    if (clean.truth.empty()) reference.push_back(clean.live[i].odom_from_base);
+    const double deviation = Deviation(pose, clean.live[i]);
+    if (pose.IsTracked()) {
+      ++num_tracked;
+      worst = std::max(worst, deviation);
+      num_wrong += deviation > 3;
+    }
+    num_degraded += pose.HasPose() && !pose.IsTracked();
+    if (states) {
+      const auto error =
+          (pose.odom_from_base.translation - clean.live[i].odom_from_base.translation).norm();
+      states << i << ','
+             << (pose.IsTracked() ? "tracked"
+                 : pose.HasPose() ? "degraded"
+                                  : "lost")
+             << ',' << deviation << ',' << error << ','
+             << std::sqrt(pose.covariance.topLeftCorner<3, 3>().trace()) << ",\"" << pose.text
+             << "\"\n";
+    }
+  }
+  const Errors at_once = Compare(reference, live), after = Compare(reference, drive.after);
+  const int num_pairs = static_cast<int>(drive.live.size());
+  std::printf("%s,%.3f,%.3f,%.3f,%.3f,%d,%d,%d,%d,%.2f\n", disturbance.name.c_str(),
+              at_once.short_percent, at_once.ate_m, after.short_percent, after.ate_m, num_tracked,
+              num_degraded, num_pairs - num_tracked - num_degraded, num_wrong, worst);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  namespace po = boost::program_options;
+  Arguments arguments;
+  Program program;
+  program.name = "stress_odometry";
+  program.description =
+      "Drives a KITTI folder once for each disturbance of its pictures. Prints, a line each: "
+      "errors\n"
+      "of the live poses and after the drive (% over 10..50 m, ATE m; against the truth, or "
+      "against\n"
+      "the undisturbed live poses where there is none), pairs tracked, degraded, lost; pairs "
+      "called\n"
+      "tracked that are more than 3 standard deviations from the undisturbed drive, and the worst.";
+  program.inputs = {{"SEQUENCE_DIR", &arguments.sequence}};
+  program.options.add_options()("config", po::value(&arguments.config)->value_name("FILE"),
+                                "options of the odometry, YAML")(
+      "only", po::value(&arguments.only)->value_name("NAME")->composing(),
+      "these disturbances only")("pairs",
+                                 po::value(&arguments.selection.max_pairs)->value_name("N"),
+                                 "the first N pairs (60)")(
+      "stride", po::value(&arguments.selection.stride)->value_name("K"), "every K-th pair")(
+      "states", po::value(&arguments.states)->value_name("DIR"),
+      "write the state of each pair there, NAME.csv");
+  program.run = [&] {
+    std::printf(
+        "disturbance,live_short_percent,live_ate_m,short_percent,ate_m,tracked,degraded,"
+        "lost,wrong,worst_sigma\n");
+    std::vector<Disturbance> disturbances = MakeDisturbances();
+    const Drive clean = Run(arguments, disturbances.front());
+    for (const Disturbance& disturbance : disturbances) {
+      const bool is_asked =
+          arguments.only.empty() || std::find(arguments.only.begin(), arguments.only.end(),
+                                              disturbance.name) != arguments.only.end();
+      if (is_asked) Print(arguments, disturbance, clean);
+    }
+  };
+  return RunProgram(argc, argv, program);
+}
