@@ -115,12 +115,13 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
 
 TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& images,
                                  const LocalMap& map, const std::optional<PredictedPose>& predicted,
-                                 bool use_right) const {
+                                 bool use_right, bool is_wary) const {
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
-  if (predicted) tracked = Localise(MatchNear(frame, map, predicted->camera_from_world), predicted);
+  if (predicted)
+    tracked = Localise(MatchNear(frame, map, predicted->camera_from_world), predicted, is_wary);
   if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
-    const TrackedFrame found = Localise(MatchAll(frame, map), predicted);
+    const TrackedFrame found = Localise(MatchAll(frame, map), predicted, is_wary);
     const bool is_better =
         found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
     if (is_better || !tracked.pose.HasPose()) tracked = found;
@@ -190,12 +191,13 @@ FrameTracker::Correspondences FrameTracker::Correspond(
 }
 
 TrackedFrame FrameTracker::Localise(Correspondences correspondences,
-                                    const std::optional<PredictedPose>& predicted) const {
+                                    const std::optional<PredictedPose>& predicted,
+                                    bool is_wary) const {
   TrackedFrame tracked;
   std::vector<char> is_inlier;
   ShareVotes(camera_.width / kCellsAcross, correspondences.points);
-  tracked.pose =
-      EstimatePose(camera_, correspondences.points, predicted, options_.pose, &is_inlier);
+  tracked.pose = EstimatePose(camera_, correspondences.points, predicted,
+                              is_wary ? options_.pose.Wary() : options_.pose, &is_inlier);
   if (!tracked.pose.HasPose()) return tracked;
   tracked.observations = correspondences.Select(is_inlier, 1);
   for (const auto& observation : tracked.observations) {
@@ -244,11 +246,6 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
   const double enough = std::max<double>(
       options_.pose.min_inliers, options_.pose.min_inlier_share * correspondences.points.size());
-  if (getenv("DBG"))
-    fprintf(stderr, "    align: coarse %d exp %zu found %zu inl %d moved %.3f\n",
-            coarse.pose.num_inliers, landmarks.size(), correspondences.points.size(),
-            refined.num_inliers,
-            (refined.camera_from_world * coarse_pose.Inverse()).translation.norm());
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
     return coarse;  // too few patches are no better than the keypoints that agreed
   }

@@ -7,6 +7,7 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
@@ -32,6 +33,8 @@ namespace {
 constexpr size_t kDriftPoints = 100;
 /// An eye with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
+/// Two pictures of one moment have nearly all that both see on the same rows.
+constexpr double kMinRowAgreement = 0.5;
 
 }  // namespace
 
@@ -113,6 +116,7 @@ class LocalOdometry::Implementation {
     standstill_.Reset();
     drift_.Clear();
     archive_.Clear();
+    dispute_.Reset();
     record_.reset();
   }
 
@@ -148,16 +152,25 @@ class LocalOdometry::Implementation {
       update.remark = "the left camera repeats its picture";
       return;
     }
-    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted, right_fault.empty());
+    TrackedFrame tracked =
+        tracker_.Track(frame, images, map_, predicted, right_fault.empty(), dispute_.IsWary());
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
       Recover(frame, update);
       return;
     }
-    if (tracked.pose.status == PoseStatus::kDegraded) {
+    const bool is_believed = dispute_.Judge(tracked.pose, CountProven(tracked.observations));
+    if (tracked.pose.is_contested || !is_believed) {
       update.remark = "two groups of points move differently";
-      update.is_contradicted = true;
+    }
+    if (!is_believed) {
+      update.pose.status = PoseStatus::kNoConsensus;
+      update.is_disputed = dispute_.IsWary();
+      return;
+    }
+    if (tracked.pose.is_contested) {
+      update.pose.status = PoseStatus::kDegraded;
     } else if (!right_fault.empty()) {
       update.pose.status = PoseStatus::kDegraded;
       update.remark = right_fault + ", the left one alone tells";
@@ -169,12 +182,19 @@ class LocalOdometry::Implementation {
       map_.CountSightings(tracked.expected, tracked.observations);
     }
     update.is_keyframe =
-        !resting && tracked.pose.IsTracked() &&
-        NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
-                      tracked.observations, options_.keyframes);
+        !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
+                                  tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     AddDrift(update);
+  }
+
+  /// Those that agreed with an earlier pose.
+  int CountProven(const LandmarkObservations& observations) const {
+    return static_cast<int>(
+        std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
+          return map_.landmarks().at(observation.landmark).num_agreed > 0;
+        }));
   }
 
   /// Why the right image is not to be used; empty where it is.
@@ -182,6 +202,9 @@ class LocalOdometry::Implementation {
     if (frame.right_is_repeated) return "the right camera repeats its picture";
     if (frame.num_right_keypoints < kBlindShare * frame.features.size()) {
       return "the right camera sees nothing";
+    }
+    if (frame.row_agreement < kMinRowAgreement) {
+      return "the rows of the two pictures do not agree (one late, or a camera moved?)";
     }
     return "";
   }
@@ -304,6 +327,7 @@ class LocalOdometry::Implementation {
   LocalMap map_;
   StandstillLock standstill_;
   KeyframeArchive archive_;
+  Dispute dispute_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   std::optional<KeyframeRecord> record_;

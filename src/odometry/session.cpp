@@ -57,7 +57,8 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   if (offer_ && num_frames_ >= TakeoverFrame(*offer_)) TakeOffer();
   SessionUpdate pose;
   Track(frame, images, base_from_camera, pose);
-  if (!pose.update.pose.IsMeasured() &&
+  // The map that two groups dispute over is better than one begun on the wrong group.
+  if (!pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
       (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
     StartEpoch();
     Track(frame, images, base_from_camera, pose);
@@ -98,7 +99,6 @@ void Session::Track(const StereoFrame& frame, const StereoImages& images,
   FollowBase(base_from_camera, pose);
   lost_since_s_.reset();
   num_unknown_ = 0;
-  if (pose.update.is_contradicted) return;  // the motion before goes on
   motion_.Add(frame.stamp_s, base_from_camera * estimate.camera_from_world);
 }
 
@@ -166,7 +166,6 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     pose.keyframe = PlacedKeyframe{std::move(*record), epoch_, camera_, base_.odom_from_world(),
                                    base_from_camera};
   }
-  if (pose.update.is_contradicted) return;
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
 }
 

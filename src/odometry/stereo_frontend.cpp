@@ -36,6 +36,7 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   frame.ratio_threshold = reconstructor_.RatioThreshold(frame.grey);
   if (!frame.right_is_repeated) {
     frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
+    frame.row_agreement = reconstructor_.row_agreement();
   }
   if (stage_ms != nullptr) {
     stage_ms->emplace_back("features", features_ms);

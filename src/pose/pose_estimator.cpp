@@ -12,8 +12,6 @@ namespace arfm_vo {
 namespace {
 
 constexpr int kMaxSample = 8;
-/// A pose with this part of the best one's votes contradicts it.
-constexpr double kRivalShare = 0.5;
 /// What a vote counts for a pose that the motion before does not allow.
 constexpr double kImplausible = 0.25;
 
@@ -175,7 +173,7 @@ class Election {
           RefinePose(camera_, observations_, predicted, options_.refinement);
       if (refined.status == RefinementStatus::kConverged) {
         Propose(refined.camera_from_world);
-        if (HasMajority() &&
+        if (!options_.is_wary && HasMajority() &&
             best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
           return {refined, std::nullopt, 1};
         }
@@ -187,31 +185,11 @@ class Election {
     } else if (const auto sampled = Sample(camera_, observations_, options_)) {
       Propose(*sampled);
     }
-    if (!HasMajority()) ProposeRest();
+    if (options_.is_wary || !HasMajority()) ProposeRest();
     if (!best_) return {};
     Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
                                    options_.refinement, best_->agrees),
                         std::nullopt, best_->plausibility};
-    if (best_->plausibility < 1) agreement.rival = predicted_->camera_from_world;
-    if (getenv("DBG")) {
-      auto n = [&](const Hypothesis& h) {
-        return (int)std::count(h.agrees.begin(), h.agrees.end(), 1);
-      };
-      fprintf(stderr, "  election: N %zu votes %.1f best %.1f (%d) t %.3f", observations_.size(),
-              all_votes_, CountVotes(observations_, *best_), n(*best_),
-              predicted_ ? (best_->camera_from_world * predicted_->camera_from_world.Inverse())
-                               .translation.norm()
-                         : -1);
-      if (second_)
-        fprintf(stderr, " second %.1f (%d) excl %.1f vs %.1f t %.3f",
-                CountVotes(observations_, *second_), n(*second_),
-                CountVotes(observations_, *best_, &*second_),
-                CountVotes(observations_, *second_, &*best_),
-                predicted_ ? (second_->camera_from_world * predicted_->camera_from_world.Inverse())
-                                 .translation.norm()
-                           : -1);
-      fprintf(stderr, "\n");
-    }
     if (second_ && IsRival(*second_)) agreement.rival = second_->camera_from_world;
     return agreement;
   }
@@ -248,7 +226,7 @@ class Election {
     PoseEstimatorOptions options = options_;
     if (best_) {
       const double share =
-          kRivalShare * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
+          options_.rival_share * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
       options.ransac.max_iterations = CountSamples(share, options.sample_size, options.ransac);
     }
     if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
@@ -256,7 +234,7 @@ class Election {
 
   bool IsRival(const Hypothesis& second) const {
     return second.plausibility * CountVotes(observations_, second, &*best_) >=
-           kRivalShare * best_->plausibility * CountVotes(observations_, *best_, &second);
+           options_.rival_share * best_->plausibility * CountVotes(observations_, *best_, &second);
   }
 
   const StereoCamera& camera_;
@@ -286,6 +264,7 @@ void PoseEstimatorOptions::Check() const {
   Require(inlier_probability > 0 && inlier_probability < 1,
           "pose_estimator.inlier_probability must be in (0, 1)");
   Require(min_inliers >= sample_size, "pose_estimator.min_inliers must be at least sample_size");
+  Require(rival_share > 0 && rival_share <= 1, "pose_estimator.rival_share must be in (0, 1]");
   Require(min_inlier_share >= 0 && min_inlier_share <= 1,
           "pose_estimator.min_inlier_share must be in 0..1");
 }
@@ -319,6 +298,8 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.status = PoseStatus::kTracked;
   estimate.camera_from_world = refinement.camera_from_world;
   estimate.covariance = refinement.covariance;
+  estimate.is_contested = agreement.rival.has_value();
+  estimate.is_plausible = agreement.plausibility == 1;
   if (agreement.rival) {
     estimate.status = PoseStatus::kDegraded;
     estimate.covariance += SpreadTo(*agreement.rival, refinement.camera_from_world);

@@ -116,15 +116,16 @@ void StereoReconstructor::LearnRows(const Features& left, const Sightings& sight
   row_model_.Update(samples);
 }
 
+double StereoReconstructor::RowDeviation(const Keypoint& left, const Sighting& sighting) const {
+  return sighting.right.y - left.y - row_model_.shift_px() -
+         row_model_.Predict(sighting.right.x, sighting.right.y);
+}
+
 std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left,
                                                             const Sighting& sighting) const {
   const double row_residual = sighting.right.y - left.y;
-  const double deviation =
-      row_residual - row_model_.shift_px() - row_model_.Predict(sighting.right.x, sighting.right.y);
+  const double deviation = RowDeviation(left, sighting);
   const double variance_y = sighting.covariance[2];
-  if (std::abs(deviation) > options_.max_row_deviation * std::sqrt(variance_y)) {
-    return std::nullopt;
-  }
   // The row is known, so what the alignment is off in y tells what it is off in x.
   const double x_per_y = sighting.covariance[1] / variance_y;
   const double u_right = sighting.right.x - x_per_y * deviation;
@@ -160,11 +161,15 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   }
   LearnRows(left, sightings);
   StereoPoints points;
+  int num_on_rows = 0;
   for (const Sighting& sighting : sightings) {
-    if (auto point = Triangulate(left.keypoints[sighting.keypoint], sighting)) {
-      points.push_back(*point);
-    }
+    const Keypoint& keypoint = left.keypoints[sighting.keypoint];
+    const double bound = options_.max_row_deviation * std::sqrt(sighting.covariance[2]);
+    if (std::abs(RowDeviation(keypoint, sighting)) > bound) continue;
+    ++num_on_rows;
+    if (auto point = Triangulate(keypoint, sighting)) points.push_back(*point);
   }
+  row_agreement_ = sightings.empty() ? 1 : num_on_rows / static_cast<double>(sightings.size());
   return points;
 }
 

@@ -182,6 +182,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
   message.num_right_keypoints = frame.num_right_keypoints;
   message.left_is_repeated = frame.left_is_repeated;
   message.right_is_repeated = frame.right_is_repeated;
+  message.row_agreement = frame.row_agreement;
   message.grey_mean = frame.grey.mean;
   message.grey_variance = frame.grey.variance;
   message.ratio_threshold = frame.ratio_threshold;
@@ -196,6 +197,7 @@ StereoFrame FromMessage(const StereoFrameStamped& message) {
   frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
   frame.left_is_repeated = message.left_is_repeated;
   frame.right_is_repeated = message.right_is_repeated;
+  frame.row_agreement = message.row_agreement;
   frame.grey = {message.grey_mean, message.grey_variance};
   frame.ratio_threshold = message.ratio_threshold;
   return frame;

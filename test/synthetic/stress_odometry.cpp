@@ -47,15 +47,12 @@ Drive Run(const Arguments& arguments, const Disturbance& disturbance) {
   return drive;
 }
 
-/// How far a pose is from that of the undisturbed drive, in standard deviations of both: the larger
-/// of place and rotation, each as length over the root of the covariance's trace.
+/// How far a place is from that of the undisturbed drive, in standard deviations of both: length
+/// over the root of the covariance's trace.
 double Deviation(const SessionUpdate& pose, const SessionUpdate& clean) {
   const Eigen::Vector3d shift = pose.odom_from_base.translation - clean.odom_from_base.translation;
-  const Eigen::Vector3d turn =
-      LogSO3(pose.odom_from_base.rotation * clean.odom_from_base.rotation.conjugate());
   const Matrix6 covariance = pose.covariance + clean.covariance;
-  return std::max(shift.norm() / std::sqrt(covariance.topLeftCorner<3, 3>().trace() + 1e-10),
-                  turn.norm() / std::sqrt(covariance.bottomRightCorner<3, 3>().trace() + 1e-10));
+  return shift.norm() / std::sqrt(covariance.topLeftCorner<3, 3>().trace() + 1e-10);
 }
 
 struct Errors {

@@ -56,9 +56,11 @@ class FrameTracker {
  public:
   FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
 
-  /// `use_right`: whether the right image is worth looking at.
+  /// `use_right`: whether the right image is worth looking at. `is_wary`: whether to look closely
+  /// for points that contradict the pose.
   TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
-                     const std::optional<PredictedPose>& predicted, bool use_right = true) const;
+                     const std::optional<PredictedPose>& predicted, bool use_right = true,
+                     bool is_wary = false) const;
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
 
@@ -73,7 +75,7 @@ class FrameTracker {
                              const std::vector<const Landmark*>& landmarks,
                              const Matches& matches) const;
   TrackedFrame Localise(Correspondences correspondences,
-                        const std::optional<PredictedPose>& predicted) const;
+                        const std::optional<PredictedPose>& predicted, bool is_wary) const;
   /// [landmarks] where each is seen, by its patch; in parallel.
   std::vector<std::optional<LandmarkObservation>> Measure(
       const StereoImages& images, const LocalMap& map,

@@ -17,6 +17,18 @@ struct PoseEstimatorOptions {
   int min_inliers = 15;
   double min_inlier_share = 0.15;  ///< of the observations' votes
   PoseRefinementOptions refinement;
+  /// Of the votes of a pose, for another one to contest it; looked for where the pose has no
+  /// majority.
+  double rival_share = 0.5;
+
+  /// The same, more closely: also beside a majority.
+  PoseEstimatorOptions Wary() const {
+    PoseEstimatorOptions wary = *this;
+    wary.is_wary = true;
+    wary.rival_share = rival_share / 2;
+    return wary;
+  }
+  bool is_wary = false;
 
   /// Throws std::invalid_argument naming the key.
   void Check() const;
@@ -28,6 +40,7 @@ struct PoseEstimatorOptions {
     visit("min_inliers", min_inliers);
     visit("min_inlier_share", min_inlier_share);
     visit("refinement", refinement);
+    visit("rival_share", rival_share);
   }
 };
 

@@ -81,6 +81,8 @@ class StereoReconstructor {
   double RatioThreshold(const GreyStatistics& grey) const { return threshold_.Ratio(grey); }
 
   const RowModel& row_model() const { return row_model_; }
+  /// Share of what was found in both images of the last pair that lies on the rows it should.
+  double row_agreement() const { return row_agreement_; }
 
  private:
   /// A left keypoint found in the right image.
@@ -99,6 +101,8 @@ class StereoReconstructor {
                           const Matches& matches) const;
   std::optional<cv::Point2f> SearchRow(const cv::Point2f& place) const;
   void LearnRows(const Features& left, const Sightings& sightings);
+  /// How far a sighting is from the row that is expected, px.
+  double RowDeviation(const Keypoint& left, const Sighting& sighting) const;
   std::optional<StereoPoint> Triangulate(const Keypoint& left, const Sighting& sighting) const;
 
   StereoCamera camera_;
@@ -108,6 +112,7 @@ class StereoReconstructor {
   SlantAligner aligner_;
   RowModel row_model_;
   RowSearch row_search_;
+  double row_agreement_ = 1;
 };
 
 }  // namespace arfm_vo

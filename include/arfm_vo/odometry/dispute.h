@@ -1,0 +1,41 @@
+#pragma once
+
+#include "arfm_vo/pose/pose_estimate.h"
+
+namespace arfm_vo {
+
+/// Whether a pose is to be believed where groups of points contradict one another, as when a large
+/// object moves through the picture. A pose is proven by points that agreed with earlier poses and
+/// by the motion before; what a contested pose without proof began stays open until one with proof
+/// follows. Where nobody contradicts any more and there is no proof either, the group that is left
+/// may have moved on its own: the map is no longer to be trusted.
+class Dispute {
+ public:
+  /// Whether to look for contradiction more closely than usual: after one, and in a new map, where
+  /// nothing is proven yet.
+  bool IsWary() const { return num_wary_ > 0; }
+
+  /// Takes a pose, of whose points `num_proven` agreed with an earlier one. Returns whether it is
+  /// to be believed.
+  bool Judge(const PoseEstimate& pose, int num_proven) {
+    const bool is_proven = pose.is_plausible && num_proven >= kMinProven;
+    if (pose.is_contested || !pose.is_plausible) {
+      num_wary_ = kWaryFrames;
+      is_open_ = is_open_ || !is_proven;
+    } else if (num_wary_ > 0) {
+      --num_wary_;
+    }
+    if (is_proven) is_open_ = false;
+    return !is_open_;
+  }
+
+  void Reset() { *this = Dispute(); }
+
+ private:
+  static constexpr int kWaryFrames = 5, kMinProven = 15;
+
+  int num_wary_ = kWaryFrames;
+  bool is_open_ = false;
+};
+
+}  // namespace arfm_vo
