@@ -53,9 +53,15 @@ bool Contains(const LandmarkObservations& observations, LandmarkId id) {
   return found != observations.end() && found->landmark == id;
 }
 
-/// A point that agreed with more frames has no more votes.
-constexpr int kMaxAgreed = 2;
-constexpr double kNewVotes = 0.25, kSuspectVotes = 0.05;
+/// What a landmark counts where poses compete: more where it agreed with poses before, little where
+/// it began among points that moved on their own.
+double Votes(const Landmark& landmark) {
+  constexpr double kNew = 0.25, kSuspect = 0.05;
+  constexpr int kMaxAgreed = 2;
+  const int num_agreed = std::min(landmark.num_agreed, kMaxAgreed);
+  return landmark.is_suspect ? kSuspect * (1 + num_agreed) : kNew + num_agreed;
+}
+
 constexpr int kCellsAcross = 12, kFewInCell = 3;
 
 /// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
@@ -105,8 +111,7 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
   point.pixels = observation.pixels.head<3>();
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
-  point.votes =
-      (landmark.is_suspect ? kSuspectVotes : kNewVotes) + std::min(landmark.num_agreed, kMaxAgreed);
+  point.votes = Votes(landmark);
   if (point.has_right) {
     point.pixels[2] = NominalRightPixel(camera_, correction_, observation.pixels.tail<2>()).x();
   }

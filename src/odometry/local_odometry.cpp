@@ -112,11 +112,12 @@ class LocalOdometry::Implementation {
 
   void Reset() {
     FinishBundle();
+    dispute_.Reset();
+    if (!map_.keyframes().empty()) dispute_.BeWary();
     map_.Clear();
     standstill_.Reset();
     drift_.Clear();
     archive_.Clear();
-    dispute_.Reset();
     record_.reset();
   }
 
@@ -161,17 +162,14 @@ class LocalOdometry::Implementation {
       return;
     }
     const bool is_believed = dispute_.Judge(tracked.pose, CountProven(tracked.observations));
-    if (tracked.pose.is_contested || !is_believed) {
-      update.remark = "two groups of points move differently";
-    }
+    const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
+    if (is_contested || !is_believed) update.remark = "two groups of points move differently";
     if (!is_believed) {
       update.pose.status = PoseStatus::kNoConsensus;
       update.is_disputed = dispute_.IsWary();
       return;
     }
-    if (tracked.pose.is_contested) {
-      update.pose.status = PoseStatus::kDegraded;
-    } else if (!right_fault.empty()) {
+    if (!is_contested && !right_fault.empty()) {
       update.pose.status = PoseStatus::kDegraded;
       update.remark = right_fault + ", the left one alone tells";
     }

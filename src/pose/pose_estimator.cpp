@@ -14,6 +14,8 @@ namespace {
 constexpr int kMaxSample = 8;
 /// What a vote counts for a pose that the motion before does not allow.
 constexpr double kImplausible = 0.25;
+/// Poses with a smaller part of the best one's votes are not looked for.
+constexpr double kLeastRival = 0.25;
 
 /// The covariance of a point as one long axis in a round rest: what stereo makes of a point, and
 /// quick to carry through a projection.
@@ -116,6 +118,7 @@ struct Hypothesis {
 struct Agreement {
   PoseRefinement refinement;
   std::optional<Rigid3> rival;
+  double contest = 0;
   double plausibility = 1;
 };
 
@@ -175,7 +178,7 @@ class Election {
         Propose(refined.camera_from_world);
         if (!options_.is_wary && HasMajority() &&
             best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
-          return {refined, std::nullopt, 1};
+          return {refined, std::nullopt, 0, 1};
         }
       }
       const auto& friends = Hypothesis(consensus_, predicted, observations_.size()).agrees;
@@ -189,8 +192,12 @@ class Election {
     if (!best_) return {};
     Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
                                    options_.refinement, best_->agrees),
-                        std::nullopt, best_->plausibility};
-    if (second_ && IsRival(*second_)) agreement.rival = second_->camera_from_world;
+                        std::nullopt, 0, best_->plausibility};
+    if (second_) {
+      agreement.rival = second_->camera_from_world;
+      agreement.contest = second_->plausibility * CountVotes(observations_, *second_, &*best_) /
+                          (best_->plausibility * CountVotes(observations_, *best_, &*second_));
+    }
     return agreement;
   }
 
@@ -226,15 +233,10 @@ class Election {
     PoseEstimatorOptions options = options_;
     if (best_) {
       const double share =
-          options_.rival_share * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
+          kLeastRival * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
       options.ransac.max_iterations = CountSamples(share, options.sample_size, options.ransac);
     }
     if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
-  }
-
-  bool IsRival(const Hypothesis& second) const {
-    return second.plausibility * CountVotes(observations_, second, &*best_) >=
-           options_.rival_share * best_->plausibility * CountVotes(observations_, *best_, &second);
   }
 
   const StereoCamera& camera_;
@@ -298,9 +300,9 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.status = PoseStatus::kTracked;
   estimate.camera_from_world = refinement.camera_from_world;
   estimate.covariance = refinement.covariance;
-  estimate.is_contested = agreement.rival.has_value();
+  estimate.contest = agreement.contest;
   estimate.is_plausible = agreement.plausibility == 1;
-  if (agreement.rival) {
+  if (agreement.contest >= options.rival_share) {
     estimate.status = PoseStatus::kDegraded;
     estimate.covariance += SpreadTo(*agreement.rival, refinement.camera_from_world);
   }

@@ -11,16 +11,17 @@ namespace arfm_vo {
 /// may have moved on its own: the map is no longer to be trusted.
 class Dispute {
  public:
-  /// Whether to look for contradiction more closely than usual: after one, and in a new map, where
-  /// nothing is proven yet.
+  /// Whether to look for contradiction more closely than usual: after one, or after a loss.
   bool IsWary() const { return num_wary_ > 0; }
+  void BeWary() { num_wary_ = kWaryFrames; }
 
   /// Takes a pose, of whose points `num_proven` agreed with an earlier one. Returns whether it is
   /// to be believed.
   bool Judge(const PoseEstimate& pose, int num_proven) {
     const bool is_proven = pose.is_plausible && num_proven >= kMinProven;
-    if (pose.is_contested || !pose.is_plausible) {
-      num_wary_ = kWaryFrames;
+    const double bound = IsWary() ? kContest / 2 : kContest;
+    if (pose.contest >= bound || !pose.is_plausible) {
+      BeWary();
       is_open_ = is_open_ || !is_proven;
     } else if (num_wary_ > 0) {
       --num_wary_;
@@ -32,9 +33,10 @@ class Dispute {
   void Reset() { *this = Dispute(); }
 
  private:
-  static constexpr int kWaryFrames = 5, kMinProven = 15;
+  static constexpr int kWaryFrames = 10, kMinProven = 15;
+  static constexpr double kContest = 0.5;
 
-  int num_wary_ = kWaryFrames;
+  int num_wary_ = 0;
   bool is_open_ = false;
 };
 

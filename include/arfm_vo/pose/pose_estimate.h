@@ -29,10 +29,11 @@ struct PoseEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int num_matches = 0;
   int num_inliers = 0;
-  bool is_contested = false;  ///< many points that contradict it agree with one another
-  bool is_plausible = true;   ///< by the motion before
-  double votes = 0;           ///< for the pose, against another one of the same frame
-  double rms_px = 0;          ///< root mean square of the inliers' reprojection errors
+  /// Votes for another pose, of points that contradict this one, over this one's.
+  double contest = 0;
+  bool is_plausible = true;  ///< by the motion before
+  double votes = 0;          ///< for the pose, against another one of the same frame
+  double rms_px = 0;         ///< root mean square of the inliers' reprojection errors
 
   bool IsTracked() const { return status == PoseStatus::kTracked; }
   bool HasPose() const { return IsTracked() || status == PoseStatus::kDegraded; }

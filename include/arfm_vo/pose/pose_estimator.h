@@ -17,15 +17,12 @@ struct PoseEstimatorOptions {
   int min_inliers = 15;
   double min_inlier_share = 0.15;  ///< of the observations' votes
   PoseRefinementOptions refinement;
-  /// Of the votes of a pose, for another one to contest it; looked for where the pose has no
-  /// majority.
-  double rival_share = 0.5;
+  double rival_share = 0.5;  ///< contest from which a pose is degraded
 
-  /// The same, more closely: also beside a majority.
+  /// The same, which looks for another pose also beside one with a majority.
   PoseEstimatorOptions Wary() const {
     PoseEstimatorOptions wary = *this;
     wary.is_wary = true;
-    wary.rival_share = rival_share / 2;
     return wary;
   }
   bool is_wary = false;
