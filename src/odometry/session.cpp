@@ -58,7 +58,7 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   SessionUpdate pose;
   Track(frame, images, base_from_camera, pose);
   // The map that two groups dispute over is better than one begun on the wrong group.
-  if (!pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
+  if (IsGood(frame) && !pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
       (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
     StartEpoch();
     Track(frame, images, base_from_camera, pose);
@@ -117,10 +117,15 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
   pose.twist = last_->twist;
 }
 
-/// Whether the pair is good, the map has not known some in a row, and the base has moved on.
+/// Whether a map can begin with the pair.
+bool Session::IsGood(const StereoFrame& frame) const {
+  return !frame.left_is_repeated &&
+         static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
+}
+
+/// Whether the map has not known some good pairs in a row, and the base has moved on.
 bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
-  if (!last_ || static_cast<int>(frame.points.size()) < options_.min_points_to_start) return false;
-  if (frame.left_is_repeated || ++num_unknown_ < kMaxUnknownPairs) return false;
+  if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
   std::vector<double> depths;
   for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
   const auto middle = depths.begin() + depths.size() / 2;

@@ -196,7 +196,7 @@ class Election {
     if (second_) {
       agreement.rival = second_->camera_from_world;
       agreement.contest = second_->plausibility * CountVotes(observations_, *second_, &*best_) /
-                          (best_->plausibility * CountVotes(observations_, *best_, &*second_));
+                          (best_->plausibility * CountVotes(observations_, *best_));
     }
     return agreement;
   }

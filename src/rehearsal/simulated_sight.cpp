@@ -32,7 +32,7 @@ Glimpse SimulatedSight::Look(double now_s, const Rigid3& world_from_base) {
   glimpse.told_s = now_s + options_.latency_s;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   glimpse.uncertainty = {now_s, nan, nan};
-  if (!estimate.IsTracked()) {
+  if (!estimate.IsMeasured()) {
     ++num_lost_;
     return glimpse;
   }

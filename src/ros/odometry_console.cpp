@@ -40,6 +40,12 @@ std::string WhyNoPose(const StereoFrame& frame, const SessionUpdate& pose) {
 std::optional<ConsoleLine> OdometryConsole::Take(const StereoFrame& frame,
                                                  const SessionUpdate& pose, double now_s) {
   ++num_pairs_;
+  if (pose.HasPose() && !pose.IsTracked()) {
+    ++num_degraded_;
+    if (!watch_.IsDue(pose.text, now_s)) return std::nullopt;
+    is_lost_told_ = true;
+    return ConsoleLine{true, pose.text};
+  }
   if (pose.IsTracked()) {
     const bool is_news = num_tracked_++ == 0 || is_lost_told_;
     std::optional<ConsoleLine> line;
@@ -61,19 +67,19 @@ ConsoleLine OdometryConsole::TellTracked(double now_s) const {
   if (num_tracked_ == 1)
     std::snprintf(text, sizeof text, "the first pose is there, at pair %u", num_pairs_);
   else
-    std::snprintf(text, sizeof text, "tracked again after %.1f s without a pose",
+    std::snprintf(text, sizeof text, "tracked again after %.1f s without a good pose",
                   now_s - *last_tracked_s_);
   return {false, text};
 }
 
 std::string OdometryConsole::Totals(uint32_t num_dropped, uint32_t num_refused) const {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "%u pairs: %u with a pose, %u lost, %u without tf or skipped while the head turned; "
-      "%u dropped, %u refused",
-      num_pairs_, num_tracked_, num_lost_, num_pairs_ - num_tracked_ - num_lost_, num_dropped,
-      num_refused);
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "%u pairs: %u with a pose, %u lost, %u degraded, %u without tf or skipped while "
+                "the head turned; "
+                "%u dropped, %u refused",
+                num_pairs_, num_tracked_, num_lost_, num_degraded_,
+                num_pairs_ - num_tracked_ - num_degraded_ - num_lost_, num_dropped, num_refused);
   return text;
 }
 

@@ -33,13 +33,14 @@ void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, 
   for (const StereoPoint& point : frame.points)
     row_residual_px.Add(std::abs(point.row_residual_px));
   if (row_residual_px.size() > 0) row_residual_px_.Add(row_residual_px.Median());
-  if (pose.IsTracked()) scale_.AddVisual(pose.update.stamp_s, pose.odom_from_base.translation);
+  if (pose.update.pose.IsMeasured())
+    scale_.AddVisual(pose.update.stamp_s, pose.odom_from_base.translation);
   last_ = pose;
   is_new_ = true;
   refusal_.clear();
   ms_ = ms;
   ++num_pairs_;
-  if (!pose.IsTracked()) ++num_lost_;
+  if (!pose.HasPose()) ++num_lost_;
   rate_.Tick();
   const auto line = console_.Take(frame, pose, ros::WallTime::now().toSec());
   if (line && line->is_warning) ROS_WARN("%s", line->text.c_str());
@@ -63,6 +64,8 @@ void OdometryHealth::ReportOdometry(Status& status) {
     status.summary(DiagnosticStatus::WARN, "no pairs come");
   else if (last_.IsTracked())
     status.summary(DiagnosticStatus::OK, "tracked");
+  else if (last_.HasPose())
+    status.summary(DiagnosticStatus::WARN, last_.text);
   else if (last_.IsTried())
     status.summary(DiagnosticStatus::ERROR, "lost: " + last_.text);
   else

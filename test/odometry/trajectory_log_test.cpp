@@ -14,6 +14,7 @@ OdometryUpdate Tracked(double stamp_s, double z) {
   update.stamp_s = stamp_s;
   update.pose.status = PoseStatus::kTracked;
   update.pose.camera_from_world = AtZ(z);
+  update.pose.num_inliers = 50;
   return update;
 }
 

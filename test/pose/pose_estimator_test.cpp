@@ -69,9 +69,73 @@ TEST(PoseEstimator, AMinorityThatFitsThePredictionDoesNotWin) {
     const auto vehicle = MakeObservations(wrong, 180, 0.5, engine);
     observations.insert(observations.end(), vehicle.begin(), vehicle.end());
     const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, wrong, {});
-    ASSERT_TRUE(estimate.IsTracked());
+    ASSERT_EQ(estimate.status, PoseStatus::kDegraded);
     EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
+    EXPECT_NEAR(estimate.contest, 180.0 / 220, 0.1);
+    // The covariance covers the other pose.
+    const Eigen::Matrix<double, 6, 1> step = StepBetween(estimate.camera_from_world, wrong);
+    EXPECT_LT(step.dot(estimate.covariance.ldlt().solve(step)), 30);
   }
+}
+
+TEST(PoseEstimator, PointsThatAgreedBeforeOutvoteMoreThatDidNot) {
+  RandomEngine engine(11);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  Rigid3 object = truth;
+  object.translation += Eigen::Vector3d(1, 0, 2);
+  auto observations = MakeObservations(truth, 100, 0.5, engine);
+  const auto moving = MakeObservations(object, 250, 0.5, engine);
+  observations.insert(observations.end(), moving.begin(), moving.end());
+  EXPECT_GT(StepBetween(
+                truth, EstimatePose(kSceneCamera, observations, std::nullopt, {}).camera_from_world)
+                .norm(),
+            1);
+  for (int i = 0; i < 100; ++i) observations[i].votes = 10;
+  const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, std::nullopt, {});
+  ASSERT_TRUE(estimate.IsTracked());
+  EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.1);
+  const PoseEstimate wary =
+      EstimatePose(kSceneCamera, observations, std::nullopt, PoseEstimatorOptions().Wary());
+  EXPECT_TRUE(wary.IsTracked());
+  EXPECT_NEAR(wary.contest, 250.0 / 1000, 0.05);
+}
+
+TEST(PoseEstimator, APoseThatTheMotionDoesNotAllowNeedsFourTimesTheVotes) {
+  for (const int num_moving : {150, 600}) {
+    RandomEngine engine(12);
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    Rigid3 object = truth;
+    object.translation += Eigen::Vector3d(1, 0, 2);
+    auto observations = MakeObservations(truth, 100, 0.5, engine);
+    const auto moving = MakeObservations(object, num_moving, 0.5, engine);
+    observations.insert(observations.end(), moving.begin(), moving.end());
+    PredictedPose predicted(truth);
+    predicted.max_shift_m = 0.5;
+    predicted.max_turn_rad = 0.1;
+    const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, predicted, {});
+    ASSERT_TRUE(estimate.HasPose());
+    const bool is_object = num_moving > 400;
+    EXPECT_EQ(estimate.is_plausible, !is_object);
+    EXPECT_LT(StepBetween(is_object ? object : truth, estimate.camera_from_world).norm(), 0.1);
+  }
+}
+
+/// The refinement of a prediction wanders off to where points lie between two groups.
+TEST(PoseEstimator, AMajorityForThePredictionItselfIsNotGivenToItsRefinement) {
+  int num_right = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    RandomEngine engine(seed);
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    Rigid3 object = truth;
+    object.translation += Eigen::Vector3d(0.1, 0, 0.2);
+    auto observations = MakeObservations(truth, 100, 0.5, engine);
+    for (PointObservation& observation : observations) observation.votes = 4;
+    const auto moving = MakeObservations(object, 300, 0.5, engine);
+    observations.insert(observations.end(), moving.begin(), moving.end());
+    const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, truth, {});
+    num_right += StepBetween(truth, estimate.camera_from_world).norm() < 0.08;
+  }
+  EXPECT_EQ(num_right, 10);
 }
 
 /// Two samples of eight would hardly be without outliers.

@@ -28,7 +28,20 @@ class TexturedWall {
   StereoImages Render(double stamp_s, const Rigid3& camera_from_world) const {
     const Rigid3 right_from_left(Eigen::Quaterniond::Identity(),
                                  Eigen::Vector3d(-camera_.baseline_m, 0, 0));
-    return {stamp_s, RenderEye(camera_from_world), RenderEye(right_from_left * camera_from_world)};
+    StereoImages images{stamp_s, RenderEye(camera_from_world),
+                        RenderEye(right_from_left * camera_from_world)};
+    AddNoise(stamp_s, images);
+    return images;
+  }
+
+  /// What pixels of a camera do: no two pictures are the same.
+  static void AddNoise(double stamp_s, StereoImages& images) {
+    cv::RNG random(static_cast<uint64_t>(1e6 * stamp_s) + 1);
+    for (cv::Mat* image : {&images.left, &images.right}) {
+      cv::Mat noise(image->size(), CV_16S);
+      random.fill(noise, cv::RNG::NORMAL, 0, 0.5);
+      cv::add(*image, noise, *image, cv::noArray(), CV_8U);
+    }
   }
 
   /// What a covered lens sees.

@@ -32,7 +32,7 @@ class OdometryConsole {
   ConsoleWatch watch_;
   bool is_lost_told_ = false;
   std::optional<double> last_tracked_s_;
-  uint32_t num_pairs_ = 0, num_tracked_ = 0, num_lost_ = 0;
+  uint32_t num_pairs_ = 0, num_tracked_ = 0, num_lost_ = 0, num_degraded_ = 0;
 };
 
 }  // namespace arfm_vo

@@ -1,0 +1,61 @@
+#include "arfm_vo/odometry/dispute.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+PoseEstimate Pose(double contest, bool is_plausible = true) {
+  PoseEstimate pose;
+  pose.status = PoseStatus::kTracked;
+  pose.contest = contest;
+  pose.is_plausible = is_plausible;
+  return pose;
+}
+
+TEST(Dispute, BelievesWhatNobodyContests) {
+  Dispute dispute;
+  EXPECT_TRUE(dispute.Judge(Pose(0), 0));  // of a new map: nothing is proven yet
+  EXPECT_TRUE(dispute.Judge(Pose(0.4), 0));
+  EXPECT_FALSE(dispute.IsWary());
+}
+
+TEST(Dispute, BelievesAContestedPoseWhosePointsAgreedBefore) {
+  Dispute dispute;
+  EXPECT_TRUE(dispute.Judge(Pose(0.8), 40));
+  EXPECT_TRUE(dispute.IsWary());
+}
+
+TEST(Dispute, DoesNotBelieveAContestedPoseOfNewPointsUntilOneIsProven) {
+  Dispute dispute;
+  EXPECT_FALSE(dispute.Judge(Pose(0.8), 3));
+  EXPECT_FALSE(dispute.Judge(Pose(0), 3));  // those who contradicted may only be hidden
+  EXPECT_TRUE(dispute.Judge(Pose(0), 40));
+  EXPECT_TRUE(dispute.Judge(Pose(0), 3));
+}
+
+TEST(Dispute, DoesNotBelieveALeapHoweverManyPointsSaySo) {
+  Dispute dispute;
+  EXPECT_FALSE(dispute.Judge(Pose(0, false), 300));
+  EXPECT_FALSE(dispute.Judge(Pose(0, false), 300));
+}
+
+TEST(Dispute, IsWaryForAWhile) {
+  Dispute dispute;
+  dispute.Judge(Pose(0.8), 40);
+  EXPECT_FALSE(dispute.Judge(Pose(0.3), 3)) << "half as much contest counts while wary";
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(dispute.Judge(Pose(0), 40));
+  EXPECT_FALSE(dispute.IsWary());
+  EXPECT_TRUE(dispute.Judge(Pose(0.3), 3));
+}
+
+TEST(Dispute, ResetForgets) {
+  Dispute dispute;
+  dispute.Judge(Pose(0.8), 3);
+  dispute.Reset();
+  EXPECT_FALSE(dispute.IsWary());
+  EXPECT_TRUE(dispute.Judge(Pose(0), 3));
+}
+
+}  // namespace
+}  // namespace arfm_vo
