@@ -13,8 +13,8 @@ struct PoseEstimatorOptions {
   RansacOptions ransac;
   int sample_size = 5;               ///< points of an EPnP sample, 4..8
   double inlier_probability = 0.99;  ///< of the chi-square test within RANSAC
-  int min_inliers = 15;
-  double min_inlier_share = 0.15;  ///< of the observations
+  int min_inliers = 15;              ///< fewer are no pose
+  double min_inlier_share = 0.15;    ///< of the observations
   PoseRefinementOptions refinement;
 
   /// Throws std::invalid_argument naming the key.
