@@ -19,7 +19,7 @@ import tempfile
 
 BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)```", re.S)
 # What roslaunch says of a node that ends badly, while it goes on.
-FAILURES = ("has died", "REQUIRED process", "Traceback")
+FAILURES = ("process has died [pid", "Traceback")
 
 
 def read_blocks(path):
