@@ -2,6 +2,7 @@
 import time
 
 import rospy
+import tf2_ros
 from camera_tap import IMAGES, AgainOnce, Freeze, cover, recalibrate, swap, unchanged
 from fault import Fault
 from geometry_msgs.msg import TransformStamped
@@ -29,8 +30,11 @@ def cover_for(duration_s):
 
 def shift_camera(campaign):
     """Beside the right transform, for 2 s."""
+    transforms = tf2_ros.Buffer()
+    listener = tf2_ros.TransformListener(transforms)
+    message = transforms.lookup_transform("base_link", "left_camera_optical", rospy.Time(), rospy.Duration(5))
+    listener.unregister()
     end_s = rospy.get_time() + 2
-    message = campaign.transforms.lookup_transform("base_link", "left_camera_optical", rospy.Time())
     message.transform.translation.x += 0.5
     while rospy.get_time() < end_s:
         message.header.stamp = rospy.Time.now()

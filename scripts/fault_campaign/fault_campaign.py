@@ -44,8 +44,6 @@ class Campaign:
         self.rover, self.tap, self.camera, self.launch, self.max_stop_s = rover, tap, camera, launch, max_stop_s
         self.pids, self.children = {}, []
         self.broadcaster = tf2_ros.TransformBroadcaster()
-        self.transforms = tf2_ros.Buffer()
-        self.listener = tf2_ros.TransformListener(self.transforms)
         self.publishers = {topic: rospy.Publisher(topic, kind, queue_size=10) for topic, kind in (
             ("odom", Odometry), ("status", OdometryStatus), ("waypoints", Path), ("cmd_vel", Twist), ("goal", PoseStamped))}
         self.clock = rospy.Publisher("/clock", Clock, queue_size=1)
@@ -415,6 +413,8 @@ def run(faults, log, output, max_stop_s):
     rows = []
     try:
         while subprocess.run(["rosparam", "get", "/use_sim_time"], capture_output=True).returncode != 0:
+            if launch.process.poll() is not None:
+                raise RuntimeError("roslaunch has ended:\n" + pathlib.Path(log.name).read_text()[-2000:])
             time.sleep(0.2)
         rospy.init_node("fault_campaign", disable_signals=True)
         camera = camera_tap.CameraTap()

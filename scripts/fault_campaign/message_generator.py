@@ -45,7 +45,7 @@ class MessageGenerator:
         if field.startswith("float"):
             number = self.engine.choice(NUMBERS)
             return number if field == "float64" or abs(number) < 1e38 else float("inf")
-        if "int" in field or field in ("byte", "char"):
+        if "/" not in field and ("int" in field or field in ("byte", "char")):
             return self.draw_integer(field)
         return self.make(roslib.message.get_message_class(field if "/" in field else "std_msgs/" + field))
 
