@@ -12,6 +12,7 @@ import rospy
 from fault import Fault, NotPermitted
 from message_generator import MessageGenerator, subscribed_topics
 from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Bool
 
 NODES = ("chassis_node", "pose_node", "ba_node", "arfm_node")
 MALFORMED = 300  # messages a topic
@@ -105,6 +106,12 @@ def feed(is_chosen):
     return inject
 
 
+def release(campaign):
+    """Among the malformed messages was an emergency stop."""
+    campaign.rover.emergency.publish(Bool(False))
+    time.sleep(3)
+
+
 def all_live(campaign):
     return all(os.path.exists("/proc/%d" % pid) for pid in campaign.pids.values())
 
@@ -124,7 +131,7 @@ def machine_faults():
         Fault("malformed goals, paths, velocities and stated poses", feed(lambda topic: topic in commands), "drives on",
               is_well=all_live),
         Fault("malformed messages on every topic of chassis_node, pose_node, ba_node and arfm_node",
-              feed(lambda topic: topic not in ("/clock",)), "-", slow, 4, is_well=all_live),
+              feed(lambda topic: topic not in ("/clock",)), "-", release, 4, is_well=all_live),
     ]
 
 
