@@ -1,7 +1,6 @@
 // Publishes the camera's place on the rover as a static tf, where no robot description tells it: in
 // the frame of the left camera_info of the namespace `stereo`, or in ~camera_frame.
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <sstream>
 
@@ -9,12 +8,13 @@
 #include "arfm_vo/ros/node_main.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/transform_input.h"
 
 namespace arfm_vo {
 namespace {
 
 struct CameraMountNodeOptions {
-  std::string base_frame = "base_link";
+  std::string base_frame = "base_link";  ///< of the rover
   std::string camera_frame;      ///< left optical frame; empty: that of the left camera_info
   std::string base_from_camera;  ///< "x y z yaw pitch roll", m and rad
   bool is_default = false;  ///< nobody asked for this mount: warn, and let tf tell another first
@@ -55,7 +55,7 @@ class CameraMountNode {
  public:
   CameraMountNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : options_(ReadParameters<CameraMountNodeOptions>(private_node)),
-        listener_(buffer_, node),
+        transforms_(node, buffer_),
         camera_frame_(options_.camera_frame) {
     if (!camera_frame_.empty() && !options_.is_default) {
       Publish();
@@ -64,13 +64,10 @@ class CameraMountNode {
     timer_ = node.createWallTimer(
         ros::WallDuration(options_.is_default ? options_.wait_s : 0),
         [this](const ros::WallTimerEvent&) { PublishUnlessKnown(); }, true, false);
-    info_ = node.subscribe<sensor_msgs::CameraInfo>(
-        StereoTopic(node, "left/camera_info"), 1,
-        [this](const sensor_msgs::CameraInfoConstPtr& info) {
-          if (camera_frame_.empty()) camera_frame_ = info->header.frame_id;
-          timer_.start();
-          info_.shutdown();
-        });
+    AwaitCameraFrame(node, info_, [this](const std::string& frame) {
+      if (camera_frame_.empty()) camera_frame_ = frame;
+      timer_.start();
+    });
   }
 
  private:
@@ -99,8 +96,8 @@ class CameraMountNode {
   }
 
   const CameraMountNodeOptions options_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore buffer_;
+  TransformInput transforms_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   std::string camera_frame_;
   ros::Subscriber info_;

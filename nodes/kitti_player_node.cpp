@@ -14,13 +14,13 @@ namespace {
 const ros::WallDuration kClockPeriod(0.01);
 
 struct PlayerOptions {
-  std::string sequence;  ///< KITTI folder
-  int stride = 1;
+  std::string sequence;                         ///< KITTI folder
+  int stride = 1;                               ///< play each so manyth pair
   int pairs = std::numeric_limits<int>::max();  ///< at most
   double rate_hz = 0;                           ///< pairs a second; 0: as recorded
   bool wait_for_subscribers = true;  ///< before the first pair, on images and camera_info
   double end_delay_s = 1;            ///< between the last pair and the node's end
-  std::string frame_id = "left_camera_optical";
+  std::string frame_id = "left_camera_optical";  ///< of images and camera_info
 
   void Check() const {
     Require(!sequence.empty(), "sequence must name a KITTI folder");

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
       argc, argv, "stereo_camera_node",
       R"(Pairs of a V4L2 stereo camera; `stereo_camera_node --list` says what the cameras here can do.
 
+in    drive_status (set_camera_info is refused while the rover drives)
 out   left|right/image_raw, left|right/camera_info, /diagnostics
 srv   left|right/set_camera_info)");
 }

@@ -20,8 +20,8 @@ namespace {
 constexpr size_t kMaxWaiting = 100;
 
 struct TruthPathOptions {
-  std::string reference_frame = "odom";
-  std::string base_frame = "base_link";
+  std::string reference_frame = "odom";  ///< that the truth is aligned to at its first pose
+  std::string base_frame = "base_link";  ///< of the rover
   std::string camera_frame;  ///< left optical frame; empty: that of the left camera_info
   BoundedPathOptions path;
 
@@ -49,12 +49,7 @@ class TruthPathNode {
       SetCameraFrame(options_.camera_frame);
       return;
     }
-    info_ = node.subscribe<sensor_msgs::CameraInfo>(
-        StereoTopic(node, "left/camera_info"), 1,
-        [this](const sensor_msgs::CameraInfoConstPtr& info) {
-          SetCameraFrame(info->header.frame_id);
-          info_.shutdown();
-        });
+    AwaitCameraFrame(node, info_, [this](const std::string& frame) { SetCameraFrame(frame); });
   }
 
  private:

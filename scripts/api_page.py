@@ -16,6 +16,7 @@ import yaml
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(ROOT, "docs", "api.md")
 SHARED = "OdometryOptions"  # the algorithm's options, which several nodes have: told once
+ENUMS, RANGES = {}, {}  # of read_enums() and read_ranges()
 
 
 def read_structs():
@@ -59,8 +60,55 @@ def read_members(body):
     return members
 
 
+def read_enums():
+    """{enum: [names of its values]} of all enums that options hold, by their ListNames."""
+    enums = {}
+    for path in glob.glob(ROOT + "/include/**/*.h", recursive=True):
+        with open(path) as file:
+            for name, kind in re.findall(r'\{"(\w+)",\s*(\w+)::k\w+\}', file.read()):
+                enums.setdefault(kind, []).append(name)
+    return enums
+
+
+def read_ranges():
+    """{struct: {member: range}} from what the structs' Check() says of a value out of its range."""
+    ranges = {}
+    for path in glob.glob(ROOT + "/include/**/*.h", recursive=True) + glob.glob(ROOT + "/[sn]*/**/*.cpp", recursive=True):
+        with open(path) as file:
+            text = file.read()
+        checks = re.findall(r"^void (\w+)::Check\(\) const \{\n(.*?)^\}", text, re.M | re.S)
+        for struct, body in re.findall(r"^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S):
+            checks += [(struct, check) for check in re.findall(r"^  void Check\(\) const \{(.*?)^  \}", body, re.M | re.S)]
+        for struct, body in checks:
+            ranges.setdefault(struct, {}).update(read_conditions(body))
+    return ranges
+
+
+def read_conditions(body):
+    """{member: range} of a Check()."""
+    conditions = {}
+    for low, high, key in re.findall(r'RequireInRange\(\w+, ([^,]+), ([^,]+), "([\w.]+)"\)', body):
+        conditions[key.split(".")[-1]] = f"{low}..{high.replace('M_PI', 'pi')}"
+    for call in re.findall(r"Require\((.*?)\);", body, re.S):
+        message = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', call))
+        names, must, rule = message.partition(" must ")
+        if must and not re.search(r'"\s*\+|\+\s*"', call):  # whole sentences only
+            for name in re.findall(r"[\w.]+", names):
+                conditions[name.split(".")[-1]] = shorten(rule)
+    return conditions
+
+
+def shorten(rule):
+    """What a value must be, as short as a column needs it."""
+    rule = rule.partition(":")[0].replace(", in this order", "").replace(", both positive", "")
+    for long, short in ((r"^be in ", ""), (r"^be positive$", "> 0"), (r"^not be negative$", ">= 0"),
+                        (r"^be at least ", ">= "), (r"^be above ", "> "), (r"^be ", "")):
+        rule = re.sub(long, short, rule)
+    return rule
+
+
 def find_meanings(structs, struct, prefix=""):
-    """{full key: (type, meaning)} of a struct, those within it as well."""
+    """{full key: (type, range, meaning)} of a struct, those within it as well."""
     meanings = {}
     visits, members = structs[struct]
     for key, member in visits:
@@ -71,7 +119,9 @@ def find_meanings(structs, struct, prefix=""):
         elif inner in structs:
             meanings.update(find_meanings(structs, inner, prefix + key + "/"))
         else:
-            meanings[prefix + key] = (inner, meaning)
+            known = ENUMS.get(inner, [])
+            allowed = ", ".join(known) if known else RANGES.get(struct, {}).get(member, "")
+            meanings[prefix + key] = (inner, allowed, meaning)
     return meanings
 
 
@@ -90,11 +140,11 @@ def format_value(value):
 
 
 def format_table(defaults, meanings):
-    lines = ["| parameter | type | default | meaning |", "|---|---|---|---|"]
+    lines = ["| parameter | type | default | range | meaning |", "|---|---|---|---|---|"]
     for key, value in defaults:
-        kind, meaning = meanings.get(key, ("", ""))
+        kind, allowed, meaning = meanings.get(key, ("", "", ""))
         kind = {"std::string": "string"}.get(kind, kind)
-        lines.append(f"| `{key}` | {kind} | `{format_value(value)}` | {meaning.replace('|', '/')} |")
+        lines.append(f"| `{key}` | {kind} | `{format_value(value)}` | {allowed} | {meaning.replace('|', '/')} |")
     return "\n".join(lines) + "\n"
 
 
@@ -110,6 +160,8 @@ def read_nodes():
 
 
 def make_page(program_dir):
+    ENUMS.update(read_enums())
+    RANGES.update(read_ranges())
     structs = read_structs()
     shared = find_meanings(structs, SHARED)
     page = ["# Nodes\n", "Made by `scripts/api_page.py` from the code; `NODE --help` prints the same without a master. "

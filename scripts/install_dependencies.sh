@@ -24,7 +24,7 @@ runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice py
          ros-camera-calibration python3-image-geometry
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
-hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2)
+hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2 nftables)
 
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
 

@@ -6,6 +6,8 @@ import time
 
 MOTION_COMMAND, SYSTEM_STATE, MOTION_STATE, ODOMETER, MOTOR_STATUS = 0x111, 0x211, 0x221, 0x311, (0x261, 0x262)
 
+BUS_OFF = 2  # a kind of frame: the controller left the bus
+
 
 class Frame:
     """A data frame: kind, identifier (4 bytes, big-endian), dlc, 8 bytes."""

@@ -1,4 +1,5 @@
 """The running graph of launch/simulation.launch, and a person who drives it."""
+import fcntl
 import os
 import signal
 import socket
@@ -16,6 +17,7 @@ from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
+F_SETPIPE_SZ = 1031  # Linux; fcntl has its name from Python 3.10 on
 
 
 def is_free(port, kind):
@@ -44,9 +46,22 @@ class Launch:
         port = find_master_port()
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         arguments = ["rviz:=false", "head:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
-                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port]
+                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "eyes:=/eyes"]
         self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
-                                        stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        fcntl.fcntl(self.process.stdout, F_SETPIPE_SZ, 4096)
+        self.is_read = True  # false: nobody reads the terminal
+        threading.Thread(target=self.read, args=(log,), daemon=True).start()
+
+    def read(self, log):
+        while True:
+            while not self.is_read:
+                time.sleep(0.05)
+            said = os.read(self.process.stdout.fileno(), 4096)
+            if not said:
+                return
+            log.write(said)
+            log.flush()
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
@@ -126,7 +141,7 @@ def pid_of(node):
 
 def start_again(node):
     """The node with the parameters that it had."""
-    remaps = ["stereo:=/stereo", "track_odometry:=track_odom"]
+    remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
     return subprocess.Popen(["rosrun", "arfm_vo", node, "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
                             stderr=subprocess.DEVNULL)
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/base/check.h"
+#include "arfm_vo/driving/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -19,22 +19,18 @@ double BearingTo(const Waypoint& waypoint, const RoverPose& pose) {
 }  // namespace
 
 void GoalControllerOptions::Check() const {
-  const auto check = [](double value, double low, double high, const char* name) {
-    Require(value >= low && value <= high, std::string("goal.") + name + " must be in " +
-                                               std::to_string(low) + ".." + std::to_string(high));
-  };
-  check(position_tolerance_m, 0.001, 10, "position_tolerance_m");
-  check(heading_tolerance_rad, 0.001, M_PI, "heading_tolerance_rad");
-  check(waypoint_tolerance_m, position_tolerance_m, 10, "waypoint_tolerance_m");
-  check(cruise_speed_mps, 0.001, 0.1, "cruise_speed_mps");
-  check(cruise_turn_rate_radps, 0.001, 1, "cruise_turn_rate_radps");
-  check(min_speed_mps, 0, cruise_speed_mps, "min_speed_mps");
-  check(min_turn_rate_radps, 0, cruise_turn_rate_radps, "min_turn_rate_radps");
-  check(approach_gain_per_s, 0.01, 100, "approach_gain_per_s");
-  check(turn_gain_per_s, 0.01, 100, "turn_gain_per_s");
-  check(align_rad, 0.001, 1, "align_rad");
-  check(turn_in_place_rad, 1.5 * align_rad, 1.5, "turn_in_place_rad");
-  check(max_backward_m, 0, 1000, "max_backward_m");
+  RequireInRange(position_tolerance_m, 0.001, 10, "goal.position_tolerance_m");
+  RequireInRange(heading_tolerance_rad, 0.001, M_PI, "goal.heading_tolerance_rad");
+  RequireInRange(waypoint_tolerance_m, position_tolerance_m, 10, "goal.waypoint_tolerance_m");
+  RequireInRange(cruise_speed_mps, 0.001, 0.1, "goal.cruise_speed_mps");
+  RequireInRange(cruise_turn_rate_radps, 0.001, 1, "goal.cruise_turn_rate_radps");
+  RequireInRange(min_speed_mps, 0, cruise_speed_mps, "goal.min_speed_mps");
+  RequireInRange(min_turn_rate_radps, 0, cruise_turn_rate_radps, "goal.min_turn_rate_radps");
+  RequireInRange(approach_gain_per_s, 0.01, 100, "goal.approach_gain_per_s");
+  RequireInRange(turn_gain_per_s, 0.01, 100, "goal.turn_gain_per_s");
+  RequireInRange(align_rad, 0.001, 1, "goal.align_rad");
+  RequireInRange(turn_in_place_rad, 1.5 * align_rad, 1.5, "goal.turn_in_place_rad");
+  RequireInRange(max_backward_m, 0, 1000, "goal.max_backward_m");
 }
 
 const char* ToString(DrivePhase phase) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "arfm_vo/driving/range_check.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -24,18 +26,14 @@ double Outside(double value, double low, double high) {
 }  // namespace
 
 void MotionWatchOptions::Check() const {
-  const auto check = [](double value, double low, double high, const char* name) {
-    Require(value >= low && value <= high, std::string("motion.") + name + " must be in " +
-                                               std::to_string(low) + ".." + std::to_string(high));
-  };
-  check(max_excess_mps, 0.01, 1, "max_excess_mps");
-  check(max_excess_s, 0, 5, "max_excess_s");
-  check(response_s, 0.02, 5, "response_s");
-  check(jam_s, 0.5, 3600, "jam_s");
-  check(min_moved_ratio, 0, 1, "min_moved_ratio");
-  check(max_frozen_s, 0.3, 3600, "max_frozen_s");
-  check(max_motor_current_a, 0, 1000, "max_motor_current_a");
-  check(max_current_s, 0, 60, "max_current_s");
+  RequireInRange(max_excess_mps, 0.01, 1, "motion.max_excess_mps");
+  RequireInRange(max_excess_s, 0, 5, "motion.max_excess_s");
+  RequireInRange(response_s, 0.02, 5, "motion.response_s");
+  RequireInRange(jam_s, 0.5, 3600, "motion.jam_s");
+  RequireInRange(min_moved_ratio, 0, 1, "motion.min_moved_ratio");
+  RequireInRange(max_frozen_s, 0.3, 3600, "motion.max_frozen_s");
+  RequireInRange(max_motor_current_a, 0, 1000, "motion.max_motor_current_a");
+  RequireInRange(max_current_s, 0, 60, "motion.max_current_s");
 }
 
 MotionWatch::MotionWatch(const MotionWatchOptions& options, double gauge_m)

@@ -117,11 +117,11 @@ Reply Pilot::SetVelocity(double now_s, const PlanarMotion& motion) {
 Reply Pilot::SetDatum() {
   if (state_ == DriveState::kDriving || state_ == DriveState::kWarning)
     return {false, "datum refused: the rover drives"};
-  if (!predicted_) return {false, "datum refused: the rover has no pose"};
-  pose_.SetDatum();
+  const auto pose = pose_.SetDatum();
+  if (!pose) return {false, "datum refused: the rover has no pose"};
   char text[96];
   std::snprintf(text, sizeof(text), "the rover stands at x %.2f m, y %.2f m, heading %.0f deg",
-                predicted_->x_m, predicted_->y_m, predicted_->heading_rad * 180 / M_PI);
+                pose->x_m, pose->y_m, pose->heading_rad * 180 / M_PI);
   return {true, text};
 }
 

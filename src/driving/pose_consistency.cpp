@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "arfm_vo/base/check.h"
+#include "arfm_vo/driving/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -25,21 +25,16 @@ PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
 }  // namespace
 
 void PoseConsistencyOptions::Check() const {
-  const auto check = [](double value, double low, double high, const char* name) {
-    Require(value >= low && value <= high, std::string("pose.consistency.") + name +
-                                               " must be in " + std::to_string(low) + ".." +
-                                               std::to_string(high));
-  };
-  check(max_error_m, 0.01, 1, "max_error_m");
-  check(max_error_rad, 0.01, 1, "max_error_rad");
-  check(max_slip_ratio, 0, 1, "max_slip_ratio");
-  check(max_sideways_ratio, 0, 1, "max_sideways_ratio");
-  check(num_sigmas, 0, 10, "num_sigmas");
-  check(max_uncertain_m, 0, 5, "max_uncertain_m");
-  check(max_uncertain_rad, 0, 1, "max_uncertain_rad");
-  check(max_map_step_m, 0.01, 10, "max_map_step_m");
-  check(max_map_turn_rad, 0.01, M_PI, "max_map_turn_rad");
-  check(slide_window_s, 0.5, 60, "slide_window_s");
+  RequireInRange(max_error_m, 0.01, 1, "pose.consistency.max_error_m");
+  RequireInRange(max_error_rad, 0.01, 1, "pose.consistency.max_error_rad");
+  RequireInRange(max_slip_ratio, 0, 1, "pose.consistency.max_slip_ratio");
+  RequireInRange(max_sideways_ratio, 0, 1, "pose.consistency.max_sideways_ratio");
+  RequireInRange(num_sigmas, 0, 10, "pose.consistency.num_sigmas");
+  RequireInRange(max_uncertain_m, 0, 5, "pose.consistency.max_uncertain_m");
+  RequireInRange(max_uncertain_rad, 0, 1, "pose.consistency.max_uncertain_rad");
+  RequireInRange(max_map_step_m, 0.01, 10, "pose.consistency.max_map_step_m");
+  RequireInRange(max_map_turn_rad, 0.01, M_PI, "pose.consistency.max_map_turn_rad");
+  RequireInRange(slide_window_s, 0.5, 60, "pose.consistency.slide_window_s");
 }
 
 std::string PoseDifference::ToString() const {

@@ -11,6 +11,8 @@ namespace {
 constexpr double kMaxFromFuture_s = 0.2;
 /// Between the clocks that tell when a pose and its covariance were taken.
 constexpr double kClockNoise_s = 0.01;
+/// A pose that is told to be worse is none: odometry that is lost says 9999 m^2.
+constexpr double kMaxDatumSigma_m = 90;
 
 RoverPose InMap(const Rigid3& map_from_odom, const RoverPose& pose_in_odom) {
   const Rigid3 odom_from_base(ExpSO3({0, 0, pose_in_odom.heading_rad}),
@@ -18,9 +20,10 @@ RoverPose InMap(const Rigid3& map_from_odom, const RoverPose& pose_in_odom) {
   return ProjectToPlane(map_from_odom * odom_from_base);
 }
 
-/// What is left of a standard deviation since the datum.
+/// What is left of a standard deviation since the datum. It may fall too: on the way back to the
+/// start, or where an adjustment has told more. NaN stays NaN.
 double Since(double datum, double sigma) {
-  return sigma >= datum ? std::sqrt(sigma * sigma - datum * datum) : sigma;
+  return std::min(sigma, std::sqrt(std::abs(sigma * sigma - datum * datum)));
 }
 
 double TiltOf(const Rigid3& map_from_base) {
@@ -128,7 +131,12 @@ std::optional<Fault> PoseWatch::Judge(double now_s, const TrackHistory& tracks) 
   return fault;
 }
 
-void PoseWatch::SetDatum() { datum_ = uncertainty_; }
+std::optional<RoverPose> PoseWatch::SetDatum() {
+  const bool is_known = uncertainty_ && uncertainty_->position_sigma_m < kMaxDatumSigma_m;
+  if (flaw_ || !told_ || (options_.requires_covariance && !is_known)) return std::nullopt;
+  datum_ = uncertainty_;
+  return ProjectToPlane(told_->MapFromBase());
+}
 
 RoverPose PoseWatch::PredictInMap(const TrackWays& ways) const {
   return InMap(map_from_odom_, consistency_.Predict(sightings_.back(), ways));

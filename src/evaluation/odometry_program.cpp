@@ -35,7 +35,7 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
                  "stop after N pairs (counted after --stride)")(
       "stride", po::value(&arguments.selection.stride)->value_name("K"), "take every K-th pair")(
       "output", po::value(&arguments.output)->value_name("DIR"),
-      "write poses.txt, poses_online.txt, trajectory.tum, timing.csv and "
+      "write poses.txt, poses_online.txt, tracked.txt, trajectory.tum, timing.csv and "
       "trajectory.png there");
 }
 

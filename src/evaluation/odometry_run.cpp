@@ -9,4 +9,8 @@ int OdometryRun::CountLost() const {
                                         [](const auto& pose) { return !pose.is_tracked; }));
 }
 
+int OdometryRun::CountDegraded() const {
+  return static_cast<int>(std::count(states.begin(), states.end(), PoseStatus::kDegraded));
+}
+
 }  // namespace arfm_vo

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 /// Fills `folder`; returns why there is no picture, if so.
 std::string WriteFiles(const OdometryRun& run, const fs::path& folder) {
   WriteWholeFile(folder / "poses.txt", FormatKitti(run.trajectory));
+  WriteWholeFile(folder / "tracked.txt", FormatTracked(run.trajectory));
   WriteWholeFile(folder / "poses_online.txt", FormatKitti(run.online));
   WriteWholeFile(folder / "trajectory.tum", FormatTum(run.trajectory));
   WriteWholeFile(folder / "timing.csv", FormatTiming(run));

@@ -49,7 +49,7 @@ std::string FormatRun(const OdometryRun& run) {
   const double num_pairs = static_cast<double>(run.pair_ms.size());
   std::string text = FormatLine("pairs: %zu\n", run.pair_ms.size()) +
                      FormatLine("lost: %d\n", run.CountLost()) +
-                     FormatLine("degraded: %d\n", run.num_degraded) +
+                     FormatLine("degraded: %d\n", run.CountDegraded()) +
                      FormatLine("path_length_m: %.4f\n", ComputePathLength(run.trajectory)) +
                      FormatLine("ms_per_pair_median: %.3f\n", ComputeQuantile(run.pair_ms, 0.5)) +
                      FormatLine("ms_per_pair_p95: %.3f\n", ComputeQuantile(run.pair_ms, 0.95)) +
@@ -73,11 +73,12 @@ std::string FormatTiming(const OdometryRun& run) {
       if (std::find(stages.begin(), stages.end(), stage) == stages.end()) stages.push_back(stage);
     }
   }
-  std::string text = "frame,stamp_s,total_ms,memory_mb";
+  std::string text = "frame,stamp_s,total_ms,memory_mb,state";
   for (const std::string& stage : stages) text += "," + stage;
   for (size_t i = 0; i < run.pair_ms.size(); ++i) {
     text += "\n" + std::to_string(i) + "," + FormatNumber(run.online[i].stamp_s, true);
     text += FormatLine(",%.3f", run.pair_ms[i]) + FormatLine(",%.2f", run.memory_mb[i]);
+    text += std::string(",") + ToString(run.states[i]);
     for (const std::string& stage : stages) {
       const auto found = std::find_if(run.stage_ms[i].begin(), run.stage_ms[i].end(),
                                       [&](const auto& time) { return time.first == stage; });

@@ -9,10 +9,12 @@
 namespace arfm_vo {
 namespace {
 
+/// Nothing where there is no such value.
 std::string FormatLine(const std::string& key, double value) {
+  if (std::isnan(value)) return "";
   char text[40];
   std::snprintf(text, sizeof(text), "%.5f", value);
-  return key + ": " + (std::isnan(value) ? "nan" : text) + "\n";
+  return key + ": " + text + "\n";
 }
 
 }  // namespace

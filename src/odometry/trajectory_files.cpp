@@ -17,8 +17,16 @@ std::string FormatKitti(const Trajectory& trajectory) {
   return text;
 }
 
-std::string FormatTum(const Trajectory& trajectory) {
+std::string FormatTracked(const Trajectory& trajectory) {
   std::string text;
+  for (const TrajectoryPose& pose : trajectory) text += pose.is_tracked ? "1\n" : "0\n";
+  return text;
+}
+
+std::string FormatTum(const Trajectory& trajectory) {
+  std::string text =
+      "# left camera (z ahead, x right, m) in that of the first tracked pair: "
+      "stamp tx ty tz qx qy qz qw\n";
   for (const TrajectoryPose& pose : trajectory) {
     if (!pose.is_tracked) continue;
     const Eigen::Vector3d& t = pose.world_from_camera.translation;

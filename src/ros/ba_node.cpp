@@ -7,10 +7,13 @@
 #include <boost/make_shared.hpp>
 
 #include "arfm_vo/base/process_usage.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/ros/console_watch.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/landmark_cloud.h"
+#include "arfm_vo/ros/map_shift.h"
 #include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/pose_message.h"
 #include "arfm_vo/ros/trigger_service.h"
 
 namespace arfm_vo {
@@ -60,6 +63,13 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
                                                [this](const KeyframeStampedConstPtr& keyframe) {
                                                  worker_.Post([this, keyframe] { Add(*keyframe); });
                                                });
+  odometry_ = node.subscribe<nav_msgs::Odometry>(
+      "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
+  stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
+      "initialpose", 1, [this](const auto& stated) {
+        worker_.Post(
+            [this, stated, odometry = newest_odometry_] { PlaceRover(*stated, odometry); });
+      });
   save_ = OfferTrigger(private_node, "save_trajectory",
                        [this] { return trajectory_output_.Save(trajectory_.Get()); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
@@ -85,7 +95,10 @@ void BaNode::Add(const KeyframeStamped& message) {
   if (const auto known = learned_.ReadFor(keyframe.camera)) {
     map_.SetCorrection(keyframe.camera, *known);
   }
-  if (!map_.Add(keyframe)) ROS_WARN("the odometry started anew: the map is forgotten");
+  if (!map_.Add(keyframe)) {
+    ROS_WARN("the odometry started anew: the map is forgotten");
+    map_from_adjusted_ = Rigid3();
+  }
   newest_ = message.header;
   is_dirty_ = true;
   figures_.num_keyframes = map_.num_keyframes();
@@ -104,13 +117,31 @@ void BaNode::Add(const KeyframeStamped& message) {
   }
 }
 
+void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                        const nav_msgs::OdometryConstPtr& odometry) {
+  try {
+    Require(odometry != nullptr, "initialpose: there is no odom yet");
+    const Rigid3 odom_from_base = ToRigid3(odometry->pose.pose);
+    Require(FindGoalFlaw(odom_from_base).empty(), "initialpose: odom is no pose");
+    map_from_adjusted_ = FindMapShift(stated, options_.map_frame, MapFromOdom() * odom_from_base) *
+                         map_from_adjusted_;
+    ROS_WARN("the rover is stated to stand at x %.2f m, y %.2f m: the map frame moves",
+             stated.pose.pose.position.x, stated.pose.pose.position.y);
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN("refused: %s", error.what());
+    return;
+  }
+  Tell();
+  PublishMap();
+}
+
 /// The odometry is not told: what it does must not depend on when its pairs come.
 void BaNode::AdjustIfSettled() {
   if (is_dirty_ && options_.algorithm.adjust_globally && ros::WallTime::now() > settles_) Adjust();
 }
 
 void BaNode::Tell() {
-  figures_.map_from_odom = map_.map_from_odom();
+  figures_.map_from_odom = MapFromOdom();
   told_.Set(figures_);
   trajectory_.Set(map_.MakeTrajectory());
 }
@@ -152,10 +183,12 @@ void BaNode::PublishMap() {
     path.poses.emplace_back();
     path.poses.back().header.frame_id = options_.map_frame;
     path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
-    path.poses.back().pose = ToPoseMessage(poses[i].map_from_base);
+    path.poses.back().pose = ToPoseMessage(map_from_adjusted_ * poses[i].map_from_base);
   }
   path_.publish(path);
-  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
+  std::vector<LandmarkPoint> points = map_.Landmarks();
+  for (LandmarkPoint& point : points) point.x_in_map = map_from_adjusted_ * point.x_in_map;
+  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(points);
   cloud.header = header;
   landmarks_.publish(cloud);
 }

@@ -66,11 +66,13 @@ PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
       joint_states_(node.advertise<sensor_msgs::JointState>("joint_states", 20)),
       settled_(node.advertise<std_msgs::Bool>("settled", 1, true)),
       refused_(node.advertise<std_msgs::String>("refused", 10)),
+      drive_(node),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("pan-tilt unit on " + options_.port);
   updater_.add("pan-tilt", this, &PanTiltNode::Report);
   commands_ = node.subscribe("cmd", 1, &PanTiltNode::TakeCommand, this);
   home_ = OfferTrigger(private_node, "home", [this] {
+    Require(!drive_.IsDriving(), "the rover drives: stop it first");
     if (const auto refusal = head_.Home()) throw std::runtime_error(*refusal);
     return std::string("homing");
   });

@@ -24,6 +24,7 @@ void PoseNodeOptions::Check() const {
   output.Check();
   health.Check();
   Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
+  Require(max_held_pairs >= 0, "max_held_pairs must not be negative");
 }
 
 PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
@@ -42,6 +43,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
               }),
       transport_(node),
       synchronizer_(Policy(kQueueSize)) {
+  if (options_.max_held_pairs > 0) worker_.Hold(options_.max_held_pairs);
   Offer(node, private_node);
   Subscribe(node, private_node);
 }
@@ -117,6 +119,7 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
   if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
   const SessionUpdate pose =
       ProcessMounted(*session_, mount_, frame, camera, images, message.header);
+  if (pose.update.pose.status != PoseStatus::kNoTransform) worker_.Release();
   outputs_.Publish(pose, message, num_dropped);
   outputs_.PublishPicture(images.left, frame, pose, message.header);
   health_.Count(frame, pose, stopwatch.LapMs());

@@ -4,6 +4,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kKept_s = 5;
+constexpr size_t kMaxKept = 2000;  // however near one another their stamps are
 constexpr double kMaxGap_s = 0.5;
 constexpr double kStretch_m = 1;  // of the tracks, as the crow flies
 constexpr size_t kMinStretches = 5;
@@ -17,9 +18,11 @@ void ScaleCheck::Clear() {
 }
 
 void ScaleCheck::AddTrack(double stamp_s, const Eigen::Vector3d& place) {
+  if (!place.allFinite()) return;
   if (!track_.empty() && stamp_s <= track_.back().stamp_s) track_.clear();
   track_.push_back({stamp_s, place});
-  while (track_.front().stamp_s < stamp_s - kKept_s) track_.pop_front();
+  while (track_.front().stamp_s < stamp_s - kKept_s || track_.size() > kMaxKept)
+    track_.pop_front();
 }
 
 std::optional<Eigen::Vector3d> ScaleCheck::TrackAt(double stamp_s) const {

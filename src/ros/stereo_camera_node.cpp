@@ -41,14 +41,15 @@ void StereoCameraNodeOptions::Check() const {
 }
 
 StereoCameraNode::Eye::Eye(const ros::NodeHandle& node, const std::string& name,
-                           const std::string& url)
+                           const std::string& url, const DriveListener& drive)
     : node_(node, name),
-      calibration_(node_, name, url),
+      calibration_(node_, name, url,
+                   [&drive] { return drive.IsDriving() ? "the rover drives: stop it first" : ""; }),
       transport_(node_),
       publisher_(transport_.advertiseCamera("image_raw", kQueueSize)) {}
 
 sensor_msgs::CameraInfo StereoCameraNode::Eye::Fitting(int width, int height) {
-  sensor_msgs::CameraInfo info = calibration_.getCameraInfo();
+  sensor_msgs::CameraInfo info = calibration_.Get();
   const bool has_size =
       static_cast<int>(info.width) == width && static_cast<int>(info.height) == height;
   if (!has_size) info = sensor_msgs::CameraInfo();
@@ -68,8 +69,9 @@ void StereoCameraNode::Eye::Publish(const VideoFrame& frame, const std_msgs::Hea
 StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
                                    VideoEnvironment environment)
     : options_(ReadParameters<StereoCameraNodeOptions>(private_node)),
-      left_(node, "left", options_.left_camera_info_url),
-      right_(node, "right", options_.right_camera_info_url),
+      drive_(node),
+      left_(node, "left", options_.left_camera_info_url, drive_),
+      right_(node, "right", options_.right_camera_info_url, drive_),
       camera_(options_.camera, std::move(environment)),
       clock_(&MonotonicNow, [] { return ros::WallTime::now().toSec(); }),
       updater_(node, private_node, private_node.getNamespace()) {

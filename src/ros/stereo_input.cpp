@@ -21,6 +21,16 @@ StereoTopics ResolveStereoTopics(const ros::NodeHandle& node) {
           StereoTopic(node, "ground_truth")};
 }
 
+void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
+                      std::function<void(const std::string&)> take) {
+  subscriber = node.subscribe<sensor_msgs::CameraInfo>(
+      StereoTopic(node, "left/camera_info"), 1,
+      [&subscriber, take](const sensor_msgs::CameraInfoConstPtr& info) {
+        take(info->header.frame_id);
+        subscriber.shutdown();
+      });
+}
+
 StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
                          Callback callback)
     : callback_(std::move(callback)),

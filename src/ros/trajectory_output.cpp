@@ -16,10 +16,8 @@ std::string TrajectoryOutput::Save(const Trajectory& trajectory) const {
   const std::string suffix = run_ == 1 ? "" : "_" + std::to_string(run_);
   const std::string kitti = directory / ("poses" + suffix + ".txt");
   const std::string tum = directory / ("trajectory" + suffix + ".tum");
-  std::string tracked;
-  for (const TrajectoryPose& pose : trajectory) tracked += pose.is_tracked ? "1\n" : "0\n";
   WriteWholeFile(kitti, FormatKitti(trajectory));
-  WriteWholeFile(directory / ("tracked" + suffix + ".txt"), tracked);
+  WriteWholeFile(directory / ("tracked" + suffix + ".txt"), FormatTracked(trajectory));
   WriteWholeFile(tum, FormatTum(trajectory));
   const auto num_lost = std::count_if(trajectory.begin(), trajectory.end(),
                                       [](const TrajectoryPose& pose) { return !pose.is_tracked; });

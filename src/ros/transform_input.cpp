@@ -2,10 +2,11 @@
 
 #include <ros/console.h>
 
+#include "arfm_vo/ros/add_transform.h"
+
 namespace arfm_vo {
 namespace {
 
-constexpr double kMaxFromFuture_s = 1;
 constexpr int kQueueSize = 100;
 
 }  // namespace
@@ -24,14 +25,12 @@ void TransformInput::Take(const Event& event, bool is_static) {
   }
   last_ = now;
   for (const auto& transform : event.getMessage()->transforms) {
-    if (!is_static && transform.header.stamp.toSec() > now.toSec() + kMaxFromFuture_s) {
-      ++num_from_future_;
-      ROS_WARN_THROTTLE(5, "tf %s -> %s from %s refused: its stamp is in the future",
-                        transform.header.frame_id.c_str(), transform.child_frame_id.c_str(),
-                        event.getPublisherName().c_str());
-      continue;
-    }
-    buffer_.setTransform(transform, event.getPublisherName(), is_static);
+    const std::string& publisher = event.getPublisherName();
+    if (AddTransform(transform, is_static, now, publisher, buffer_)) continue;
+    ++num_from_future_;
+    ROS_WARN_THROTTLE(5, "tf %s -> %s from %s refused: its stamp is in the future",
+                      transform.header.frame_id.c_str(), transform.child_frame_id.c_str(),
+                      publisher.c_str());
   }
 }
 

@@ -7,7 +7,10 @@
 namespace arfm_vo {
 
 Worker::Worker(int max_waiting, std::function<void(const std::exception&)> on_error)
-    : max_waiting_(max_waiting), on_error_(std::move(on_error)), thread_([this] { RunJobs(); }) {}
+    : max_waiting_(max_waiting),
+      on_error_(std::move(on_error)),
+      limit_(max_waiting),
+      thread_([this] { RunJobs(); }) {}
 
 Worker::~Worker() {
   {
@@ -23,7 +26,7 @@ void Worker::Add(Job job, bool is_lossy) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_stopping_) return;
-    if (is_lossy && num_lossy_waiting_ == max_waiting_) DropOldest();
+    if (is_lossy && num_lossy_waiting_ == limit_) DropOldest();
     if (is_lossy) ++num_lossy_waiting_;
     queue_.push_back({std::move(job), is_lossy});
   }
@@ -35,6 +38,17 @@ void Worker::DropOldest() {
                             [](const Entry& entry) { return entry.is_lossy; }));
   --num_lossy_waiting_;
   ++num_dropped_;
+}
+
+void Worker::Hold(int max_held) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  limit_ = std::max(limit_, max_held);
+  is_held_ = true;
+}
+
+void Worker::Release() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_held_ = false;
 }
 
 void Worker::RunAndWait(const Job& job) {
@@ -52,6 +66,7 @@ void Worker::RunJobs() {
     const Entry entry = std::move(queue_.front());
     queue_.pop_front();
     if (entry.is_lossy) --num_lossy_waiting_;
+    if (!is_held_) limit_ = std::clamp(num_lossy_waiting_, max_waiting_, limit_);
     lock.unlock();
     try {
       entry.job();

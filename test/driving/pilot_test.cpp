@@ -314,6 +314,37 @@ TEST_F(PilotTest, AnUncertaintyThatHasGrownIsMeasuredFromTheDatumThatAPersonConf
   EXPECT_FALSE(pilot_.SetDatum().is_accepted) << "while driving";
 }
 
+TEST_F(PilotTest, AnUncertaintyThatFallsBelowItsDatumDoesNotStopTheRover) {
+  StartDriving();
+  sigma_m_ = 3;
+  Run(0.5);
+  ASSERT_EQ(Reason(), StopReason::kPoseUncertain);
+  ASSERT_TRUE(pilot_.SetDatum().is_accepted);
+  pilot_.Start(now_s_);
+  ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  sigma_m_ = 2.5;
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, APersonConfirmsAnUncertainPoseThatTheRoverWasStartedWith) {
+  sigma_m_ = 2.1;
+  Run(0.1);
+  chassis_.authority = ChassisAuthority::kUs;
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(1);
+  ASSERT_EQ(Reason(), StopReason::kPoseUncertain);
+  EXPECT_TRUE(pilot_.SetDatum().is_accepted);
+  Run(2);
+  EXPECT_EQ(State(), DriveState::kReady);
+}
+
+TEST_F(PilotTest, ALostPoseIsNoDatum) {
+  StartDriving();
+  sigma_m_ = std::sqrt(9999);
+  Run(5);
+  EXPECT_FALSE(pilot_.SetDatum().is_accepted);
+}
+
 TEST_F(PilotTest, PosesThatCannotBeAreNotDrivenBy) {
   const Rigid3 not_finite(Eigen::Quaterniond::Identity(), Eigen::Vector3d(kNaN, 0, 0));
   Rigid3 no_rotation;

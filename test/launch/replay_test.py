@@ -4,17 +4,42 @@
 Usage: replay_test.py BUILD_DIR SOURCE_DIR
 """
 import os
+import re
 import socket
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy as np
 import rosbag
 import rospy
 
 BUILD_DIR, SOURCE_DIR = sys.argv[1:3]
 FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
+
+# Each robot has a namespace, and frames of its own.
+TWO_ROBOTS = """
+<launch>
+  <param name="use_sim_time" value="true"/>
+""" + "".join("""
+  <include file="$(find arfm_vo)/launch/odometry.launch">
+    <arg name="namespace" value="/ROBOT"/>
+    <arg name="stereo" value="/ROBOT/stereo"/>
+    <arg name="base_frame" value="ROBOT/base_link"/>
+    <arg name="odom_frame" value="ROBOT/odom"/>
+    <arg name="map_frame" value="ROBOT/map"/>
+    <arg name="camera_frame" value="ROBOT/camera"/>
+    <arg name="base_from_camera" value="0 0 1 -1.5707963 0 -1.5707963"/>
+    <arg name="remember_calibration" value="false"/>
+    <arg name="max_held_pairs" value="40"/>
+    <arg name="trajectory_dir" value="%(folder)s/ROBOT"/>
+  </include>""".replace("ROBOT", robot) for robot in ("a", "b")) + """
+  <node name="player" pkg="rosbag" type="play" required="true"
+        launch-prefix="bash -c '&quot;$0&quot; &quot;$@&quot;; code=$?; sleep 4; exit $code'"
+        args="--clock --quiet --rate=0.5 --wait-for-subscribers %(folder)s/both.bag"/>
+</launch>
+"""
 
 
 def free_port():
@@ -31,13 +56,16 @@ class ReplayTest(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def launch(self, *arguments, limit_s=100):
+    def launch_file(self, path):
+        return self.launch(path, package=())
+
+    def launch(self, *arguments, limit_s=100, package=("arfm_vo",)):
         """The exit code and the console of roslaunch, called in the test's folder and ended after a time."""
         environment = {**os.environ, "PWD": self.folder,
                        "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
         run = subprocess.run(
             ["bash", "-c", '. "$0/devel/setup.bash" && exec timeout -s INT "$@"', BUILD_DIR, str(limit_s),
-             "roslaunch", "arfm_vo", *arguments], env=environment, cwd=self.folder, text=True,
+             "roslaunch", *package, *arguments], env=environment, cwd=self.folder, text=True,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return run.returncode, run.stdout
 
@@ -154,6 +182,42 @@ class ReplayTest(unittest.TestCase):
                        lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
         self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
         self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
+
+    def test_a_bag_at_twice_its_speed_keeps_its_pose(self):
+        console = self.replay("bag:=" + FIXTURE, "rate:=2")
+        pairs, tracked, lost = map(int, re.search(r"(\d+) pairs: (\d+) with a pose, (\d+) lost", console).groups())
+        self.assertGreaterEqual(pairs, 10, console)  # a busy machine drops some
+        self.assertEqual((tracked, lost), (pairs, 0), console)
+
+    def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out",
+                                 limit_s=30)
+        self.assertIn("time jumped back", console)
+        for name in "trajectory.tum", "trajectory_2.tum":
+            with open(os.path.join(self.folder, "out", name)) as file:
+                self.assertGreater(sum(not line.startswith("#") for line in file), 30, name)
+
+    def test_two_robots_on_one_master_do_not_touch_each_other(self):
+        with rosbag.Bag(FIXTURE) as source, rosbag.Bag(os.path.join(self.folder, "both.bag"), "w") as bag:
+            for topic, message, stamp in source.read_messages():
+                for robot in ("/a", "/b") if "ground_truth" not in topic else ():
+                    bag.write(robot + topic, message, stamp)
+        launch = TWO_ROBOTS % {"folder": self.folder}
+        with open(os.path.join(self.folder, "both.launch"), "w") as file:
+            file.write(launch)
+        code, console = self.launch_file(os.path.join(self.folder, "both.launch"))
+        self.assertEqual(code, 0, console)
+        rows = []
+        for robot in "a", "b":
+            self.assertIn(f"tf {robot}/base_link <- {robot}/camera", console)
+            table = np.loadtxt(os.path.join(self.folder, robot, "trajectory.tum"))
+            rows.append({row[0]: row[1:4] for row in table})
+        self.assertEqual(console.count(" 0 lost"), 2, console)
+        common = sorted(set(rows[0]) & set(rows[1]))  # a busy machine drops some
+        self.assertGreater(len(common), 10, console)
+        ways_m = [np.linalg.norm(row[common[-1]] - row[common[0]]) for row in rows]
+        self.assertGreater(ways_m[0], 0.5)
+        self.assertAlmostEqual(ways_m[0], ways_m[1], delta=0.02)
 
 
 if __name__ == "__main__":

@@ -1,3 +1,4 @@
+#include <arfm_vo/DriveStatus.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
@@ -74,7 +76,10 @@ class PanTiltNodeTest : public testing::Test {
   Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
 };
 
-TEST_F(PanTiltNodeTest, HomesThenGoesWhereItIsSent) {
+TEST_F(PanTiltNodeTest, DoesNotMoveAtItsStartAndGoesWhereItIsSent) {
+  WaitUntil([this] { return IsSettled(); }, "settled");
+  EXPECT_NEAR(Position("pan"), 0, kCount_rad);
+  for (const auto& state : joint_states_.all()) EXPECT_NEAR(state.position.at(0), 0, kCount_rad);
   GoTo(0.5, -0.3);
   EXPECT_NEAR(ptu->Angle(PtuAxis::kPan), 0.5, kCount_rad);
   EXPECT_NEAR(ptu->Angle(PtuAxis::kTilt), -0.3, kCount_rad);
@@ -110,6 +115,30 @@ TEST_F(PanTiltNodeTest, GoalsOutsideTheLimitsAreRefusedWithAMessage) {
   ExpectRefused(4, 0, "pan");
   ExpectRefused(0.1, NAN, "no number");
   EXPECT_NEAR(ptu->Position(PtuAxis::kPan), 0, 1);
+}
+
+TEST_F(PanTiltNodeTest, HomesWhenItIsAskedToAndNotWhileTheRoverDrives) {
+  GoTo(0.2, 0);
+  ros::NodeHandle node;
+  auto status = node.advertise<DriveStatus>("/drive_status", 1);
+  WaitUntil([&] { return status.getNumSubscribers() > 0; }, "the node");
+  std_srvs::Trigger home;
+  const auto answers = [&](uint8_t state, const std::string& reply) {
+    WaitUntil(
+        [&] {
+          DriveStatus message;
+          message.state = state;
+          status.publish(message);
+          return ros::service::call("/head/pan_tilt_node/home", home) &&
+                 home.response.message == reply;
+        },
+        reply);
+  };
+  answers(DriveStatus::DRIVING, "the rover drives: stop it first");
+  EXPECT_FALSE(home.response.success);
+  EXPECT_NEAR(Position("pan"), 0.2, kCount_rad);
+  answers(DriveStatus::BLOCKED, "homing");
+  WaitUntil([this] { return IsSettled() && std::abs(Position("pan")) < kCount_rad; }, "home");
 }
 
 TEST_F(PanTiltNodeTest, AnUnpluggedLineIsAnErrorAndSurvived) {

@@ -1,3 +1,4 @@
+#include <arfm_vo/DriveStatus.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -124,6 +125,22 @@ TEST_F(StereoCameraNodeTest, BothEyesOfAPairHaveOneStampOfRosTime) {
       EXPECT_EQ(left.header.stamp == right.header.stamp,
                 std::equal(left.data.begin(), left.data.begin() + 4, right.data.begin()));
   }
+}
+
+TEST_F(StereoCameraNodeTest, SetCameraInfoIsRefusedWhileTheRoverDrives) {
+  ros::NodeHandle node("/stereo");
+  auto publisher = node.advertise<DriveStatus>("drive_status", 1, true);
+  DriveStatus status;
+  status.state = DriveStatus::DRIVING;
+  publisher.publish(status);
+  const std::string refusal = "refused: camera_info is not set: the rover drives: stop it first";
+  WaitUntil([&] { return Set("left", Calibration(false)) == refusal; }, "the refusal");
+  std::filesystem::remove_all(folder);  // of answers before the status had come
+  EXPECT_EQ(Set("left", Calibration(false)), refusal);
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  status.state = DriveStatus::BLOCKED;
+  publisher.publish(status);
+  WaitUntil([&] { return Set("left", Calibration(false)).empty(); }, "acceptance");
 }
 
 TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {

@@ -88,8 +88,7 @@ TEST(TrajectoryError, StandingStillHasNoRelativeErrors) {
   const auto error = ComputeTrajectoryError(DriveStraight(5, 0), DriveStraight(5, 0.1));
   EXPECT_TRUE(std::isnan(error.end_error_percent));
   EXPECT_TRUE(std::isnan(error.length_ratio));
-  EXPECT_EQ(FormatTrajectoryError(error).substr(0, 40),
-            "t_rel_percent: nan\nr_rel_deg_per_100m: n");
+  EXPECT_EQ(FormatTrajectoryError(error).substr(0, 12), "ate_rmse_m: ");
 }
 
 TrajectoryError CompareFiles(const std::string& truth, const std::string& estimate) {

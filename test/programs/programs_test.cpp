@@ -71,7 +71,7 @@ TEST(KittiOdometry, FollowsADrawnSequenceTheSameEachTime) {
   EXPECT_LT(lines["ate_rmse_m"], 0.05);
   EXPECT_GT(lines["ms_per_pair_p95"], 0);
   EXPECT_GT(lines["cpu_ms_per_pair"], 0);
-  EXPECT_TRUE(std::isnan(lines["t_rel_percent"]));
+  EXPECT_EQ(lines.count("t_rel_percent"), 0u) << "of 1.25 m";
   EXPECT_EQ(ReadKittiPoses(first + "/poses.txt").size(), 6u);
   EXPECT_TRUE(fs::exists(first + "/trajectory.png"));
   const std::string timing = ReadWholeFile(first + "/timing.csv");
@@ -103,7 +103,8 @@ TEST(KittiOdometry, ASequenceWithNothingToSeeIsLostAndSaidSo) {
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(ReadLines(outcome.out)["lost"], 4);
   EXPECT_EQ(ReadKittiPoses(output + "/poses.txt").size(), 4u);
-  EXPECT_EQ(ReadWholeFile(output + "/trajectory.tum"), "");
+  const std::string tum = ReadWholeFile(output + "/trajectory.tum");
+  EXPECT_EQ(std::count(tum.begin(), tum.end(), '\n'), 1) << "the comment";
 }
 
 TEST(KittiOdometry, SaysSoWhereThePlotterIsMissing) {

@@ -57,7 +57,7 @@ TEST(PanTiltNodeOptions, ShippedConfigIsReadStrictly) {
   const auto options =
       ReadYamlFile<PanTiltNodeOptions>(std::string(ARFM_VO_SOURCE_DIR) + "/config/pan_tilt.yaml");
   EXPECT_EQ(options.port, "/dev/ttyUSB0");
-  EXPECT_TRUE(options.unit.home_at_start);
+  EXPECT_FALSE(options.unit.home_at_start);
 }
 
 }  // namespace

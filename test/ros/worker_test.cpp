@@ -43,6 +43,27 @@ TEST(Worker, DropsTheOldestLossyJobsWhileBusyAndNoOthers) {
   EXPECT_EQ(worker.num_dropped(), 3u);
 }
 
+TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {
+  std::vector<int> ran;
+  std::promise<void> is_busy, may_go;
+  Worker worker(2, FailOnError);
+  worker.Hold(4);
+  worker.PostLossy([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+    worker.Release();
+  });
+  is_busy.get_future().wait();
+  for (int i = 0; i < 5; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  may_go.set_value();
+  worker.RunAndWait([&] {
+    for (int i = 5; i < 9; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  });
+  worker.RunAndWait([] {});
+  EXPECT_THAT(ran, ElementsAre(1, 2, 3, 4, 7, 8));
+  EXPECT_EQ(worker.num_dropped(), 3u);
+}
+
 TEST(Worker, AnErrorOfAJobIsReportedAndTheNextJobRuns) {
   std::vector<std::string> errors;
   Worker worker(1, [&](const std::exception& error) { errors.push_back(error.what()); });

@@ -13,10 +13,10 @@
 namespace arfm_vo {
 
 struct RansacOptions {
-  int max_iterations = 500;
-  int min_iterations = 10;
+  int max_iterations = 500;   ///< samples drawn at most
+  int min_iterations = 10;    ///< samples drawn at least
   double confidence = 0.999;  ///< probability that at least one sample holds no outlier
-  int seed = 1;
+  int seed = 1;               ///< of the samples: the same seed, the same result
 
   void Check() const {
     Require(max_iterations >= 1, "ransac.max_iterations must be at least 1");

@@ -36,19 +36,19 @@ inline std::vector<std::pair<std::string, LinearSolver>> ListNames(LinearSolver)
 }
 
 struct BundleOptions {
-  BundleSolver solver = BundleSolver::kOwn;
-  StepStrategy strategy = StepStrategy::kLevenbergMarquardt;
-  LinearSolver linear_solver = LinearSolver::kAutomatic;
-  LossKind loss = LossKind::kHuber;
-  double loss_threshold_sigma = 2;  ///< of a residual of one coordinate
-  int max_iterations = 20;
-  double function_tolerance = 1e-5;  ///< stop where the cost falls by a smaller share
-  double max_time_s = 60;            ///< stop after the iteration that passes it
-  double inlier_probability = 0.99;  ///< of the chi-square test of an observation
-  int num_threads = 1;
-  double max_time_share = 1;  ///< of the wall time; a thread sleeps in between (Pacer)
-  bool with_point_covariance = false;
-  bool with_newest_pose_covariance = false;
+  BundleSolver solver = BundleSolver::kOwn;                   ///< own, or Ceres's
+  StepStrategy strategy = StepStrategy::kLevenbergMarquardt;  ///< dogleg: ceres only
+  LinearSolver linear_solver = LinearSolver::kAutomatic;      ///< of Ceres
+  LossKind loss = LossKind::kHuber;                           ///< robust loss of the residuals
+  double loss_threshold_sigma = 2;                            ///< of a residual of one coordinate
+  int max_iterations = 20;                                    ///< of the adjustment
+  double function_tolerance = 1e-5;    ///< stop where the cost falls by a smaller share
+  double max_time_s = 60;              ///< stop after the iteration that passes it
+  double inlier_probability = 0.99;    ///< of the chi-square test of an observation
+  int num_threads = 1;                 ///< that adjust
+  double max_time_share = 1;           ///< of the wall time; a thread sleeps in between (Pacer)
+  bool with_point_covariance = false;  ///< of the landmarks, as a result
+  bool with_newest_pose_covariance = false;  ///< of its pose, as a result
 
   void Check() const;
   template <class Visitor>

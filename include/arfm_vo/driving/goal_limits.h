@@ -11,8 +11,8 @@ namespace arfm_vo {
 
 struct GoalLimitsOptions {
   double max_distance_m = 50;  ///< of each waypoint from the rover
-  int max_waypoints = 100;
-  double max_standby_s = 10;  ///< a rover that is in standby for longer takes and keeps no goal
+  int max_waypoints = 100;     ///< of a route
+  double max_standby_s = 10;   ///< a rover that is in standby for longer takes and keeps no goal
   /// Corners x, y, x, y, .. in the map, m, of the area that the rover may not leave; empty: none.
   std::vector<double> fence_m;
 

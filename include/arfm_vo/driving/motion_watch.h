@@ -11,14 +11,14 @@
 namespace arfm_vo {
 
 struct MotionWatchOptions {
-  double max_excess_mps = 0.05;  ///< of a track over what it was commanded lately
-  double max_excess_s = 0.2;     ///< a longer excess is a runaway
-  double response_s = 0.5;       ///< how long a track may take to follow a command
-  double jam_s = 2;              ///< a track that is commanded so long must have moved
-  double min_moved_ratio = 0.1;  ///< of its commanded way
-  double max_frozen_s = 1;       ///< for which the chassis' message counter may stand
-  double max_motor_current_a = 60;
-  double max_current_s = 2;  ///< for which a motor may draw more
+  double max_excess_mps = 0.05;     ///< of a track over what it was commanded lately
+  double max_excess_s = 0.2;        ///< a longer excess is a runaway
+  double response_s = 0.5;          ///< how long a track may take to follow a command
+  double jam_s = 2;                 ///< a track that is commanded so long must have moved
+  double min_moved_ratio = 0.1;     ///< of its commanded way
+  double max_frozen_s = 1;          ///< for which the chassis' message counter may stand
+  double max_motor_current_a = 60;  ///< of either motor
+  double max_current_s = 2;         ///< for which a motor may draw more
 
   void Check() const;
   template <class Visitor>

@@ -33,7 +33,7 @@ struct PilotOptions {
   double arming_timeout_s = 2.0;     ///< for the chassis to take commands after start
   double max_stall_s = 20;           ///< driving time in which a goal must come nearer
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
-  bool velocity_needs_pose = true;
+  bool velocity_needs_pose = true;   ///< cmd_vel drives with a good pose only
 
   void Check() const;
   template <class Visitor>

@@ -11,15 +11,15 @@ namespace arfm_vo {
 
 /// How far a sighting may be from what the tracks predict.
 struct PoseConsistencyOptions {
-  double max_error_m = 0.1;  ///< without slip and with a certain pose
-  double max_error_rad = 0.15;
-  double max_slip_ratio = 1;  ///< adds this share of the tracks' way; slip has a watch of its own
+  double max_error_m = 0.1;     ///< without slip and with a certain pose
+  double max_error_rad = 0.15;  ///< the same of the heading
+  double max_slip_ratio = 1;    ///< adds this share of the tracks' way; slip has a watch of its own
   double max_sideways_ratio = 0.3;  ///< the same across the way
   double num_sigmas = 3;            ///< of the pose's covariance that is added
   double max_uncertain_m = 0.3;     ///< what covariance may add at most
-  double max_uncertain_rad = 0.3;
-  double max_map_step_m = 0.25;  ///< of map -> odom at the rover, at once
-  double max_map_turn_rad = 0.1;
+  double max_uncertain_rad = 0.3;   ///< the same of the heading
+  double max_map_step_m = 0.25;     ///< of map -> odom at the rover, at once
+  double max_map_turn_rad = 0.1;    ///< the same of the heading
   /// Sightings so far apart in time are compared too: the rover slides where they disagree.
   double slide_window_s = 3;
 

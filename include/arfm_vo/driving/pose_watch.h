@@ -11,11 +11,11 @@
 namespace arfm_vo {
 
 struct PoseWatchOptions {
-  double max_pose_age_s = 1.0;
-  double max_position_sigma_m = 2.0;  ///< of the way driven since the start or the last datum
-  double max_heading_sigma_rad = 0.35;
-  double max_tilt_deg = 25;  ///< of the base against the map's z axis; above it the rover stops
-  double warn_tilt_deg = 20;
+  double max_pose_age_s = 1.0;          ///< an older pose is stale: pause
+  double max_position_sigma_m = 2.0;    ///< of the way driven since the start or the last datum
+  double max_heading_sigma_rad = 0.35;  ///< the same of the heading
+  double max_tilt_deg = 25;   ///< of the base against the map's z axis; above it the rover stops
+  double warn_tilt_deg = 20;  ///< above it the diagnostics warn
   bool requires_covariance = true;  ///< no driving where nobody says how good the pose is
   bool requires_epoch = true;       ///< no driving where nobody says whether the pose is continuous
   PoseConsistencyOptions consistency;
@@ -73,8 +73,9 @@ class PoseWatch {
   /// What is wrong with the pose; nothing where the rover may drive by it.
   std::optional<StopReason> FindFault(double now_s) const;
 
-  /// A person has confirmed the pose: its uncertainty counts from here.
-  void SetDatum();
+  /// A person has confirmed the pose in the map that is told now, good or not: its uncertainty
+  /// counts from here. Returns the pose; nothing where there is none or the odometry is lost.
+  std::optional<RoverPose> SetDatum();
 
   bool HasPose() const { return !sightings_.empty(); }
   /// The last sighting that was judged; it may be old. HasPose must hold.

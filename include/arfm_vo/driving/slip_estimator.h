@@ -10,10 +10,10 @@
 namespace arfm_vo {
 
 struct SlipOptions {
-  double window_m = 0.3;  ///< mean way of the tracks over which they are compared with sight
-  double max_slip_ratio = 0.5;
-  double max_turn_slip_ratio = 0.7;
-  double max_leap_m = 0.5;  ///< a leap of the visual pose beyond this begins a new window
+  double window_m = 0.3;        ///< mean way of the tracks over which they are compared with sight
+  double max_slip_ratio = 0.5;  ///< of the way ahead; above it the rover stops
+  double max_turn_slip_ratio = 0.7;  ///< the same of the turn
+  double max_leap_m = 0.5;           ///< a leap of the visual pose beyond this begins a new window
 
   void Check() const;
   template <class Visitor>

@@ -8,10 +8,10 @@ namespace arfm_vo {
 constexpr double kMaxSpeed_mps = 0.1;
 
 struct SpeedLimiterOptions {
-  double max_speed_mps = kMaxSpeed_mps;  ///< of the base and of either track
-  double max_turn_rate_radps = 0.2;
-  double max_acceleration_mps2 = 0.2;
-  double max_turn_acceleration_radps2 = 0.4;
+  double max_speed_mps = kMaxSpeed_mps;       ///< of the base and of either track
+  double max_turn_rate_radps = 0.2;           ///< of the base
+  double max_acceleration_mps2 = 0.2;         ///< of the base
+  double max_turn_acceleration_radps2 = 0.4;  ///< of the base
 
   void Check() const;
   template <class Visitor>

@@ -6,7 +6,7 @@
 namespace arfm_vo {
 
 struct StopLookGoOptions {
-  bool is_on = false;
+  bool is_on = false;          ///< drive in steps and stand still for each look
   double step_m = 0.25;        ///< way of the faster track between two looks
   double max_pose_age_s = 60;  ///< takes the place of pose.max_pose_age_s
 

@@ -20,11 +20,12 @@ struct OdometryRun {
   std::vector<double> pair_ms;               ///< [pairs], wall time without loading
   std::vector<StageTimes> stage_ms;          ///< [pairs]
   std::vector<double> memory_mb;             ///< [pairs], resident after each
-  int num_degraded = 0;                      ///< pairs whose pose is one to be wary of
+  std::vector<PoseStatus> states;            ///< [pairs]
   double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
   double cpu_s = 0;  ///< all threads, from first pair to end, without loading
 
   int CountLost() const;
+  int CountDegraded() const;  ///< whose pose is one to be wary of
 };
 
 /// Told after each pair: pairs done, pairs in all.
@@ -47,8 +48,8 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
     run.pair_ms.push_back(to_ms(Clock::now() - start));
     run.stage_ms.push_back(pose.update.stage_ms);
     run.memory_mb.push_back(GetMemoryMb());
+    run.states.push_back(pose.update.pose.status);
     run.online.push_back({pair->images.stamp_s, pose.odom_from_base, pose.HasPose()});
-    run.num_degraded += pose.HasPose() && !pose.IsTracked();
     run.truth.push_back(pair->true_world_from_camera);
     report_progress(static_cast<int>(run.online.size()), sequence.size());
   }

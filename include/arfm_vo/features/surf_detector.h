@@ -13,8 +13,8 @@ struct SurfDetectorOptions {
   /// 0..255 divided by the filter's area. 650 times OpenSURF's; 30 gives some 1000 to 2000 points
   /// on a street scene. With a target it is the floor, below which nothing but noise is found.
   double hessian_threshold = 1.0;
-  int octaves = 3;
-  int layers = 4;  ///< filters an octave, the outer two for comparison only
+  int octaves = 3;  ///< of the scale space: each doubles the filters' size
+  int layers = 4;   ///< filters an octave, the outer two for comparison only
   /// Leave out maxima that are maxima of the finer octave too: each blob once, not twice.
   bool merge_octaves = true;
   int initial_step = 1;  ///< px between samples of the first octave; doubles with each octave

@@ -15,7 +15,7 @@
 namespace arfm_vo {
 
 struct StereoCameraOptions {
-  std::string left_device = "/dev/video0";
+  std::string left_device = "/dev/video0";   ///< V4L2 device file
   std::string right_device = "/dev/video1";  ///< empty: left_device shows both side by side
   VideoOptions video;
   double max_skew_s = 0.004;   ///< between the stamps of a pair: see FramePairer

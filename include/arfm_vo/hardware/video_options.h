@@ -8,14 +8,14 @@ namespace arfm_vo {
 
 /// What is asked of a video device; of both eyes the same.
 struct VideoOptions {
-  std::string pixel_format = "GREY";
-  int width = 640, height = 480;  ///< px, of an eye
-  double rate_hz = 10;
-  double exposure_s = 0;    ///< 0: automatic
-  int gain = -1;            ///< in the device's unit; -1: the device's own
-  int white_balance_k = 0;  ///< 0: automatic
-  int num_buffers = 4;
-  int input = -1;  ///< of a device with several; -1: the one it has
+  std::string pixel_format = "GREY";  ///< or YUYV, UYVY, NV12, MJPG, or Bayer's
+  int width = 640, height = 480;      ///< px, of an eye
+  double rate_hz = 10;                ///< frames a second
+  double exposure_s = 0;              ///< 0: automatic
+  int gain = -1;                      ///< in the device's unit; -1: the device's own
+  int white_balance_k = 0;            ///< 0: automatic
+  int num_buffers = 4;                ///< that the driver fills in turn
+  int input = -1;                     ///< of a device with several; -1: the one it has
 
   void Check() const {
     Require(width > 0 && height > 0, "video.width and video.height must be positive");

@@ -10,12 +10,12 @@
 namespace arfm_vo {
 
 struct PatchAlignmentOptions {
-  int max_iterations = 12;
+  int max_iterations = 12;       ///< Gauss-Newton steps
   double convergence_px = 0.02;  ///< the last step is shorter than this
-  double max_shift_px = 3;        ///< from the initial guess, after the search
-  int search_radius_px = 0;       ///< best of the whole pixels around the guess first; 0: none
-  double min_zncc = 0.8;          ///< correlation at the aligned position
-  double max_sigma_px = 0.5;      ///< predicted; more means too little texture
+  double max_shift_px = 3;       ///< from the initial guess, after the search
+  int search_radius_px = 0;      ///< best of the whole pixels around the guess first; 0: none
+  double min_zncc = 0.8;         ///< correlation at the aligned position
+  double max_sigma_px = 0.5;     ///< predicted; more means too little texture
 
   void Check() const;
   template <class Visitor>

@@ -38,8 +38,9 @@ inline std::vector<std::pair<std::string, VarianceNormalisation>> ListNames(Vari
 }
 
 struct AdaptiveThresholdOptions {
-  ThresholdRule rule = ThresholdRule::kFixed;
-  double fixed_ratio = 0.8;  ///< also the start of rule false_matches
+  ThresholdRule rule = ThresholdRule::kFixed;  ///< of the ratio nearest / second
+  double fixed_ratio = 0.8;                    ///< also the start of rule false_matches
+  /// Of the grey variance, for rules that go by it.
   VarianceNormalisation normalisation = VarianceNormalisation::kOverMeanSquared;
   double min_ratio = 0.3,
          max_ratio = 0.95;         ///< whatever the rule says, the threshold is in between

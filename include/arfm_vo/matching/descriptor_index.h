@@ -16,7 +16,7 @@ struct DescriptorIndexOptions {
   int tables = 8;        ///< each finds others
   int bits = 14;         ///< of a table's key; more: fewer candidates, fewer finds
   int max_per_key = 32;  ///< descriptors that a table keeps of one key, drawn at random among all
-  int seed = 1;
+  int seed = 1;          ///< of the tables' random directions
 
   void Check() const;
   template <class Visitor>

@@ -25,7 +25,7 @@ inline std::vector<std::pair<std::string, MatchStrategy>> ListNames(MatchStrateg
 }
 
 struct FeatureMatcherOptions {
-  MatchStrategy strategy = MatchStrategy::kSurfFlannRansac;
+  MatchStrategy strategy = MatchStrategy::kSurfFlannRansac;  ///< of stereo
   ExactMatcherOptions exact;
   FlannMatcherOptions flann;
   MatchSelectionOptions selection;

@@ -11,9 +11,9 @@ namespace arfm_vo {
 struct StereoSearchOptions {
   /// Rows of left and right may differ by this times the larger scale over 1.2 (the smallest).
   double max_row_difference_px = 1.5;
-  double min_disparity_px = 0;
-  double max_disparity_px = 256;
-  double max_scale_ratio = 1.5;  ///< larger over smaller scale
+  double min_disparity_px = 0;    ///< u_left - u_right of a match, below max_disparity_px
+  double max_disparity_px = 256;  ///< nearer points are not matched
+  double max_scale_ratio = 1.5;   ///< larger over smaller scale
 
   void Check() const;
   template <class Visitor>

@@ -17,7 +17,7 @@ inline BundleOptions WindowSolver() {
 }
 
 struct LocalBundleOptions {
-  bool enabled = true;
+  bool enabled = true;    ///< adjust the newest keyframes at each one
   int num_keyframes = 8;  ///< newest keyframes that move
   BundleOptions solver = WindowSolver();
 

@@ -13,7 +13,7 @@
 namespace arfm_vo {
 
 struct LoopOptions {
-  bool enabled = false;
+  bool enabled = false;               ///< look for loops and close them
   int max_keyframes = 5000;           ///< global.max_keyframes where loops are looked for
   int min_gap_keyframes = 30;         ///< newer keyframes are no loop
   int search_interval_keyframes = 3;  ///< each so manyth keyframe is looked at

@@ -8,12 +8,12 @@
 namespace arfm_vo {
 
 struct StandstillOptions {
-  bool enabled = true;
+  bool enabled = true;                ///< hold the pose of a rover that stands
   double max_point_shift_px = 0.6;    ///< a point moved less than this may be at rest
   double min_resting_fraction = 0.6;  ///< of the shared points; the rest may be a moving shadow
   double max_significance = 6;        ///< of the motion, in its standard deviations
   double max_translation_m = 0.02;    ///< more is a motion, however uncertain
-  double max_rotation_rad = 0.002;
+  double max_rotation_rad = 0.002;    ///< the same of the rotation
 
   void Check() const;
   template <class Visitor>

@@ -10,8 +10,13 @@ namespace arfm_vo {
 /// All digits, the same bytes for the same poses.
 std::string FormatKitti(const Trajectory& trajectory);
 
-/// TUM format: a line `stamp tx ty tz qx qy qz qw` a tracked frame, lost ones are left out. All
-/// digits, the same bytes for the same poses; qw is not negative.
+/// What KITTI's format cannot tell: a line a frame, 1 where it was tracked, 0 where its pose is
+/// interpolated.
+std::string FormatTracked(const Trajectory& trajectory);
+
+/// TUM format: a comment that says in which frame, then a line `stamp tx ty tz qx qy qz qw` a
+/// tracked frame, lost ones are left out. All digits, the same bytes for the same poses; qw is not
+/// negative.
 std::string FormatTum(const Trajectory& trajectory);
 
 /// Reads a TUM file. Throws std::invalid_argument naming file and line where one does not hold 8

@@ -14,8 +14,8 @@ struct PoseEstimatorOptions {
   RansacOptions ransac;
   int sample_size = 5;               ///< points of an EPnP sample, 4..8
   double inlier_probability = 0.99;  ///< of the chi-square test within RANSAC
-  int min_inliers = 15;
-  double min_inlier_share = 0.15;  ///< of the observations' votes
+  int min_inliers = 15;              ///< fewer are no pose
+  double min_inlier_share = 0.15;    ///< of the observations' votes
   PoseRefinementOptions refinement;
   double rival_share = 0.5;  ///< contest from which a pose is degraded
 

@@ -20,10 +20,10 @@ inline std::vector<std::pair<std::string, StepKind>> ListNames(StepKind) {
 }
 
 struct PoseRefinementOptions {
-  StepKind step = StepKind::kLevenbergMarquardt;
-  int max_iterations = 10;  ///< of each round
-  int max_rounds = 4;       ///< a round measures scale and inliers anew, then iterates
-  LossKind loss = LossKind::kCauchy;
+  StepKind step = StepKind::kLevenbergMarquardt;  ///< of the iteration
+  int max_iterations = 10;                        ///< of each round
+  int max_rounds = 4;                 ///< a round measures scale and inliers anew, then iterates
+  LossKind loss = LossKind::kCauchy;  ///< robust loss of the residuals
   double loss_threshold_sigma = 2.4;  ///< of a residual of one coordinate, in measured scale;
                                       ///< customary: Huber 1.3, Cauchy 2.4, Tukey 4.7
   double inlier_probability = 0.99;   ///< of the chi-square test, at the measured scale

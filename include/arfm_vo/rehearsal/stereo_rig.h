@@ -11,7 +11,7 @@ namespace arfm_vo {
 struct StereoRigOptions {
   int width = 320, height = 240;  ///< px
   double field_of_view_deg = 63;  ///< horizontal
-  double baseline_m = 0.2;
+  double baseline_m = 0.2;        ///< from the left camera to the right
 
   void Check() const {
     Require(field_of_view_deg > 5 && field_of_view_deg < 170,

@@ -2,6 +2,8 @@
 
 #include <arfm_vo/KeyframeStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -16,15 +18,15 @@
 namespace arfm_vo {
 
 struct BaNodeOptions {
-  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `global` is used
-  std::string map_frame = "map";
-  std::string odom_frame = "odom";
-  bool publish_tf = true;  ///< map_frame -> odom_frame
-  double tf_rate_hz = 20;
-  double tf_tolerance_s = 0.1;   ///< how far into the future a transform is said to hold
+  OdometryOptions algorithm;        ///< its keys stand beside those of the node; `global` is used
+  std::string map_frame = "map";    ///< adjusted; its newest pose may jump
+  std::string odom_frame = "odom";  ///< that of pose_node, continuous
+  bool publish_tf = true;           ///< map_frame -> odom_frame
+  double tf_rate_hz = 20;           ///< of the transform
+  double tf_tolerance_s = 0.1;      ///< how far into the future a transform is said to hold
   double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
-  int max_path_poses = 1000;
-  std::string trajectory_dir;         ///< the keyframes are saved here at the end; empty: nowhere
+  int max_path_poses = 1000;     ///< of path_optimized, at least 2; longer paths are thinned out
+  std::string trajectory_dir;    ///< the keyframes are saved here at the end; empty: nowhere
   LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
 
   void Check() const;
@@ -70,6 +72,9 @@ class BaNode {
   void AdjustIfSettled();
   void PublishMap();
   void Tell();
+  Rigid3 MapFromOdom() const { return map_from_adjusted_ * map_.map_from_odom(); }
+  void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                  const nav_msgs::OdometryConstPtr& odometry);
 
   void Report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void SendTransform();
@@ -81,6 +86,7 @@ class BaNode {
   // Of the worker's thread:
   LearnedCalibration learned_;
   PlacedMap map_;
+  Rigid3 map_from_adjusted_;  // moved where a person states where the rover stands
   std_msgs::Header newest_;
   bool is_dirty_ = false;  // a keyframe came since the last adjustment
   ros::WallTime settles_;
@@ -89,7 +95,8 @@ class BaNode {
   Shared<Trajectory> trajectory_;  // of the keyframes
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;
-  ros::Subscriber keyframes_;
+  nav_msgs::OdometryConstPtr newest_odometry_;
+  ros::Subscriber keyframes_, odometry_, stated_;
   ros::ServiceServer save_;
   ros::Time sent_;  ///< the newest transform's stamp
   ros::WallTimer timer_;

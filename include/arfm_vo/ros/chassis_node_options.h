@@ -8,10 +8,10 @@
 namespace arfm_vo {
 
 struct ChassisNodeOptions {
-  std::string can = "can0";  ///< address of the bus, as OpenCanBus takes it
-  std::string map_frame = "map";
-  std::string odom_frame = "odom";
-  std::string base_frame = "base_link";
+  std::string can = "can0";              ///< address of the bus, as OpenCanBus takes it
+  std::string map_frame = "map";         ///< frame that goals are driven in
+  std::string odom_frame = "odom";       ///< continuous, of odom and tf
+  std::string base_frame = "base_link";  ///< x ahead, y left, z up, midway between the tracks
   /// In simulated time the rover is stopped where /clock stands still so long, wall time.
   double max_clock_stall_s = 1;
   double max_map_age_s = 1;   ///< of map -> odom: a ba_node that has ended is noticed

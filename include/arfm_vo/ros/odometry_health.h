@@ -14,11 +14,11 @@
 namespace arfm_vo {
 
 struct OdometryHealthOptions {
-  double row_residual_warn_px = 0.5;  ///< median |v_right - v_left| of the stereo points
-  double row_residual_error_px = 1.0;
-  int row_residual_pairs = 50;  ///< that the running median is taken over
-  double scale_warn = 0.15;     ///< deviation of visual to track way from 1
-  double scale_error = 0.5;
+  double row_residual_warn_px = 0.5;   ///< median |v_right - v_left| of the stereo points
+  double row_residual_error_px = 1.0;  ///< above it ERROR
+  int row_residual_pairs = 50;         ///< that the running median is taken over
+  double scale_warn = 0.15;            ///< deviation of visual to track way from 1
+  double scale_error = 0.5;            ///< above it ERROR
 
   void Check() const;
   template <class Visitor>

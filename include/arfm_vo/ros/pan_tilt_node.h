@@ -9,15 +9,16 @@
 
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
+#include "arfm_vo/ros/drive_listener.h"
 
 namespace arfm_vo {
 
 struct PanTiltNodeOptions {
   std::string port = "/dev/ttyUSB0";  ///< the serial line's device file
-  int baud = 9600;
-  double max_rate_hz = 20;  ///< of readings; the line allows fewer at 9600 baud
-  std::string pan_joint = "pan", tilt_joint = "tilt";
-  PanTiltOptions unit;  ///< its keys stand beside those of the node
+  int baud = 9600;                    ///< bits a second of the line
+  double max_rate_hz = 20;            ///< of readings; the line allows fewer at 9600 baud
+  std::string pan_joint = "pan", tilt_joint = "tilt";  ///< names in cmd and joint_states
+  PanTiltOptions unit;                                 ///< its keys stand beside those of the node
 
   void Check() const;
   template <class Visitor>
@@ -44,7 +45,8 @@ std::optional<double> AngleAt(double time_s, const std::optional<PtuReading>& be
 /// A pan-tilt unit in ROS: `cmd` (JointState) in; `joint_states`, `settled` and `refused` out. The
 /// axes are read one after the other; a message has both as they were at the middle of pan's query,
 /// tilt between its readings. (In messages of their own the second would push the first out of
-/// robot_state_publisher's queue of one.)
+/// robot_state_publisher's queue of one.) Homing is refused while the rover drives: the eyes would
+/// look elsewhere.
 class PanTiltNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter. A unit that is not there is no error:
@@ -69,6 +71,7 @@ class PanTiltNode {
   std::string said_;  ///< the problem that was last logged
   ros::Publisher joint_states_, settled_, refused_;
   ros::Subscriber commands_;
+  DriveListener drive_;
   ros::ServiceServer home_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

@@ -33,7 +33,9 @@ struct PoseNodeOptions {
   OdometryHealthOptions health;
   LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
   int max_waiting_pairs = 4;          ///< older ones are dropped
-  std::string trajectory_dir;         ///< the trajectory is saved here at the end; empty: nowhere
+  /// Until the tf of a pair is there for the first time, so many wait; for replays.
+  int max_held_pairs = 0;
+  std::string trajectory_dir;  ///< the trajectory is saved here at the end; empty: nowhere
 
   void Check() const;
   template <class Visitor>
@@ -44,6 +46,7 @@ struct PoseNodeOptions {
     learned.VisitFields(visit);
     visit("health", health);
     visit("max_waiting_pairs", max_waiting_pairs);
+    visit("max_held_pairs", max_held_pairs);
     visit("trajectory_dir", trajectory_dir);
   }
 };

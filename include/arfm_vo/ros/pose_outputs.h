@@ -13,8 +13,8 @@
 namespace arfm_vo {
 
 struct PoseOutputOptions {
-  std::string odom_frame = "odom";
-  bool publish_tf = true;  ///< odom_frame -> base_frame
+  std::string odom_frame = "odom";  ///< of odom, path and tf; continuous
+  bool publish_tf = true;           ///< odom_frame -> base_frame
   BoundedPathOptions path;
 
   void Check() const;

@@ -23,14 +23,14 @@ struct SimulatorNodeOptions {
   std::string can = "udp:47112:47111";  ///< the chassis' end of the bus, as OpenCanBus takes it
   std::string head_port;  ///< name of the pan-tilt unit's device file, made here; empty: the head
                           ///< is fixed, and its tf told
-  std::string map_frame = "map";
-  std::string base_frame = "base_link";
-  std::string camera_frame = "left_camera_optical";
+  std::string map_frame = "map";                     ///< of base_truth
+  std::string base_frame = "base_link";              ///< x ahead, midway between the tracks
+  std::string camera_frame = "left_camera_optical";  ///< frame_id of the images
   double max_speed_up = 1;     ///< simulated time over wall time, at most; 1 while the head moves
   double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
   double max_wait_s = 10;      ///< ..for so much wall time at most
-  double pair_period_s = 0.5;
-  std::string picture;  ///< PNG of the drive, written when a goal has ended; empty: none
+  double pair_period_s = 0.5;  ///< simulated time between stereo pairs
+  std::string picture;         ///< PNG of the drive, written when a goal has ended; empty: none
   TerrainOptions terrain;
   TrackedPlantOptions plant;
   StereoRigOptions rig;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <camera_info_manager/camera_info_manager.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -13,6 +12,8 @@
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
 #include "arfm_vo/ros/camera_health.h"
+#include "arfm_vo/ros/drive_listener.h"
+#include "arfm_vo/ros/eye_calibration.h"
 
 namespace arfm_vo {
 
@@ -43,20 +44,21 @@ class StereoCameraNode {
   ~StereoCameraNode();
 
  private:
-  /// The topics of one eye and its set_camera_info.
+  /// The topics of one eye and its set_camera_info, which is refused while the rover drives.
   class Eye {
    public:
-    Eye(const ros::NodeHandle& node, const std::string& name, const std::string& url);
+    Eye(const ros::NodeHandle& node, const std::string& name, const std::string& url,
+        const DriveListener& drive);
     /// With the calibration, or an empty one where it is not for pictures of this size.
     void Publish(const VideoFrame& frame, const std_msgs::Header& header);
     /// The calibration, whatever its size; K[0] is 0 where there is none.
-    sensor_msgs::CameraInfo Loaded() { return calibration_.getCameraInfo(); }
+    sensor_msgs::CameraInfo Loaded() { return calibration_.Get(); }
 
    private:
     sensor_msgs::CameraInfo Fitting(int width, int height);
 
     ros::NodeHandle node_;
-    camera_info_manager::CameraInfoManager calibration_;
+    EyeCalibration calibration_;
     image_transport::ImageTransport transport_;
     image_transport::CameraPublisher publisher_;
   };
@@ -67,6 +69,7 @@ class StereoCameraNode {
   void ReportCalibration(diagnostic_updater::DiagnosticStatusWrapper& diagnostics);
 
   const StereoCameraNodeOptions options_;
+  DriveListener drive_;
   Eye left_, right_;
   // Of the capturing thread:
   StereoCameraDevice camera_;

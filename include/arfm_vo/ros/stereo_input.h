@@ -24,6 +24,10 @@ std::string StereoTopic(const ros::NodeHandle& node, const std::string& name);
 /// The same of all of them.
 StereoTopics ResolveStereoTopics(const ros::NodeHandle& node);
 
+/// Calls `take` once, with the frame of the first left camera_info. `subscriber` must outlive it.
+void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
+                      std::function<void(const std::string&)> take);
+
 /// The names of all topics that somebody publishes, by the master; empty where it does not answer.
 std::set<std::string> ListPublishedTopics();
 

@@ -12,8 +12,8 @@ namespace arfm_vo {
 
 /// Where a camera on a head that moves sits on the rover, and whether it can be trusted.
 struct CameraMountOptions {
-  std::string base_frame = "base_link";
-  std::string camera_frame;    ///< left optical frame; empty: the frame_id of the images
+  std::string base_frame = "base_link";  ///< frame whose pose is told
+  std::string camera_frame;              ///< left optical frame; empty: the frame_id of the images
   double tf_timeout_s = 0.1;   ///< how long a pair waits for the tf of its stamp (wall time)
   double max_slew_dps = 0;     ///< pairs taken while the head turns faster are skipped; 0: none
   double slew_window_s = 0.1;  ///< over which the head's rate is measured

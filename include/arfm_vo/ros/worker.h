@@ -30,6 +30,11 @@ class Worker {
   /// Posts a job and waits until it has run; rethrows what it throws. Not from a job.
   void RunAndWait(const Job& job);
 
+  /// Up to `max_held` lossy jobs may wait until Release; then those that wait are still run, and
+  /// the limit falls with their number to what it was.
+  void Hold(int max_held);
+  void Release();
+
   /// Lossy jobs dropped so far.
   uint32_t num_dropped() const { return num_dropped_; }
   /// True once the destructor waits: a long job should come to its end.
@@ -47,10 +52,12 @@ class Worker {
 
   const int max_waiting_;
   const std::function<void(const std::exception&)> on_error_;
-  std::mutex mutex_;  // guards queue_
+  std::mutex mutex_;  // guards queue_ and the limit
   std::condition_variable changed_;
   std::deque<Entry> queue_;
   int num_lossy_waiting_ = 0;
+  int limit_;  // of num_lossy_waiting_, at least max_waiting_
+  bool is_held_ = false;
   std::atomic<uint32_t> num_dropped_{0};
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;

@@ -29,9 +29,9 @@ PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& s
 
 /// Where the tracks touch the ground and where the camera sits on the rover.
 struct RoverShape {
-  double track_length_m = 0.9, track_gauge_m = 0.6;
+  double track_length_m = 0.9, track_gauge_m = 0.6;      ///< on the ground, between the middles
   double camera_height_m = 1.0, camera_forward_m = 0.2;  ///< of the left eye, from the base
-  double camera_left_m = 0.1;
+  double camera_left_m = 0.1;   ///< of the left camera from the base's middle
   double camera_tilt_deg = 17;  ///< downward
 
   void Check() const;

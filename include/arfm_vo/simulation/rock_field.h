@@ -11,11 +11,11 @@
 namespace arfm_vo {
 
 struct RockOptions {
-  double density_per_m2 = 6;  ///< of all rocks; the number above radius r falls as r^-power
-  double min_radius_m = 0.02;
-  double max_radius_m = 0.4;
-  double power = 1.9;
-  double flatness = 0.65;  ///< mean height over width
+  double density_per_m2 = 6;   ///< of all rocks; the number above radius r falls as r^-power
+  double min_radius_m = 0.02;  ///< of the smallest rock
+  double max_radius_m = 0.4;   ///< of the largest rock, above min_radius_m
+  double power = 1.9;          ///< of the rocks' distribution over the radius
+  double flatness = 0.65;      ///< mean height over width
 
   void Check() const;
   template <class Visitor>

@@ -11,13 +11,13 @@
 namespace arfm_vo {
 
 struct TrackedPlantOptions {
-  double gauge_m = 0.583;
+  double gauge_m = 0.583;         ///< from the middle of one track to the other
   double turn_slip_factor = 1.3;  ///< effective over real gauge: the tracks skid in turns
   double forward_slip = 0.1;      ///< share of the tracks' way that the ground does not give back
   double slip_variation = 0.05;   ///< standard deviation of the forward slip from place to place
   double sideways_slip = 0.1;     ///< way down a side slope, over way ahead and sine of the slope
   double response_s = 0.1;        ///< time constant from commanded to real track speed
-  int seed = 1;
+  int seed = 1;                   ///< of the slip's variation
 
   void Check() const;
   template <class Visitor>

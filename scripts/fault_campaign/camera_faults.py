@@ -1,0 +1,68 @@
+"""Faults of the camera and of where it is: what the odometry sees, with right stamps and with wrong ones."""
+import time
+
+import rospy
+import tf2_ros
+from camera_tap import IMAGES, AgainOnce, Freeze, cover, recalibrate, swap, unchanged
+from fault import Fault
+from geometry_msgs.msg import TransformStamped
+
+
+def changed(change):
+    """Each time anew where the change has a memory."""
+    def inject(campaign):
+        campaign.camera.change = change() if isinstance(change, type) else change
+    return inject
+
+
+def mend(campaign):
+    campaign.camera.change = unchanged
+    time.sleep(2)
+
+
+def cover_for(duration_s):
+    def inject(campaign):
+        campaign.camera.change = cover(*IMAGES)
+        rospy.sleep(duration_s)
+        campaign.camera.change = unchanged
+    return inject
+
+
+def shift_camera(campaign):
+    """Beside the right transform, for 2 s."""
+    transforms = tf2_ros.Buffer()
+    listener = tf2_ros.TransformListener(transforms)
+    message = transforms.lookup_transform("base_link", "left_camera_optical", rospy.Time(), rospy.Duration(5))
+    listener.unregister()
+    end_s = rospy.get_time() + 2
+    message.transform.translation.x += 0.5
+    while rospy.get_time() < end_s:
+        message.header.stamp = rospy.Time.now()
+        campaign.broadcaster.sendTransform(message)
+        time.sleep(0.01)
+
+
+def tilt_map(campaign):
+    """A second node tells a map in which the rover stands on a slope of 35 degrees."""
+    message = TransformStamped()
+    message.header.frame_id, message.child_frame_id = "map", "odom"
+    message.header.stamp = rospy.Time.now() + rospy.Duration(0.5)
+    message.transform.rotation.x, message.transform.rotation.w = 0.3007, 0.9537
+    campaign.broadcaster.sendTransform(message)
+
+
+def camera_faults():
+    stale, anew = "pose is stale", "odometry has started anew"
+    return [
+        Fault("camera is frozen: the same pictures with new stamps", changed(Freeze), "too much slip or " + stale, mend, 4),
+        Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
+        Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5),
+        Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on or " + stale, mend, 1.5),
+        Fault("eyes are swapped", changed(swap), "pose contradicts the tracks or " + stale, mend, 1.5),
+        Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
+        Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),
+        Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend),
+        Fault("an old pair comes again", changed(AgainOnce), "drives on or " + anew, mend, 2),
+        Fault("a second node tells the camera 0.5 m farther ahead", shift_camera, "pose contradicts the tracks", mend, 1),
+        Fault("a second node tells map -> odom tilted by 35 degrees", tilt_map, "rover is tilted too far", mend, 0.6),
+    ]

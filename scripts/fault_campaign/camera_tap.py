@@ -1,0 +1,87 @@
+"""The wire between the simulated camera (/stereo) and the odometry (/eyes), and what may happen to pairs on it."""
+import copy
+import threading
+
+import rospy
+from sensor_msgs.msg import CameraInfo, Image
+
+IMAGES = ("left/image_rect", "right/image_rect")
+INFOS = ("left/camera_info", "right/camera_info")
+
+
+def unchanged(pair):
+    return [pair]
+
+
+class CameraTap:
+    """Passes on what `change` makes of each pair {topic: message}: a list of pairs."""
+
+    def __init__(self):
+        self.change = unchanged
+        self.lock = threading.Lock()
+        self.waiting = {}  # by stamp
+        self.publishers, kinds = {}, [(topic, CameraInfo) for topic in INFOS] + [(topic, Image) for topic in IMAGES]
+        for topic, kind in kinds:
+            self.publishers[topic] = rospy.Publisher("/eyes/" + topic, kind, queue_size=10)
+        for topic, kind in kinds:
+            rospy.Subscriber("/stereo/" + topic, kind, lambda message, topic=topic: self.take(topic, message))
+
+    def take(self, topic, message):
+        with self.lock:
+            pair = self.waiting.setdefault(message.header.stamp, {})
+            pair[topic] = message
+            if len(pair) < len(self.publishers):
+                return
+            self.waiting = {stamp: other for stamp, other in self.waiting.items() if stamp > message.header.stamp}
+            for changed in self.change(pair):
+                for name, publisher in self.publishers.items():
+                    publisher.publish(changed[name])
+
+
+def with_data(image, data):
+    changed = copy.copy(image)
+    changed.data = data
+    return changed
+
+
+def cover(*topics):
+    """Black pictures."""
+    def change(pair):
+        return [{name: with_data(message, bytes(len(message.data))) if name in topics else message
+                 for name, message in pair.items()}]
+    return change
+
+
+class Freeze:
+    """The same pictures with new stamps."""
+
+    def __init__(self):
+        self.first = None
+
+    def __call__(self, pair):
+        self.first = self.first or {name: pair[name].data for name in IMAGES}
+        return [{**pair, **{name: with_data(pair[name], self.first[name]) for name in IMAGES}}]
+
+
+def swap(pair):
+    left, right = IMAGES
+    return [{**pair, left: pair[right], right: pair[left]}]
+
+
+def recalibrate(pair):
+    changed = dict(pair)
+    for name in INFOS:
+        changed[name] = copy.copy(pair[name])
+        changed[name].P = [1.1 * value if i in (0, 5) else value for i, value in enumerate(pair[name].P)]
+    return [changed]
+
+
+class AgainOnce:
+    """One pair comes a second time after the next two."""
+
+    def __init__(self):
+        self.pairs = []
+
+    def __call__(self, pair):
+        self.pairs.append(pair)
+        return [pair, self.pairs[0]] if len(self.pairs) == 3 else [pair]

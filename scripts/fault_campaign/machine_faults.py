@@ -1,0 +1,141 @@
+"""Faults of the computer: its clock, its CPU, memory and disk, its terminal, the ROS master."""
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import bus_tap as bus
+import rospy
+from fault import Fault, NotPermitted
+from message_generator import MessageGenerator, subscribed_topics
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Bool
+
+NODES = ("chassis_node", "pose_node", "ba_node", "arfm_node")
+MALFORMED = 300  # messages a topic
+
+
+def step_clock(seconds):
+    """Somebody publishes one wrong time on /clock; the simulator's next is right again."""
+    def inject(campaign):
+        campaign.clock.publish(Clock(clock=rospy.Time.now() + rospy.Duration(seconds)))
+    return inject
+
+
+def spawn(campaign, program, count=1):
+    campaign.burden = [subprocess.Popen([sys.executable, "-c", program]) for _ in range(count)]
+
+
+def unburden(campaign):
+    for process in campaign.burden:
+        process.kill()
+        process.wait()
+    time.sleep(2)
+
+
+def press_memory(campaign):
+    """Takes half of what is free and writes to all of it."""
+    spawn(campaign, "free = [int(l.split()[1]) for l in open('/proc/meminfo') if l.startswith('MemAvailable')][0]\n"
+                    "block = bytearray(free * 512)\nimport time\n"
+                    "while True:\n  block[::4096] = bytes(len(block[::4096]))")
+
+
+def fill_disk(campaign):
+    """The black box records onto a disk of 1 MB."""
+    campaign.disk = tempfile.mkdtemp(prefix="arfm_vo_disk_")
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", campaign.disk], capture_output=True, text=True)
+    if mounted.returncode != 0:
+        raise NotPermitted(mounted.stderr.strip())
+    with open(os.path.join(campaign.disk, "rest"), "wb") as file:
+        try:
+            file.write(bytes(1 << 21))
+        except OSError:
+            pass
+    campaign.burden = [subprocess.Popen(["roslaunch", "arfm_vo", "record.launch", "folder:=" + campaign.disk, "min_space:=0"],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)]
+
+
+def free_disk(campaign):
+    for process in campaign.burden:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+    subprocess.run(["umount", "-l", campaign.disk], check=False)
+    os.rmdir(campaign.disk)
+
+
+def freeze_terminal(campaign):
+    """Nobody reads what roslaunch and its nodes write, and there is much to write."""
+    campaign.launch.is_read = False
+    for _ in range(400):
+        campaign.rover.send_goal(-3, stamp=rospy.Time())
+
+
+def thaw_terminal(campaign):
+    campaign.launch.is_read = True
+    time.sleep(2)
+
+
+def storm(campaign):
+    """The bus goes off and comes back 50 times."""
+    for _ in range(50):
+        frame = bus.make_frame(0, [])
+        frame.kind = bus.BUS_OFF
+        campaign.tap.inject(frame)
+        time.sleep(0.02)
+
+
+def kill_master(campaign):
+    """Without a master what is connected stays so; then the operator goes too."""
+    children = subprocess.run(["pgrep", "-P", str(campaign.launch.process.pid), "-f", "rosmaster"], text=True,
+                              stdout=subprocess.PIPE).stdout.split()
+    for pid in children:
+        os.kill(int(pid), signal.SIGKILL)
+    campaign.rover.has_operator = False
+
+
+def feed(is_chosen):
+    """Malformed messages of each type on the topics that the nodes subscribe to."""
+    def inject(campaign):
+        generator = MessageGenerator(random.Random(1))
+        for topic, kind in subscribed_topics(NODES):
+            if is_chosen(topic):
+                generator.publish(topic, kind, MALFORMED)
+    return inject
+
+
+def release(campaign):
+    """Among the malformed messages was an emergency stop."""
+    campaign.rover.emergency.publish(Bool(False))
+    time.sleep(3)
+
+
+def all_live(campaign):
+    return all(os.path.exists("/proc/%d" % pid) for pid in campaign.pids.values())
+
+
+def machine_faults():
+    commands = ("/goal", "/waypoints", "/cmd_vel", "/initialpose")
+    slow = lambda c: time.sleep(3)  # noqa: E731
+    rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds),
+                  "drives on or chassis_node was held up or pose is stale or odometry has started anew or no pose", slow, 1)
+            for seconds in (1, -1, 3600, -900)]
+    return rows + [
+        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3),
+        Fault("memory is short", press_memory, "drives on or pose is stale", unburden, 3),
+        Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
+        Fault("terminal is frozen", freeze_terminal, "- or drives on", thaw_terminal, 1),
+        Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),
+        Fault("malformed goals, paths, velocities and stated poses", feed(lambda topic: topic in commands), "drives on",
+              is_well=all_live),
+        Fault("malformed messages on every topic of chassis_node, pose_node, ba_node and arfm_node",
+              feed(lambda topic: topic not in ("/clock",)), "-", release, 4, is_well=all_live),
+    ]
+
+
+def last_faults():
+    """After these the graph is not what it was."""
+    return [Fault("roscore killed, then the operator goes", kill_master, "no operator heartbeat", limit_s=0.9,
+                  ends_graph=True)]

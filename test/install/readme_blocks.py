@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""Runs the command blocks of README.md as they stand there, in order, in one fresh shell in the package's folder.
+
+Usage: readme_blocks.py README [--long] [--list]
+
+A comment above a block tells what the test does with it:
+  <!-- readme_blocks: skip, REASON -->      it cannot run unattended
+  <!-- readme_blocks: long, REASON -->      it runs with --long only
+  <!-- readme_blocks: ends after N s -->    its last command does not end by itself: Ctrl-C after so long
+"""
+import argparse
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+
+BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)```", re.S)
+# What roslaunch says of a node that ends badly, while it goes on.
+FAILURES = ("process has died [pid", "Traceback")
+
+
+def read_blocks(path):
+    """[(line, what the test does with it, commands)]"""
+    with open(path) as file:
+        text = file.read()
+    return [(text.count("\n", 0, match.start(2)) + 1, match.group(1) or "run", match.group(2))
+            for match in BLOCK.finditer(text)]
+
+
+def find_end(todo):
+    """After how many seconds a block is ended; None where it ends by itself."""
+    match = re.fullmatch(r"ends after (\d+) s", todo)
+    return int(match.group(1)) if match else None
+
+
+def write_script(blocks):
+    """One shell script of all blocks, which names each block's line before it runs it."""
+    script = ["set -eo pipefail"]
+    for line, todo, commands in blocks:
+        script.append(f'echo "README.md:{line}"')
+        end_s = find_end(todo)
+        if end_s is None:
+            script.append(commands)
+        else:  # its own process group, as a terminal's Ctrl-C reaches all of it
+            script.append(f"code=0; timeout -s INT -k 30 {end_s} bash -e <<'END' || code=$?\n{commands}END\n"
+                          f'[ $code -eq 124 ] || {{ echo "ended by itself with $code"; exit 1; }}')
+    return "\n".join(script) + "\n"
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def run(script, folder, home):
+    """What a fresh shell says of the script; ends the test where it fails."""
+    environment = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": home, "LANG": "C.UTF-8",
+                   "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+    shell = ["bash", "--norc", "-c", script]
+    if shutil.which("xvfb-run"):
+        shell = ["xvfb-run", "-a"] + shell
+    process = subprocess.Popen(shell, cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    said = []
+    for text in process.stdout:
+        print(text, end="", flush=True)
+        said.append(text)
+    code = process.wait()
+    block = next((text.strip() for text in reversed(said) if text.startswith("README.md:")), "README.md")
+    if code != 0:
+        sys.exit(f"{block}: this block ended with {code}")
+    failed = [text.strip() for text in said if any(failure in text for failure in FAILURES)]
+    if failed:
+        sys.exit("a block says: " + failed[0])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("readme")
+    parser.add_argument("--long", action="store_true", help="run the long blocks too")
+    parser.add_argument("--list", action="store_true", help="say only what would be done with each block")
+    arguments = parser.parse_args()
+    blocks = read_blocks(arguments.readme)
+    chosen = [block for block in blocks
+              if block[1] == "run" or find_end(block[1]) or (arguments.long and block[1].startswith("long, "))]
+    for line, todo, _ in blocks:
+        print(f"README.md:{line}: {todo}")
+        if todo != "run" and not find_end(todo) and not todo.startswith(("skip, ", "long, ")):
+            sys.exit(f"README.md:{line}: a comment that the test does not know: {todo}")
+    if not chosen:
+        sys.exit("there is no block to run")
+    if arguments.list:
+        return
+    with tempfile.TemporaryDirectory(prefix="arfm_vo_readme_") as home:
+        run(write_script(chosen), os.path.dirname(os.path.abspath(arguments.readme)), home)
+    print(f"{len(chosen)} of {len(blocks)} blocks were run")
+
+
+if __name__ == "__main__":
+    main()
