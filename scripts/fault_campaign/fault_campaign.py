@@ -22,7 +22,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import bus_tap as bus  # noqa: E402
 import rospy  # noqa: E402
 import tf2_ros  # noqa: E402
-from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus  # noqa: E402
+from arfm_vo.msg import GoalReport, OdometryStatus  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
 from rover import Launch, Rover, find_bus_port, pid_of, start_again  # noqa: E402
