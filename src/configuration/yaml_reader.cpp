@@ -43,8 +43,12 @@ bool ParseWhole(const std::string& text, Number& number) {
 }  // namespace
 
 YAML::Node LoadYamlFile(const std::string& path) {
+  const std::string content = ReadWholeFile(path);
+  // yaml-cpp takes it for UTF-32, and never comes to the end of some such files.
+  Require(content.find('\0') == std::string::npos,
+          path + ": is not a text file, it holds a zero byte");
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(ReadWholeFile(path));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(content);
     Require(documents.size() <= 1, path + ": holds more than one YAML document");
     return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::Exception& error) {
