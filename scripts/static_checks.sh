@@ -10,8 +10,8 @@ for tool in shellcheck pyflakes3 cppcheck; do
   command -v $tool > /dev/null || { echo "static_checks: $tool is missing (apt-get install $tool)" >&2; exit 2; }
 done
 
-mapfile -t shell_scripts < <(git ls-files '*.sh' .ci/run)
-mapfile -t python_scripts < <(git ls-files '*.py')
+mapfile -t shell_scripts < <(find scripts test rosbag_fixtures .ci -name '*.sh' -o -path .ci/run | sort)
+mapfile -t python_scripts < <(find scripts test -name '*.py' | sort)
 # (SC1091: devel/setup.sh is made by the build.)
 shellcheck -e SC1091 "${shell_scripts[@]}"
 echo "shellcheck: ${#shell_scripts[@]} scripts, no finding"
