@@ -113,8 +113,8 @@ std::optional<cv::Mat> ToGrey(const void* data, size_t size, const VideoFormat& 
   const Conversion& conversion = found->second;
   const size_t line = static_cast<size_t>(format.width) * conversion.bytes;
   const size_t step = std::max<size_t>(format.bytes_per_line, line);
-  if (format.width <= 0 || format.height <= 0 || step % conversion.sample_bytes != 0 ||
-      size < step * (format.height - 1) + line)
+  if (format.width <= 0 || format.height <= 0 || format.bytes_per_line < 0 ||
+      step % conversion.sample_bytes != 0 || size < step * (format.height - 1) + line)
     return std::nullopt;
   const cv::Mat raw(format.height, format.width, CV_8UC(conversion.bytes), const_cast<void*>(data),
                     step);
