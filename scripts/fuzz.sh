@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
 # Feeds what takes bytes from outside (test/fuzz/*_targets.cpp) by libFuzzer, with clang's address and undefined
-# behaviour sanitizers. What is found is left in BUILD_DIR/findings and fails; new coverage goes to BUILD_DIR/corpus, of
-# which the smallest set goes to test/fuzz/corpus with --keep. Needs clang (apt-get install clang).
-# Usage: scripts/fuzz.sh [--keep] [SECONDS [TARGET ...]]     default: 60 s for each target
+# behaviour sanitizers. What is found is left in BUILD_DIR/findings and fails; once mended it belongs into
+# test/fuzz/corpus, which the test test_fuzz replays. Inputs that reached something new are kept in BUILD_DIR/corpus and
+# fed first the next time. Needs clang (apt-get install clang).
+# Usage: scripts/fuzz.sh [SECONDS [TARGET ...]]     default: 60 s for each target
 # BUILD_DIR (default _b_fuzz) is the build tree; JOBS (default: all processors) targets are fed at a time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-keep=
-if [[ ${1-} == --keep ]]; then keep=1; shift; fi
 seconds=${1:-60}; shift || true
-[[ $seconds =~ ^[0-9]+$ ]] || { sed -n '2,6s/^# \?//p' "$0" >&2; exit 2; }
+[[ $seconds =~ ^[0-9]+$ ]] || { sed -n '2,8s/^# \?//p' "$0" >&2; exit 2; }
 command -v clang++ > /dev/null || { echo "fuzz: clang++ is missing (apt-get install clang)" >&2; exit 2; }
 
 export BUILD_DIR=${BUILD_DIR:-_b_fuzz} PATH=/usr/bin:$PATH
@@ -33,13 +32,10 @@ run() {  # TARGET
   printf '| %s | %s s | %s | %s | %s |\n' "$target" "$seconds" \
     "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
     "$(sed -n 's/.* cov: \([0-9]*\).*/\1/p' "$log" | tail -1)" "$status"
-  if [[ $keep ]]; then
-    FUZZ_TARGET=$target "$program" -merge=1 "test/fuzz/corpus/$target" "$BUILD_DIR/corpus/$target" >> "$log" 2>&1 || true
-  fi
   [[ $status == passed ]]
 }
 export -f run
-export seconds keep program
+export seconds program
 mkdir -p "$BUILD_DIR/findings"
 echo "| target | time | inputs | edges covered | |"
 echo "|---|---|---|---|---|"
