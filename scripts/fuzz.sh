@@ -26,7 +26,7 @@ export ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=pri
 run() {  # TARGET
   local target=$1 log=$BUILD_DIR/findings/$1.log status=passed
   mkdir -p "$BUILD_DIR/corpus/$target" "$BUILD_DIR/findings/$target"
-  FUZZ_TARGET=$target "$program" -max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=3000 \
+  FUZZ_TARGET=$target "$program" -max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=3000 -malloc_limit_mb=8000 \
     -print_final_stats=1 -artifact_prefix="$BUILD_DIR/findings/$target/" \
     "$BUILD_DIR/corpus/$target" "test/fuzz/corpus/$target" > "$log" 2>&1 || status=FAILED
   printf '| %s | %s s | %s | %s | %s |\n' "$target" "$seconds" \

@@ -66,7 +66,7 @@ TEST_F(LearnedCorrectionFileTest, ErrorsNameFileAndKey) {
   ExpectRefused("mean_px", "mean", "mean_px");
   ExpectRefused("covariance_px2: [", "covariance_px2: [-", "covariance");
   ExpectRefused("camera: [", "camera: {", "camera.yaml");
-  ExpectRefused("# What", std::string("\0\0\0,", 4), "not a text file");  // the disk was full
+  ExpectRefused("# What", ",", "more than one YAML document");
 }
 
 }  // namespace
