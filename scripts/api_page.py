@@ -39,12 +39,12 @@ def read_visits(body):
 
 
 def read_members(body):
-    members, above = {}, ""
+    members, last, above = {}, [], ""
     for line in re.sub(r"([=,])\n\s+", r"\1 ", body).splitlines():  # a declaration of several lines
         more = re.match(r"\s+///< ?(.*)", line)
         before = re.match(r"\s+/// (.*)", line)
         field = re.match(r"  ([\w:<>, ]+?) (\w+(?: = [^;]*)?(?:, \w+(?: = [^;]*)?)*)(?:\{.*\})?;(?:\s*///< ?(.*))?$", line)
-        if more and members:  # a comment that goes on
+        if more and last:  # a comment that goes on
             for member in last:
                 members[member] = (members[member][0], members[member][1] + " " + more.group(1))
         elif before:

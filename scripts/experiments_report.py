@@ -267,7 +267,7 @@ def answer_adaptive(verdicts, all_runs):
         errors = {run.config: run.values.get("t_rel_short_percent", np.nan) for run in runs}
         rows.append([name] + [f"{errors.get(config, np.nan):.2f}" for config in
                               ("paper_adaptive", "paper_fixed_0.6", "surf_flann_ransac")])
-    return (f"""### Does an adaptive threshold help?
+    return ("""### Does an adaptive threshold help?
 
 By right matches against the fixed T of the same share:
 

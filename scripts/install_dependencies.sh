@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs everything that arfm_vo needs to build, test and run, from Debian's own packages (reference: Debian 12).
-# Usage: scripts/install_dependencies.sh        as root, or as a user who may use sudo
+# Usage: scripts/install_dependencies.sh [--checks]      as root, or as a user who may use sudo
+#        --checks   also what scripts/static_checks.sh needs
 set -euo pipefail
 
 build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin ccache)
@@ -25,10 +26,12 @@ runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice py
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2 nftables)
+checks=(shellcheck pyflakes3 cppcheck)
 
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
 
 packages=("${build[@]}" "${ros[@]}" "${libraries[@]}" "${tests[@]}" "${runtime[@]}" "${hardware[@]}")
+[[ ${1-} == --checks ]] && packages+=("${checks[@]}")
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")

@@ -102,7 +102,7 @@ START
 { export -p; echo 'export VM_OUT=/vm_share/out'; printf 'exec'; printf ' %q' "$@"; echo; } > "$work/share/command"
 
 # Hardware virtualisation only where the processor really has it.
-accelerator=(-accel tcg,thread=multi -cpu max)
+accelerator=(-accel "tcg,thread=multi" -cpu max)
 grep -qwE 'vmx|svm' /proc/cpuinfo && [[ -w /dev/kvm ]] && accelerator=(-accel kvm -cpu host)
 result=0
 timeout -k 5 "$limit" qemu-system-x86_64 -M q35 "${accelerator[@]}" -smp 2 -m "$memory" \

@@ -1,7 +1,5 @@
 #include "arfm_vo/calibration/learned_correction_file.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/whole_file.h"
+#include "arfm_vo/configuration/yaml_reader.h"
 
 namespace arfm_vo {
 namespace {
@@ -48,13 +47,9 @@ std::vector<double> ReadList(const YAML::Node& file, const char* key, size_t siz
 }
 
 YAML::Node Parse(const std::string& path) {
-  try {
-    const YAML::Node file = YAML::Load(ReadWholeFile(path));
-    Require(file.IsMap(), path + ": is not a file of learned calibration");
-    return file;
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(path + ": " + error.what());
-  }
+  const YAML::Node file = LoadYamlFile(path);
+  Require(file.IsMap(), path + ": is not a file of learned calibration");
+  return file;
 }
 
 }  // namespace

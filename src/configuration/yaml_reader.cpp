@@ -1,9 +1,12 @@
 #include "arfm_vo/configuration/yaml_reader.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/whole_file.h"
@@ -40,13 +43,42 @@ bool ParseWhole(const std::string& text, Number& number) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
+class DocumentCounter : public YAML::EventHandler {
+ public:
+  int num_documents = 0;
+
+  void OnDocumentStart(const YAML::Mark&) override { ++num_documents; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// The number of documents, counted up to `max`: yaml-cpp finds them without end where one begins
+/// with a comma (as YAML::LoadAll does, which takes all memory).
+int CountDocuments(const std::string& content, int max) {
+  std::istringstream stream(content);
+  YAML::Parser parser(stream);
+  DocumentCounter counter;
+  while (counter.num_documents < max && parser.HandleNextDocument(counter)) {
+  }
+  return counter.num_documents;
+}
+
 }  // namespace
 
 YAML::Node LoadYamlFile(const std::string& path) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(ReadWholeFile(path));
-    Require(documents.size() <= 1, path + ": holds more than one YAML document");
-    return documents.empty() ? YAML::Node() : documents.front();
+    const std::string content = ReadWholeFile(path);
+    Require(CountDocuments(content, 2) <= 1, path + ": holds more than one YAML document");
+    return YAML::Load(content);
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + ":" + std::to_string(error.mark.line + 1) + ": " +
                                 error.msg);

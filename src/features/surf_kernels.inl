@@ -22,9 +22,16 @@ inline void StoreColumns(const Words (&columns)[kStep], int half, int x, uint32_
   if constexpr (kStep == 1) {
     Store(columns[0], row + x);
   } else {
-    const Words even = {0, 2, 4, 6, 8, 10, 12, 14}, odd = {1, 3, 5, 7, 9, 11, 13, 15};
-    Store(__builtin_shuffle(columns[0], columns[1], even), row + x / 2);
-    Store(__builtin_shuffle(columns[0], columns[1], odd), row + half + x / 2);
+#ifdef __clang__
+    const Words even = __builtin_shufflevector(columns[0], columns[1], 0, 2, 4, 6, 8, 10, 12, 14);
+    const Words odd = __builtin_shufflevector(columns[0], columns[1], 1, 3, 5, 7, 9, 11, 13, 15);
+#else  // g++ before 12 has no __builtin_shufflevector
+    const Words evens = {0, 2, 4, 6, 8, 10, 12, 14}, odds = {1, 3, 5, 7, 9, 11, 13, 15};
+    const Words even = __builtin_shuffle(columns[0], columns[1], evens);
+    const Words odd = __builtin_shuffle(columns[0], columns[1], odds);
+#endif
+    Store(even, row + x / 2);
+    Store(odd, row + half + x / 2);
   }
 }
 

@@ -10,24 +10,26 @@
 namespace arfm_vo {
 namespace {
 
-/// Turns one plane of `bytes` bytes a pixel into grey.
+/// Turns one plane of `bytes` bytes a pixel into grey; a sample has `sample_bytes`.
 struct Conversion {
   int bytes = 1;
+  int sample_bytes = 1;
   std::function<void(const cv::Mat& raw, cv::Mat& grey)> apply;
 };
 
 Conversion TakeChannel(int channels, int channel) {
-  return {channels,
+  return {channels, 1,
           [channel](const cv::Mat& raw, cv::Mat& grey) { cv::extractChannel(raw, grey, channel); }};
 }
 
 Conversion ConvertColour(int channels, int code) {
-  return {channels, [code](const cv::Mat& raw, cv::Mat& grey) { cv::cvtColor(raw, grey, code); }};
+  return {channels, 1,
+          [code](const cv::Mat& raw, cv::Mat& grey) { cv::cvtColor(raw, grey, code); }};
 }
 
 /// The top eight of `bits` bits, little endian in two bytes.
 Conversion ScaleDown(int bits) {
-  return {2, [bits](const cv::Mat& raw, cv::Mat& grey) {
+  return {2, 2, [bits](const cv::Mat& raw, cv::Mat& grey) {
             const cv::Mat wide(raw.size(), CV_16UC1, raw.data, raw.step);
             wide.convertTo(grey, CV_8U, 1.0 / (1 << (bits - 8)), -0.5 + 0.5 / (1 << (bits - 8)));
           }};
@@ -111,7 +113,8 @@ std::optional<cv::Mat> ToGrey(const void* data, size_t size, const VideoFormat& 
   const Conversion& conversion = found->second;
   const size_t line = static_cast<size_t>(format.width) * conversion.bytes;
   const size_t step = std::max<size_t>(format.bytes_per_line, line);
-  if (format.width <= 0 || format.height <= 0 || size < step * (format.height - 1) + line)
+  if (format.width <= 0 || format.height <= 0 || format.bytes_per_line < 0 ||
+      step % conversion.sample_bytes != 0 || size < step * (format.height - 1) + line)
     return std::nullopt;
   const cv::Mat raw(format.height, format.width, CV_8UC(conversion.bytes), const_cast<void*>(data),
                     step);

@@ -88,6 +88,8 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
                 ", there are " + std::to_string(message.keypoint_x.size()) + " keypoints");
     Require(message.point_position[3 * i + 2] > 0,
             name + "point_position[" + std::to_string(i) + "] is behind the camera");
+    Require(message.point_sigma[i] > 0,
+            name + "point_sigma[" + std::to_string(i) + "] is not positive");
     Require(std::abs(message.point_row_residual[i]) < message.camera.height,
             name + "point_row_residual[" + std::to_string(i) + "] is larger than the image");
     points[i].keypoint = keypoint;

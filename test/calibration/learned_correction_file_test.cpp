@@ -66,6 +66,7 @@ TEST_F(LearnedCorrectionFileTest, ErrorsNameFileAndKey) {
   ExpectRefused("mean_px", "mean", "mean_px");
   ExpectRefused("covariance_px2: [", "covariance_px2: [-", "covariance");
   ExpectRefused("camera: [", "camera: {", "camera.yaml");
+  ExpectRefused("# What", ",", "more than one YAML document");
 }
 
 }  // namespace

@@ -188,6 +188,7 @@ TEST(LoadYamlFile, NamesTheFileAndLine) {
   EXPECT_THAT(error_of("a: 1\nb: [1, 2\n"), testing::StartsWith(path + ":"));
   EXPECT_EQ(error_of("a: 1\n---\nb: 2\n"), path + ": holds more than one YAML document");
   EXPECT_EQ(error_of(""), "no error");
+  EXPECT_EQ(error_of(",a: 1"), path + ": holds more than one YAML document");  // without end
   std::filesystem::remove(path);
   EXPECT_THROW(LoadYamlFile(path), std::invalid_argument);
 }

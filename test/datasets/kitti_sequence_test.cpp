@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "arfm_vo/datasets/kitti_times.h"
 #include "datasets/sequence_folder.h"
 
 namespace arfm_vo {
@@ -105,6 +106,16 @@ TEST(KittiSequence, ReadsTheLayoutOfTheRawData) {
   EXPECT_EQ(sequence.camera().baseline_m, 0.5);
   sequence.Next();
   EXPECT_EQ(sequence.Next()->images.stamp_s, 1.25);
+}
+
+TEST(KittiTimes, ADateThatIsNoneIsRefused) {
+  const SequenceFolder folder(1);
+  for (const char* date :
+       {"-2147483648-01-01 00:00:00", "2011-13-26 13:02:25", "2011-09-32 13:02:25",
+        "2011-09-26 24:02:25", "2011-09-26 13:60:25", "2011-09-26 13:02:61"}) {
+    folder.Write("dates.txt", date);
+    EXPECT_THROW(ReadKittiTimes(folder.File("dates.txt")), std::invalid_argument) << date;
+  }
 }
 
 TEST(KittiSequence, ColourImagesAreTurnedToGrey) {

@@ -7,6 +7,8 @@
 
 #include <system_error>
 
+#include "hardware/await_frame.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -42,8 +44,8 @@ TEST_F(CanUdpBusTest, FramesArriveByteForByteInOrder) {
   EXPECT_FALSE(b->Receive());
   EXPECT_EQ(a->Send(kFrame), CanSendStatus::kSent);
   EXPECT_EQ(a->Send(MakeCanFrame(0x421, {1})), CanSendStatus::kSent);
-  EXPECT_EQ(b->Receive(), kFrame);
-  EXPECT_EQ(b->Receive(), MakeCanFrame(0x421, {1}));
+  EXPECT_EQ(AwaitFrame(*b), kFrame);
+  EXPECT_EQ(AwaitFrame(*b), MakeCanFrame(0x421, {1}));
   EXPECT_FALSE(b->Receive());
 }
 
@@ -59,7 +61,7 @@ TEST_F(CanUdpBusTest, TheOtherEndMayComeBack) {
   CanUdpBus b(port_b_, port_a_);
   a.Send(kFrame);
   EXPECT_EQ(a.Send(kFrame), CanSendStatus::kSent);
-  EXPECT_EQ(b.Receive(), kFrame);
+  EXPECT_EQ(AwaitFrame(b), kFrame);
 }
 
 TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {
@@ -87,7 +89,7 @@ TEST_F(CanUdpBusTest, DatagramsOfAWrongSizeAreHandedOutAsOther) {
     const std::vector<char> bytes(size, 'x');
     ::sendto(peer.Get(), bytes.data(), size, 0, reinterpret_cast<sockaddr*>(&address),
              sizeof(address));
-    EXPECT_EQ(a.Receive()->kind, CanFrameKind::kOther) << size;
+    EXPECT_EQ(AwaitFrame(a).kind, CanFrameKind::kOther) << size;
   }
 }
 

@@ -106,6 +106,14 @@ TEST(ToGrey, AShortBufferIsNoFrame) {
   EXPECT_FALSE(Convert("YUYV", {1, 2, 3, 4}, 2, 2));
 }
 
+TEST(ToGrey, LinesLongerThanAnIntegerAreNoFrame) {
+  EXPECT_FALSE(Convert("GREY", {1, 2, 3, 4}, 1, 2, -1));
+}
+
+TEST(ToGrey, LinesThatEndWithinASampleAreNoFrame) {
+  EXPECT_FALSE(Convert("Y10 ", std::vector<uint8_t>(10), 2, 2, 5));
+}
+
 TEST(ToGrey, AnUnknownFormatIsNamed) {
   try {
     Convert("H264", {1}, 1, 1);

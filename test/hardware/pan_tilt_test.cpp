@@ -255,12 +255,13 @@ TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
   LineNoise noise(46);
   RandomEngine engine(7);
   int num_read = 0;
+  bool is_noisy = false;
+  bench_.disturb = [&](const std::string& bytes) { return is_noisy ? noise(bytes) : bytes; };
   while (noise.num_replies < 10000) {
     if (RandomBelow(20, engine) == 0)
       head_->MoveTo({RandomUnit(engine) * 4 - 2, RandomUnit(engine) - 0.5});
     // The noise comes in spells, as from a bad plug.
-    const bool is_noisy = RandomBelow(4, engine) != 0;
-    bench_.disturb = [&](const std::string& bytes) { return is_noisy ? noise(bytes) : bytes; };
+    is_noisy = RandomBelow(4, engine) != 0;
     const double start_s = bench_.now_s;
     SimulatedPtu truth = bench_.ptu;  // moves on by itself
     const PanTiltReadings readings = head_->Step();

@@ -170,6 +170,8 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.keypoint_scale[0] = 0; });
   ExpectRefused(good, "point_position[1] is behind the camera",
                 [](auto& message) { message.point_position[5] = -1; });
+  ExpectRefused(good, "point_sigma[0] is not positive",
+                [](auto& message) { message.point_sigma[0] = 0; });
   ExpectRefused(good, "descriptors[70] is not a finite number",
                 [](auto& message) { message.descriptors[70] = kNaN; });
   ExpectRefused(good, "point_keypoint[0] is 3, there are 3 keypoints",

@@ -4,6 +4,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
+#include <opencv2/core.hpp>
 
 #include "ros/expect_throw.h"
 
@@ -47,6 +48,20 @@ TEST_F(ImageConversion, TwelveBitsInSixteenAreNotDark) {
   const cv::Mat grey =
       ToGrey(MakeImage("mono16", 2, 8), "left", window);  // 0x0808, 128.5 / 256 of 12 bits
   EXPECT_EQ(grey.at<uint8_t>(3, 4), 128);
+}
+
+TEST_F(ImageConversion, BigEndianSamplesAreTheSamePicture) {
+  const auto little = MakeImage("mono16", 2, 0), big = MakeImage("mono16", 2, 0);
+  for (size_t i = 0; i < little->data.size(); i += 2) {
+    little->data[i] = big->data[i + 1] = static_cast<uint8_t>(40 * i);
+    little->data[i + 1] = big->data[i] = static_cast<uint8_t>(i);
+  }
+  big->is_bigendian = 1;
+  const cv::Mat grey = ToGrey(big, "left", window);
+  EXPECT_EQ(grey.type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(grey, ToGrey(little, "left", window), cv::NORM_INF), 0);
+  big->step = 15;
+  EXPECT_INVALID(ToGrey(big, "left", window), "left: the image is malformed");
 }
 
 TEST_F(ImageConversion, RefusesWhatIsNoPictureByTopic) {

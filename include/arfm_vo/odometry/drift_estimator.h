@@ -60,7 +60,8 @@ class DriftEstimator {
 
   std::vector<KeyframeId> keyframes_;  ///< ascending
   Eigen::MatrixXd covariance_;         ///< [6N x 6N], without what the correction errs
-  Eigen::MatrixXd by_columns_;         ///< [6N x 10] steps by the columns' coefficients, px^-1
+  /// [6N x 10] steps by the columns' coefficients, px^-1
+  Eigen::MatrixXd by_columns_ = Eigen::MatrixXd(0, ImageBasis::kNumTerms);
   CorrectionBelief::Columns columns_ = CorrectionBelief::Columns::Zero();
 };
 

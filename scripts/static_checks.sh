@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Reads the sources without running them: shellcheck and pyflakes over the scripts, cppcheck over src and nodes, and with
+# --tidy clang-tidy's checks of .clang-tidy over FOLDER ... (default: all of src; some minutes of CPU a folder). Fails
+# with the first finding. Needs: apt-get install shellcheck pyflakes3 cppcheck [clang-tidy]
+# Usage: scripts/static_checks.sh [--tidy [FOLDER ...]]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export PATH=/usr/bin:$PATH
+for tool in shellcheck pyflakes3 cppcheck; do
+  command -v $tool > /dev/null || { echo "static_checks: $tool is missing (apt-get install $tool)" >&2; exit 2; }
+done
+
+mapfile -t shell_scripts < <(find scripts test rosbag_fixtures .ci -name '*.sh' -o -path .ci/run | sort)
+mapfile -t python_scripts < <(find scripts test -name '*.py' | sort)
+# (SC1091: devel/setup.sh is made by the build.)
+shellcheck -e SC1091 "${shell_scripts[@]}"
+echo "shellcheck: ${#shell_scripts[@]} scripts, no finding"
+pyflakes3 "${python_scripts[@]}"
+echo "pyflakes: ${#python_scripts[@]} scripts, no finding"
+# (The two macros are of headers that it is not shown.)
+cppcheck -q -j"$(nproc)" --std=c++17 --language=c++ --enable=warning,performance,portability --error-exitcode=1 \
+  --inline-suppr --suppressions-list=test/static_checks/cppcheck.txt --suppress=missingInclude -Iinclude \
+  '-DPLUGINLIB_EXPORT_CLASS(a,b)=' '-Dtimercmp(a,b,compare)=((a)->tv_sec compare (b)->tv_sec)' src nodes
+echo "cppcheck: src and nodes, no finding"
+
+[[ ${1-} == --tidy ]] || exit 0
+shift
+folders=("$@")
+[ $# -gt 0 ] || mapfile -t folders < <(find src -mindepth 1 -type d | sort)
+build=${BUILD_DIR:-_b}
+[ -f "$build/compile_commands.json" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null
+mapfile -t sources < <(find "${folders[@]}" -name '*.cpp' | sort)
+printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2> /dev/null
+echo "clang-tidy: ${#sources[@]} sources, no finding"
