@@ -24,7 +24,7 @@ import tf2_ros  # noqa: E402
 from camera_faults import camera_faults  # noqa: E402
 from fault import Fault, NotPermitted  # noqa: E402
 from machine_faults import last_faults, machine_faults  # noqa: E402
-from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus  # noqa: E402
+from arfm_vo.msg import GoalReport, OdometryStatus  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
 from rover import Launch, Rover, find_bus_port, pid_of, start_again  # noqa: E402

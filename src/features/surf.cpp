@@ -13,7 +13,8 @@ class Surf::Workspace {
   /// Of the same size; valid until the next call.
   const cv::Mat& Smooth(const cv::Mat& grey) {
     if (grey.empty()) return grey;
-    cv::GaussianBlur(grey, smooth_, cv::Size(3, 3), 0);
+    // A region of interest ends at its edge: what lies beyond it is not the picture.
+    cv::GaussianBlur(grey, smooth_, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
     return smooth_;
   }
 

@@ -35,7 +35,7 @@ void SlantAlignmentOptions::Check() const {
 
 SlantAligner::SlantAligner(const PatchAlignmentOptions& alignment,
                            const SlantAlignmentOptions& options)
-    : aligner_(alignment), options_(options) {
+    : aligner_(alignment), max_shift_px_(alignment.max_shift_px), options_(options) {
   options.Check();
 }
 
@@ -66,6 +66,7 @@ SlantAlignment SlantAligner::Align(const cv::Mat& left, const cv::Point2f& centr
     patch = *slanted;
     const PatchAlignment alignment = aligner_.Align(patch, right, position);
     if (!alignment.IsAligned()) break;
+    if (cv::norm(alignment.position - guess) > max_shift_px_) break;
     if (best.alignment.IsAligned() && alignment.zncc < best.alignment.zncc) break;
     best = {alignment, gradient};
     position = alignment.position;

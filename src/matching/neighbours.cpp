@@ -9,6 +9,8 @@ namespace {
 
 /// Squared distances of unit descriptors from float scores are good to about this much.
 constexpr float kFloatNoise = 1e-6f;
+/// Where there is no second one to compare with, the nearest must be as near as true matches are.
+constexpr float kMaxLoneSquaredDistance = 0.5f;
 
 }  // namespace
 
@@ -32,6 +34,8 @@ Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold
     if (found.nearest < 0 || found.squared_distance > max_squared_distance) continue;
     if (options.cross_check && neighbours.of_second[found.nearest].nearest != first) continue;
     if (found.Ratio() > ratio_threshold) continue;
+    const bool is_lone = found.second_squared_distance == Neighbours::kNone;
+    if (is_lone && found.squared_distance > kMaxLoneSquaredDistance) continue;
     matches.push_back({first, found.nearest, std::sqrt(found.squared_distance)});
   }
   return matches;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace arfm_vo {
@@ -114,6 +115,22 @@ TEST(SurfTest, FindsNothingInFlatAndTinyImages) {
     EXPECT_EQ(features.size(), 0);
     EXPECT_EQ(features.descriptors.rows, 0);
   }
+}
+
+TEST(SurfTest, ARegionOfInterestIsAPictureOfItsOwn) {
+  cv::Mat whole(120, 160, CV_8UC1);
+  cv::RNG random(5);
+  random.fill(whole, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(whole, whole, cv::Size(), 2);
+  whole *= 3;
+  const cv::Mat region = whole(cv::Rect(20, 20, 100, 80));
+  SurfOptions options;
+  options.smooth = true;
+  const Features inside = Surf(options).Extract(region),
+                 alone = Surf(options).Extract(region.clone());
+  ASSERT_GT(alone.size(), 10);
+  ASSERT_EQ(inside.size(), alone.size());
+  EXPECT_EQ(cv::norm(inside.descriptors, alone.descriptors, cv::NORM_INF), 0);
 }
 
 TEST(SurfTest, RefusesAnythingButGrey) {

@@ -60,6 +60,24 @@ TEST(SlantAligner, FindsTheGround) { ExpectFound({0, 0.3f}); }
 
 TEST(SlantAligner, FindsAWallAlongTheWay) { ExpectFound({0.15f, 0}); }
 
+TEST(SlantAligner, StaysNearItsGuessOverAllRounds) {
+  PatchAlignmentOptions tight;
+  tight.max_shift_px = 0.7;
+  const cv::Mat left = MakeTexture();
+  int num_found = 0;
+  for (const float slant : {0.1f, 0.2f, 0.3f, 0.4f}) {
+    for (float error = -2; error <= 2; error += 0.1f) {
+      const cv::Point2f guess(kCentre.x - kDisparity + error, kCentre.y);
+      const SlantAlignment found =
+          SlantAligner(tight, {}).Align(left, kCentre, MakeRight(left, {slant, 0.2f}), guess);
+      if (!found.alignment.IsAligned()) continue;
+      ++num_found;
+      EXPECT_LE(cv::norm(found.alignment.position - guess), 0.7) << slant << ", " << error;
+    }
+  }
+  EXPECT_GT(num_found, 10);
+}
+
 TEST(SlantAligner, SaysThatItIsOutOfTheImage) {
   const cv::Mat left = MakeTexture();
   const SlantAlignment found = SlantAligner({}, {}).Align(left, {2, 2}, left, {2, 2});

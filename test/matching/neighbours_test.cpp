@@ -36,6 +36,12 @@ TEST(SelectMatches, CrossCheckKeepsMutualNeighboursOnly) {
   EXPECT_EQ(SelectMatches(kContested, 1, {false, 2}).size(), 2u);
 }
 
+TEST(SelectMatches, ALoneCandidateMustBeNear) {
+  const TwoWayNeighbours near{{{0, 0.4f}}, {{0, 0.4f}}}, far{{{0, 0.9f}}, {{0, 0.9f}}};
+  EXPECT_EQ(SelectMatches(near, 0.8, {}).size(), 1u);
+  EXPECT_TRUE(SelectMatches(far, 0.8, {}).empty());  // its ratio, 0, says nothing
+}
+
 TEST(SelectMatches, RatioThresholdAndMaxDistanceApply) {
   EXPECT_EQ(SelectMatches(kContested, 0.6, {}).size(), 1u);
   EXPECT_EQ(SelectMatches(kContested, 0.4, {}).size(), 0u);

@@ -178,7 +178,9 @@ TEST_F(SessionTest, SaysThatThePicturesAreNotOfOneMoment) {
   for (int i = 0; i < 4; ++i) Step(0.02 * i, 0.01 * i * i);
   for (int i = 4; i < 7; ++i) {
     const SessionUpdate pose = Step(0.3 * i, 0, false, delay);  // 0.3 m from pair to pair
-    if (i > 4) EXPECT_FALSE(pose.IsTracked()) << pose.text;
+    if (i > 4) {
+      EXPECT_FALSE(pose.IsTracked()) << pose.text;
+    }
   }
 }
 
@@ -195,7 +197,9 @@ TEST_F(SessionTest, IsNotMisledByALargeObjectThatMovesWithTheCamera) {
     const SessionUpdate pose = Step(0.1 * i, 0, false, show_object);
     const double error_m = std::abs(pose.odom_from_base.translation.x() - 0.1 * i);
     EXPECT_LT(error_m, 0.05) << i << ": " << pose.text;
-    if (pose.IsTracked()) EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0)) + 0.005) << i;
+    if (pose.IsTracked()) {
+      EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0)) + 0.005) << i;
+    }
   }
 }
 

@@ -25,8 +25,8 @@ StereoFrame MakeFrame() {
         {10.5f + i, 20.25f + i, 2.5f, 0.125f * i, 99.5f, int8_t(i == 1 ? -1 : 1)});
     for (int j = 0; j < 64; ++j) frame.features.descriptors.at<float>(i, j) = 100.f * i + j;
   }
-  frame.points.push_back({0, {10.5, 20.25, 3.0}, 0.25, 0.5, true, {1, 2, 30}, {0.125, 0.25}});
-  frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, true, {4, 5, 60}, {0, 0.5}});
+  frame.points.push_back({0, {10.5, 20.25, 3.0}, 0.25, 0.5, {1, 2, 30}, {0.125, 0.25}});
+  frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}, {0, 0.5}});
   frame.num_right_keypoints = 7;
   frame.right_is_repeated = true;
   frame.grey = {101.5, 2500.25};

@@ -48,6 +48,7 @@ class SlantAligner {
                          const cv::Point2f& position) const;
 
   PatchAligner aligner_;
+  double max_shift_px_;  ///< from the guess, over all rounds
   SlantAlignmentOptions options_;
 };
 
