@@ -140,8 +140,7 @@ class LocalOdometry::Implementation {
     update.pose.covariance.setIdentity();
     update.pose.covariance *= 1e-12;  // the world is this camera
     update.covariance_from_start = update.pose.covariance;
-    pose_drift_ = {update.pose.covariance, {}};
-    pose_drift_.by_columns.setZero();
+    pose_drift_ = PoseDrift{update.pose.covariance};
     update.is_keyframe = true;
   }
 
@@ -223,8 +222,7 @@ class LocalOdometry::Implementation {
     map_.Clear();
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
-    pose_drift_ = {place->covariance_from_start, {}};
-    pose_drift_.by_columns.setZero();
+    pose_drift_ = PoseDrift{place->covariance_from_start};
     update.is_keyframe = true;
     contradicting_.clear();
   }
