@@ -31,7 +31,7 @@ set cbrange [0:2]
 unset colorbox
 set xlabel "pair"
 set xrange [-0.5:59.5]
-set yrange [*:*] reverse
+set yrange [*:*] reverse noextend
 set ytics ($labels)
 plot "$work/grid" using 2:1:3 with image notitle
 PLOT

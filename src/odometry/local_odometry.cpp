@@ -9,6 +9,7 @@
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
 
@@ -33,8 +34,6 @@ namespace {
 constexpr size_t kDriftPoints = 100;
 /// An eye with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
-/// Two pictures of one moment have nearly all that both see on the same rows.
-constexpr double kMinRowAgreement = 0.5;
 
 }  // namespace
 
@@ -195,12 +194,13 @@ class LocalOdometry::Implementation {
   }
 
   /// Why the right image is not to be used; empty where it is.
-  static std::string RightFault(const StereoFrame& frame) {
+  std::string RightFault(const StereoFrame& frame) {
+    row_watch_.Look(frame.row_agreement);
     if (frame.right_is_repeated) return "the right camera repeats its picture";
     if (frame.num_right_keypoints < kBlindShare * frame.features.size()) {
       return "the right camera sees nothing";
     }
-    if (frame.row_agreement < kMinRowAgreement) {
+    if (row_watch_.IsSkewed()) {
       return "the rows of the two pictures do not agree (one late, or a camera moved?)";
     }
     return "";
@@ -324,6 +324,7 @@ class LocalOdometry::Implementation {
   StandstillLock standstill_;
   KeyframeArchive archive_;
   Dispute dispute_;
+  RowWatch row_watch_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   std::optional<KeyframeRecord> record_;

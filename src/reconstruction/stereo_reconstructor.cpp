@@ -11,6 +11,8 @@ namespace {
 constexpr float kSmallestScale = 1.2f;
 /// Before the rows are learnt they may be off by this much more.
 constexpr double kUnknownRowsPx = 2;
+/// After so many pairs in a row whose rows do not agree they are learnt anew.
+constexpr int kMaxDisagreeing = 50;
 
 cv::Point2f Position(const Keypoint& keypoint) { return {keypoint.x, keypoint.y}; }
 
@@ -29,6 +31,7 @@ void StereoReconstructionOptions::Check() const {
       "threshold.rule false_matches learns from searches over the whole image and is not offered "
       "here: fixed or variance");
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
+  Require(min_row_agreement > 0 && min_row_agreement < 1, "min_row_agreement must be in (0, 1)");
   Require(min_disparity_px > 0, "min_disparity_px must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
   Require(sigma_inflation > 0, "sigma_inflation must be positive");
@@ -142,6 +145,20 @@ std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left
   return point;
 }
 
+StereoPoints StereoReconstructor::Triangulate(const Features& left, const Sightings& sightings) {
+  StereoPoints points;
+  int num_on_rows = 0;
+  for (const Sighting& sighting : sightings) {
+    const Keypoint& keypoint = left.keypoints[sighting.keypoint];
+    const double bound = options_.max_row_deviation * std::sqrt(sighting.covariance[2]);
+    if (std::abs(RowDeviation(keypoint, sighting)) > bound) continue;
+    ++num_on_rows;
+    if (auto point = Triangulate(keypoint, sighting)) points.push_back(*point);
+  }
+  row_agreement_ = sightings.empty() ? 1 : num_on_rows / static_cast<double>(sightings.size());
+  return points;
+}
+
 StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Features& right,
                                               const StereoImages& images) {
   images.Check();
@@ -159,17 +176,13 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   } else {
     sightings = TakeKeypoints(left, right, matches);
   }
+  const RowModel before = row_model_;
   LearnRows(left, sightings);
-  StereoPoints points;
-  int num_on_rows = 0;
-  for (const Sighting& sighting : sightings) {
-    const Keypoint& keypoint = left.keypoints[sighting.keypoint];
-    const double bound = options_.max_row_deviation * std::sqrt(sighting.covariance[2]);
-    if (std::abs(RowDeviation(keypoint, sighting)) > bound) continue;
-    ++num_on_rows;
-    if (auto point = Triangulate(keypoint, sighting)) points.push_back(*point);
-  }
-  row_agreement_ = sightings.empty() ? 1 : num_on_rows / static_cast<double>(sightings.size());
+  StereoPoints points = Triangulate(left, sightings);
+  // Pictures of two moments teach nothing, unless they stay as they are: a camera that moved.
+  const bool agrees = row_agreement_ >= options_.min_row_agreement;
+  num_disagreeing_ = agrees ? 0 : num_disagreeing_ + 1;
+  if (!agrees && before.IsLearnt() && num_disagreeing_ < kMaxDisagreeing) row_model_ = before;
   return points;
 }
 
