@@ -76,10 +76,10 @@ std::optional<PredictedPose> Session::Predict(double stamp_s,
   const auto base_from_world = motion_.Predict(stamp_s);
   if (!base_from_world) return std::nullopt;
   PredictedPose predicted(base_from_camera.Inverse() * *base_from_world);
-  if (motion_.KnowsSpeed() && last_) {
-    const double gap_s = stamp_s - last_->stamp_s;
-    predicted.max_shift_m = kMaxAcceleration_m_s2 * gap_s * gap_s + kMaxShift_m;
-    predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * gap_s * gap_s + kMaxTurn_rad;
+  if (motion_.KnowsSpeed()) {
+    const double squared_s = motion_.ChangeTime(stamp_s);
+    predicted.max_shift_m = kMaxAcceleration_m_s2 * squared_s + kMaxShift_m;
+    predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * squared_s + kMaxTurn_rad;
   }
   return predicted;
 }
@@ -208,7 +208,7 @@ void Session::StartEpoch() {
   offer_.reset();
   if (odometry_) odometry_->Reset();
   base_.StartEpoch();
-  motion_.Reset();
+  motion_.StartWorld();
   num_unknown_ = 0;
   ++epoch_;
 }

@@ -26,5 +26,28 @@ TEST(MotionModel, TurnsOn) {
   EXPECT_NEAR(LogSO3(model.Predict(0.15)->rotation).y(), 0.3, 1e-12);
 }
 
+TEST(MotionModel, KeepsTheSpeedInANewWorld) {
+  MotionModel model;
+  model.Add(1, At(2));
+  model.Add(1.1, At(2.5));
+  EXPECT_NEAR(model.ChangeTime(1.3), 0.2 * 0.2, 1e-12);
+  model.StartWorld();
+  EXPECT_FALSE(model.KnowsSpeed());
+  EXPECT_FALSE(model.Predict(1.4));  // where it is in the new world is not known yet
+  model.Add(1.4, At(0));
+  EXPECT_TRUE(model.KnowsSpeed());
+  EXPECT_NEAR(model.Predict(1.5)->translation.z(), -0.5, 1e-12);
+  EXPECT_NEAR(model.ChangeTime(1.5), 0.4 * 0.1, 1e-12);  // the speed is 0.4 s old
+}
+
+TEST(MotionModel, KnowsNoSpeedWhereTimeStandsOrGoesBack) {
+  MotionModel model;
+  model.Add(1, At(2));
+  model.Add(1, At(2.5));
+  EXPECT_FALSE(model.KnowsSpeed());
+  model.Add(0.5, At(3));
+  EXPECT_FALSE(model.KnowsSpeed());
+}
+
 }  // namespace
 }  // namespace arfm_vo

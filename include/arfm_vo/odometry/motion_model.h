@@ -13,7 +13,11 @@ class MotionModel {
   void Add(double stamp_s, const Rigid3& body_from_world);
   /// The last pose where there is but one; nothing without any.
   std::optional<Rigid3> Predict(double stamp_s) const;
-  bool KnowsSpeed() const { return last_ && last_->body_from_before; }
+  bool KnowsSpeed() const { return last_ && last_->body_from_before && !is_new_world_; }
+  /// Times the acceleration: how far the body may be from Predict, where it KnowsSpeed, s^2.
+  double ChangeTime(double stamp_s) const;
+  /// The poses to come are in another world; the speed is the same.
+  void StartWorld() { is_new_world_ = true; }
   void Reset() { last_.reset(); }
 
  private:
@@ -22,8 +26,10 @@ class MotionModel {
     Rigid3 body_from_world;
     std::optional<Rigid3> body_from_before;
     double interval_s = 0;
+    double speed_stamp_s = 0;  ///< when body_from_before was measured
   };
   std::optional<Motion> last_;
+  bool is_new_world_ = false;
 };
 
 }  // namespace arfm_vo
