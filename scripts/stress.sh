@@ -17,11 +17,13 @@ folders+=("$work/rendered_curve")
 
 # A row a disturbance, a column a pair: tracked 0, degraded 1, lost 2.
 plot() {  # SEQUENCE_NAME
-  awk -F, 'FNR == 1 {next} {print (FILENAME in row ? row[FILENAME] : row[FILENAME] = n++), $1, \
-    $2 == "tracked" ? 0 : $2 == "degraded" ? 1 : 2}' $(cut -d, -f1 "$work/lines" | sed "1d; s|.*|$work/states/&.csv|") \
-    > "$work/grid"
-  local labels
-  labels=$(cut -d, -f1 "$work/lines" | sed 1d | awk '{printf "%s\"%s\" %d", NR > 1 ? ", " : "", $1, NR - 1}')
+  local names files labels
+  mapfile -t names < <(cut -d, -f1 "$work/lines" | sed 1d)
+  files=("${names[@]/#/$work/states/}")
+  files=("${files[@]/%/.csv}")
+  awk -F, 'FNR == 1 {++row; next} {print row - 1, $1, $2 == "tracked" ? 0 : $2 == "degraded" ? 1 : 2}' \
+    "${files[@]}" > "$work/grid"
+  labels=$(printf '%s\n' "${names[@]}" | awk '{printf "%s\"%s\" %d", (NR > 1 ? ", " : ""), $1, NR - 1}')
   gnuplot <<PLOT
 set terminal pngcairo size 900,520 noenhanced font "sans,10"
 set output "$work/stress.png"
