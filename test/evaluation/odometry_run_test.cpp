@@ -93,7 +93,7 @@ TEST(RunOdometry, HoldsTheLastPoseWhereAPairIsLost) {
 
 TEST(FormatRun, SaysTheErrorsWhereTheTruthIsKnown) {
   const std::string text = FormatRun(RunFakes(101));
-  EXPECT_THAT(text, testing::StartsWith("pairs: 101\nlost: 1\npath_length_m: 102.0000\n"));
+  EXPECT_THAT(text, testing::StartsWith("pairs: 101\nlost: 1\ndegraded: 0\npath_length_m: 102.0000\n"));
   EXPECT_THAT(text, testing::HasSubstr("\nend_error_percent: 2.00000\n"));
   EXPECT_THAT(text, testing::EndsWith("\nlength_ratio: 1.02000\n"));
   EXPECT_THAT(text, testing::HasSubstr("\nlive_length_ratio: 1.01000\n"));

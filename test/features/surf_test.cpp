@@ -122,7 +122,7 @@ TEST(SurfTest, ARegionOfInterestIsAPictureOfItsOwn) {
   cv::RNG random(5);
   random.fill(whole, cv::RNG::UNIFORM, 0, 256);
   cv::GaussianBlur(whole, whole, cv::Size(), 2);
-  whole *= 3;
+  cv::normalize(whole, whole, 0, 255, cv::NORM_MINMAX);
   const cv::Mat region = whole(cv::Rect(20, 20, 100, 80));
   SurfOptions options;
   options.smooth = true;

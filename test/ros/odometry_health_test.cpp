@@ -24,6 +24,7 @@ StereoFrame FrameWithRows(double row_residual_px) {
 SessionUpdate PoseWithStatus(PoseStatus status, const std::string& text) {
   SessionUpdate pose;
   pose.update.pose.status = status;
+  pose.update.pose.num_inliers = pose.HasPose() ? 50 : 0;
   pose.text = text;
   return pose;
 }

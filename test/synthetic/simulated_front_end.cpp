@@ -29,6 +29,7 @@ StereoFrame MakeStereoFrame(const StereoCamera& camera, const SimulatedFrame& si
   StereoFrame frame;
   frame.stamp_s = stamp_s;
   const int count = static_cast<int>(simulated.observations.size());
+  frame.num_right_keypoints = count;
   frame.features.descriptors.create(count, 64, CV_32F);
   for (int i = 0; i < count; ++i) {
     const SimulatedObservation& seen = simulated.observations[i];
