@@ -223,7 +223,7 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     pose_drift_ = PoseDrift{place->covariance_from_start};
-    update.is_keyframe = true;
+    update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
 

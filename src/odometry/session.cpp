@@ -99,6 +99,7 @@ void Session::Track(const StereoFrame& frame, const StereoImages& images,
   FollowBase(base_from_camera, pose);
   lost_since_s_.reset();
   num_unknown_ = 0;
+  if (pose.update.is_relocalised) motion_.Reset();  // how it came there is not known
   motion_.Add(frame.stamp_s, base_from_camera * estimate.camera_from_world);
 }
 

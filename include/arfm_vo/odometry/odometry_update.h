@@ -20,6 +20,7 @@ struct OdometryUpdate {
   /// As pose.covariance, but against the first camera of all: what the map has drifted added.
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
   bool is_keyframe = false;
+  bool is_relocalised = false;        ///< found among keyframes that had left the local map
   bool is_disputed = false;           ///< no pose: two groups of points moved differently
   LandmarkObservations observations;  ///< of the map's landmarks that agree with the pose
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
