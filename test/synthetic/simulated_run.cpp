@@ -31,6 +31,7 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
     const OdometryUpdate& update = pose.update;
     run.odometry_s += 1e-3 * stopwatch.LapMs();
     run.num_lost += !update.pose.IsTracked();
+    run.epoch = pose.epoch;
     run.num_keyframes += update.is_keyframe;
     run.online.push_back(pose.odom_from_base);
     run.covariances.push_back(update.covariance_from_start);
