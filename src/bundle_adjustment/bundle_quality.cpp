@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -51,9 +53,8 @@ double MeasureScale(const BundleProblem& problem, const BundleSelection& selecti
     if (!selection.observation_is_used[i]) continue;
     ratios.push_back(squared[i] / medians[problem.observations[i].has_right]);
   }
-  const auto middle = ratios.begin() + ratios.size() / 2;
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return std::clamp(std::sqrt(*middle * freedom.Inflation()), kMinScale, kMaxScale);
+  return std::clamp(std::sqrt(Median(std::move(ratios)) * freedom.Inflation()), kMinScale,
+                    kMaxScale);
 }
 
 /// What the inverse of the weighted normal matrix has to be multiplied with to be the covariance of

@@ -5,6 +5,8 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -32,13 +34,6 @@ double ProjectionRms(const Eye& eye, const BoardPose& pose, const BoardCorners& 
 }
 
 }  // namespace
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> MeasureConsistency(const EyeCalibration& left, const EyeCalibration& right,
                                        const std::vector<CornerPair>& pairs,

@@ -6,19 +6,6 @@
 #include "occupancy_grid.h"
 
 namespace arfm_vo {
-namespace {
-
-bool ComesBefore(const LandmarkObservation& observation, LandmarkId id) {
-  return observation.landmark < id;
-}
-
-const LandmarkObservation* FindObservation(const LandmarkObservations& observations,
-                                           LandmarkId id) {
-  const auto found = std::lower_bound(observations.begin(), observations.end(), id, ComesBefore);
-  return found != observations.end() && found->landmark == id ? &*found : nullptr;
-}
-
-}  // namespace
 
 void LocalMapOptions::Check() const {
   Require(max_keyframes >= 2, "local_map.max_keyframes must be at least 2");
@@ -88,13 +75,14 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
   for (const LandmarkObservation& known : keyframe.observations) {
     grid.Add(known.pixels.x(), known.pixels.y());
   }
-  OccupancyGrid moving = grid, agreeing = grid;
+  const OccupancyGrid agreeing = grid;
+  OccupancyGrid moving(camera_.width, camera_.height, options_.grid_cell_px,
+                       options_.min_separation_px);
   for (const LandmarkObservation& other : contradicting) {
     moving.Add(other.pixels.x(), other.pixels.y());
   }
   const auto is_suspect = [&](double u, double v) {
-    const int num_agreeing = agreeing.Count(u, v);
-    return moving.Count(u, v) - num_agreeing > std::max(1, num_agreeing);
+    return moving.Count(u, v) > std::max(1, agreeing.Count(u, v));
   };
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 
 StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
@@ -23,12 +25,9 @@ StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
 }
 
 double MedianRowResidual(const StereoPoints& points) {
-  if (points.empty()) return 0;
   std::vector<double> residuals;
   for (const StereoPoint& point : points) residuals.push_back(point.row_residual_px);
-  const auto middle = residuals.begin() + residuals.size() / 2;
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return Median(std::move(residuals));
 }
 
 }  // namespace arfm_vo

@@ -46,13 +46,6 @@ std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   return ids;
 }
 
-bool Contains(const LandmarkObservations& observations, LandmarkId id) {
-  const auto found = std::lower_bound(
-      observations.begin(), observations.end(), id,
-      [](const LandmarkObservation& a, LandmarkId landmark) { return a.landmark < landmark; });
-  return found != observations.end() && found->landmark == id;
-}
-
 /// What a landmark counts where poses compete: more where it agreed with poses before, little where
 /// it began among points that moved on their own.
 double Votes(const Landmark& landmark) {
@@ -237,7 +230,7 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {
     return landmark->is_suspect && landmark->num_agreed == 0 &&
-           !Contains(coarse.observations, landmark->id);
+           FindObservation(coarse.observations, landmark->id) == nullptr;
   };
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
   tracked.expected = Ids(landmarks);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/bundle_adjustment/pose_graph.h"
 
 namespace arfm_vo {
@@ -107,9 +108,8 @@ void GlobalMap::CheckCorrection(const KeyframeRecord& keyframe) {
     deviations.push_back(std::abs(right.y() - observation.pixels.y() - off));
   }
   if (deviations.empty()) return;
-  const auto middle = deviations.begin() + deviations.size() / 2;
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  num_contradictions_ = *middle > kContradictionPx ? num_contradictions_ + 1 : 0;
+  num_contradictions_ =
+      Median(std::move(deviations)) > kContradictionPx ? num_contradictions_ + 1 : 0;
   if (num_contradictions_ < kMaxContradictions) return;
   num_contradictions_ = 0;
   first_telling_ = num_keyframes() - kMaxContradictions;

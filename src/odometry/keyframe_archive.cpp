@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/matching/exact_matcher.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 
@@ -45,9 +46,7 @@ void KeyframeArchive::Add(const Keyframe& keyframe, const LocalMap& map,
     distances_m.push_back((keyframe.camera_from_world * landmark.x_in_world).norm());
   }
   if (static_cast<int>(distances_m.size()) < options_.pose.min_inliers) return;
-  const auto middle = distances_m.begin() + distances_m.size() / 2;
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  view.distance_m = std::max(*middle, camera_.baseline_m);
+  view.distance_m = std::max(Median(std::move(distances_m)), camera_.baseline_m);
   view.looks.descriptors = descriptors.rowRange(0, view.looks.size()).clone();
   views_.push_back(std::move(view));
   if (size() > options_.max_keyframes) DropLeastMissed();

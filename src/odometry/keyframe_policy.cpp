@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -40,9 +42,7 @@ bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
   }
   if (parallax.size() < options.min_shared_fraction * newest.observations.size()) return true;
   if (parallax.empty()) return true;
-  const auto middle = parallax.begin() + parallax.size() / 2;
-  std::nth_element(parallax.begin(), middle, parallax.end());
-  return *middle >= options.min_parallax_px;
+  return Median(std::move(parallax)) >= options.min_parallax_px;
 }
 
 }  // namespace arfm_vo

@@ -1,6 +1,5 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <future>
 
@@ -12,6 +11,7 @@
 #include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
+#include "step_by_columns.h"
 
 namespace arfm_vo {
 
@@ -30,8 +30,6 @@ void LocalOdometryOptions::Check() const {
 
 namespace {
 
-/// About so many points tell how a frame's pose errs with the stereo correction.
-constexpr size_t kDriftPoints = 100;
 /// An eye with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
 
@@ -61,6 +59,8 @@ class LocalOdometry::Implementation {
     if (!right_fault.empty()) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
+    update.can_start = !frame.left_is_repeated &&
+                       static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
     FinishBundle();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
@@ -130,7 +130,7 @@ class LocalOdometry::Implementation {
   };
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
-    if (update.pose.num_matches < options_.min_points_to_start) {
+    if (!update.can_start) {
       update.pose.status = PoseStatus::kTooFewFeatures;
       return;
     }
@@ -215,7 +215,7 @@ class LocalOdometry::Implementation {
 
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
   void Recover(const StereoFrame& frame, OdometryUpdate& update) {
-    if (static_cast<int>(frame.points.size()) < options_.min_points_to_start) return;
+    if (!update.can_start) return;
     const auto place = archive_.Find(frame);
     if (!place) return;
     for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
@@ -265,46 +265,14 @@ class LocalOdometry::Implementation {
 
   void AddDrift(OdometryUpdate& update) {
     const Keyframe& newest = map_.keyframes().back();
-    const PoseDrift own{update.pose.covariance, DriftByColumns(newest, update)};
+    const PoseDrift own{update.pose.covariance,
+                        FindStepByColumns(camera_, correction_.mean, map_.landmarks(),
+                                          {newest.camera_from_world, newest.observations},
+                                          {update.pose.camera_from_world, update.observations},
+                                          options_.bundle.solver)};
     pose_drift_ = drift_.Beside(
         newest.id, update.pose.camera_from_world * newest.camera_from_world.Inverse(), own);
     update.covariance_from_start = drift_.Covariance(pose_drift_);
-  }
-
-  /// How the frame's pose against the newest keyframe errs with the correction: by the points that
-  /// both see.
-  Eigen::Matrix<double, 6, ImageBasis::kNumTerms> DriftByColumns(
-      const Keyframe& newest, const OdometryUpdate& update) const {
-    BundleProblem problem;
-    problem.camera = camera_;
-    BundleResult result;
-    result.correction = correction_.mean;
-    result.camera_from_world = {newest.camera_from_world, update.pose.camera_from_world};
-    const size_t every = 1 + update.observations.size() / kDriftPoints;
-    size_t num_shared = 0;
-    auto seen = newest.observations.begin();
-    for (const LandmarkObservation& observation : update.observations) {
-      while (seen != newest.observations.end() && seen->landmark < observation.landmark) ++seen;
-      if (seen == newest.observations.end()) break;
-      if (seen->landmark != observation.landmark) continue;
-      if (num_shared++ % every != 0) continue;
-      const int point = static_cast<int>(result.points.size());
-      result.points.push_back(map_.landmarks().at(observation.landmark).x_in_world);
-      for (const auto* sighting : {&*seen, &observation}) {
-        problem.observations.push_back({sighting == &*seen ? 0 : 1, point, sighting->pixels,
-                                        sighting->has_right, sighting->sigma_px});
-      }
-    }
-    problem.points = result.points;
-    result.point_is_used.assign(result.points.size(), 1);
-    const PoseInformation information =
-        FindPoseInformation(problem, result, options_.bundle.solver);
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(
-        information.poses.bottomRightCorner<6, 6>());
-    if (!factor.isPositive() || factor.rcond() < 1e-12) {
-      return Eigen::Matrix<double, 6, ImageBasis::kNumTerms>::Zero();
-    }
-    return -factor.solve(information.by_columns.bottomRows<6>());
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -58,7 +60,7 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   SessionUpdate pose;
   Track(frame, images, base_from_camera, pose);
   // The map that two groups dispute over is better than one begun on the wrong group.
-  if (IsGood(frame) && !pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
+  if (pose.update.can_start && !pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
       (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
     StartEpoch();
     Track(frame, images, base_from_camera, pose);
@@ -118,21 +120,13 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
   pose.twist = last_->twist;
 }
 
-/// Whether a map can begin with the pair.
-bool Session::IsGood(const StereoFrame& frame) const {
-  return !frame.left_is_repeated &&
-         static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
-}
-
 /// Whether the map has not known some good pairs in a row, and the base has moved on.
 bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
   if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
   std::vector<double> depths;
   for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
-  const auto middle = depths.begin() + depths.size() / 2;
-  std::nth_element(depths.begin(), middle, depths.end());
   const Rigid3 gone = last_->odom_from_base.Inverse() * pose.odom_from_base;
-  return gone.translation.norm() > kNewGround * *middle;
+  return gone.translation.norm() > kNewGround * Median(std::move(depths));
 }
 
 bool Session::IsLostTooLong(double stamp_s) const {

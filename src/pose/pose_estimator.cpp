@@ -1,252 +1,11 @@
 #include "arfm_vo/pose/pose_estimator.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
-#include "arfm_vo/pose/chi_square.h"
-#include "arfm_vo/pose/epnp.h"
-#include "arfm_vo/pose/reprojection.h"
+#include "pose_election.h"
 
 namespace arfm_vo {
 namespace {
-
-constexpr int kMaxSample = 8;
-/// What a vote counts for a pose that the motion before does not allow.
-constexpr double kImplausible = 0.25;
-/// Poses with a smaller part of the best one's votes are not looked for.
-constexpr double kLeastRival = 0.25;
-
-/// The covariance of a point as one long axis in a round rest: what stereo makes of a point, and
-/// quick to carry through a projection.
-struct PointSpread {
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< m, world frame
-  double rest = 0;                                 ///< m^2, the second largest variance
-
-  explicit PointSpread(const Eigen::Matrix3d& covariance) {
-    if (covariance.isZero(0)) return;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(covariance);
-    rest = std::max(0.0, solver.eigenvalues()[1]);
-    axis = std::sqrt(std::max(0.0, solver.eigenvalues()[2] - rest)) * solver.eigenvectors().col(2);
-  }
-};
-
-/// Generates and scores the hypotheses of RANSAC.
-class Consensus {
- public:
-  Consensus(const StereoCamera& camera, const std::vector<PointObservation>& observations,
-            const PoseEstimatorOptions& options)
-      : camera_(camera),
-        observations_(observations),
-        min_inliers_(options.min_inliers),
-        bounds_{ChiSquareQuantile(2, options.inlier_probability),
-                ChiSquareQuantile(3, options.inlier_probability)} {
-    spreads_.reserve(observations.size());
-    for (const PointObservation& observation : observations) {
-      spreads_.emplace_back(observation.x_covariance);
-    }
-  }
-
-  std::optional<Rigid3> Solve(const std::vector<int>& sample) const {
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxSample> points(3, sample.size());
-    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxSample> rays(2, sample.size());
-    for (size_t i = 0; i < sample.size(); ++i) {
-      const PointObservation& observation = observations_[sample[i]];
-      points.col(i) = observation.x_in_world;
-      rays.col(i) << (observation.pixels.x() - camera_.cx) / camera_.fx,
-          (observation.pixels.y() - camera_.cy) / camera_.fy;
-    }
-    return SolveEpnp(points, rays);
-  }
-
-  /// The squared error of an observation in units of its standard deviation.
-  double SquaredError(int i, const Eigen::Matrix3d& rotation,
-                      const Eigen::Vector3d& translation) const {
-    const PointObservation& observation = observations_[i];
-    const Eigen::Vector3d x = rotation * observation.x_in_world + translation;
-    if (!(x.z() > kMinDepth)) return 1e12;
-    const Eigen::Vector3d error = ReprojectionError(camera_, observation, x);
-    const double px_per_m = camera_.fx / x.z();
-    const double variance =
-        observation.sigma_px * observation.sigma_px + spreads_[i].rest * px_per_m * px_per_m;
-    // S = variance I + g g^T, inverted by Sherman and Morrison's formula.
-    Eigen::Vector3d g = ProjectionJacobian(camera_, x) * (rotation * spreads_[i].axis);
-    if (!observation.has_right) g.z() = 0;
-    const double along = g.dot(error);
-    return (error.squaredNorm() - along * along / (variance + g.squaredNorm())) / variance;
-  }
-
-  double Classify(const Rigid3& camera_from_world, std::vector<char>& is_inlier) const {
-    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
-    double score = 0;
-    int num_inliers = 0;
-    for (size_t i = 0; i < observations_.size(); ++i) {
-      const double ratio =
-          SquaredError(static_cast<int>(i), rotation, camera_from_world.translation) /
-          bounds_[observations_[i].has_right];
-      is_inlier[i] = ratio <= 1;
-      num_inliers += is_inlier[i];
-      if (ratio <= 1) score += observations_[i].votes * (1 - ratio);
-    }
-    // However many votes they have, a few agree by chance.
-    return num_inliers < min_inliers_ ? score * num_inliers / (10.0 * min_inliers_) : score;
-  }
-
- private:
-  const StereoCamera& camera_;
-  const std::vector<PointObservation>& observations_;
-  const int min_inliers_;
-  const double bounds_[2];
-  std::vector<PointSpread> spreads_;
-};
-
-/// A pose, and who agrees with it.
-struct Hypothesis {
-  Rigid3 camera_from_world;
-  std::vector<char> agrees;  ///< [N]
-  double score;
-  double plausibility = 1;  ///< by the motion before; counted in the score
-
-  Hypothesis(const Consensus& consensus, const Rigid3& pose, size_t num_observations)
-      : camera_from_world(pose),
-        agrees(num_observations),
-        score(consensus.Classify(pose, agrees)) {}
-};
-
-/// A pose and, where many of the points that contradict it agree with each other, theirs.
-struct Agreement {
-  PoseRefinement refinement;
-  std::optional<Rigid3> rival;
-  double contest = 0;
-  double plausibility = 1;
-};
-
-/// The votes of those that agree with `a` and not with `b`; of all with `a` where there is no b.
-double CountVotes(const std::vector<PointObservation>& observations, const Hypothesis& a,
-                  const Hypothesis* b = nullptr) {
-  double votes = 0;
-  for (size_t i = 0; i < observations.size(); ++i) {
-    if (a.agrees[i] && (b == nullptr || !b->agrees[i])) votes += observations[i].votes;
-  }
-  return votes;
-}
-
-/// The pose on which most agree, by samples.
-std::optional<Rigid3> Sample(const StereoCamera& camera,
-                             const std::vector<PointObservation>& observations,
-                             const PoseEstimatorOptions& options) {
-  const Consensus consensus(camera, observations, options);
-  PoseRefinementOptions briefly = options.refinement;
-  briefly.max_rounds = 1;
-  const auto consent = Ransac<Rigid3>(
-      static_cast<int>(observations.size()), options.sample_size, options.ransac,
-      [&](const std::vector<int>& sample) { return consensus.Solve(sample); },
-      [&](const Rigid3& model, std::vector<char>& flags) {
-        return consensus.Classify(model, flags);
-      },
-      // A few noisy points would else lose against a refined prediction with fewer friends.
-      [&](const Rigid3& model, const std::vector<char>& flags) -> std::optional<Rigid3> {
-        const PoseRefinement refined = RefinePose(camera, observations, model, briefly, flags);
-        if (refined.status != RefinementStatus::kConverged) return std::nullopt;
-        return refined.camera_from_world;
-      });
-  if (!consent) return std::nullopt;
-  return consent->model;
-}
-
-/// The poses on which most agree.
-class Election {
- public:
-  Election(const StereoCamera& camera, const std::vector<PointObservation>& observations,
-           const std::optional<PredictedPose>& predicted, const PoseEstimatorOptions& options)
-      : camera_(camera),
-        observations_(observations),
-        options_(options),
-        consensus_(camera, observations, options) {
-    if (predicted && predicted->camera_from_world.IsFinite()) predicted_ = predicted;
-    for (const PointObservation& observation : observations) all_votes_ += observation.votes;
-  }
-
-  Agreement Hold() {
-    if (predicted_) {
-      const Rigid3& predicted = predicted_->camera_from_world;
-      Propose(predicted);
-      const PoseRefinement refined =
-          RefinePose(camera_, observations_, predicted, options_.refinement);
-      if (refined.status == RefinementStatus::kConverged) {
-        Propose(refined.camera_from_world);
-        if (!options_.is_wary && HasMajority() &&
-            best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
-          return {refined, std::nullopt, 0, 1};
-        }
-      }
-      const auto& friends = Hypothesis(consensus_, predicted, observations_.size()).agrees;
-      const PoseRefinement near =
-          RefinePose(camera_, observations_, predicted, options_.refinement, friends);
-      if (near.status == RefinementStatus::kConverged) Propose(near.camera_from_world);
-    } else if (const auto sampled = Sample(camera_, observations_, options_)) {
-      Propose(*sampled);
-    }
-    if (options_.is_wary || !HasMajority()) ProposeRest();
-    if (!best_) return {};
-    Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
-                                   options_.refinement, best_->agrees),
-                        std::nullopt, 0, best_->plausibility};
-    if (second_) {
-      agreement.rival = second_->camera_from_world;
-      agreement.contest = second_->plausibility * CountVotes(observations_, *second_, &*best_) /
-                          (best_->plausibility * CountVotes(observations_, *best_));
-    }
-    return agreement;
-  }
-
- private:
-  void Propose(const Rigid3& pose) {
-    Hypothesis hypothesis(consensus_, pose, observations_.size());
-    hypothesis.plausibility = Plausibility(pose);
-    hypothesis.score *= hypothesis.plausibility;
-    if (!best_ || hypothesis.score > best_->score)
-      std::swap(best_, second_), best_ = hypothesis;
-    else
-      second_ = hypothesis;
-  }
-
-  /// No other pose can have more votes.
-  bool HasMajority() const {
-    return best_ && best_->plausibility == 1 && 2 * CountVotes(observations_, *best_) > all_votes_;
-  }
-  double Plausibility(const Rigid3& pose) const {
-    return !predicted_ || predicted_->Allows(pose) ? 1 : kImplausible;
-  }
-
-  /// Another pose that has as many votes must have them among those that contradict, but for
-  /// those, far away as a rule, that agree with both: few samples find it there.
-  void ProposeRest() {
-    std::vector<PointObservation> rest;
-    double rest_votes = 0;
-    for (size_t i = 0; i < observations_.size(); ++i) {
-      if (best_ && best_->agrees[i]) continue;
-      rest.push_back(observations_[i]);
-      rest_votes += observations_[i].votes;
-    }
-    PoseEstimatorOptions options = options_;
-    if (best_) {
-      const double share =
-          kLeastRival * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
-      options.ransac.max_iterations = CountSamples(share, options.sample_size, options.ransac);
-    }
-    if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
-  }
-
-  const StereoCamera& camera_;
-  const std::vector<PointObservation>& observations_;
-  const PoseEstimatorOptions& options_;
-  const Consensus consensus_;
-  std::optional<PredictedPose> predicted_;
-  double all_votes_ = 0;
-  std::optional<Hypothesis> best_, second_;
-};
 
 /// The covariance of a pose that may as well be `other`.
 Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
@@ -266,7 +25,6 @@ void PoseEstimatorOptions::Check() const {
   Require(inlier_probability > 0 && inlier_probability < 1,
           "pose_estimator.inlier_probability must be in (0, 1)");
   Require(min_inliers >= sample_size, "pose_estimator.min_inliers must be at least sample_size");
-  Require(rival_share > 0 && rival_share <= 1, "pose_estimator.rival_share must be in (0, 1]");
   Require(min_inlier_share >= 0 && min_inlier_share <= 1,
           "pose_estimator.min_inlier_share must be in 0..1");
 }
@@ -285,7 +43,7 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   if (num_observations < options.min_inliers) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;
-  const Agreement agreement = Election(camera, observations, predicted, options).Hold();
+  const Agreement agreement = HoldElection(camera, observations, predicted, options);
   const PoseRefinement& refinement = agreement.refinement;
   if (refinement.status != RefinementStatus::kConverged) return estimate;
   if (refinement.num_inliers < options.min_inliers) return estimate;
@@ -302,7 +60,7 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.covariance = refinement.covariance;
   estimate.contest = agreement.contest;
   estimate.is_plausible = agreement.plausibility == 1;
-  if (agreement.contest >= options.rival_share) {
+  if (agreement.contest >= kContested) {
     estimate.status = PoseStatus::kDegraded;
     estimate.covariance += SpreadTo(*agreement.rival, refinement.camera_from_world);
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -19,12 +21,6 @@ constexpr double kMinSigmaPx = 0.1;
 constexpr int kMaxIterations = 10;
 /// Iterations end when no prediction moves by more.
 constexpr double kConvergedPx = 1e-3;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

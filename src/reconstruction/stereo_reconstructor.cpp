@@ -4,6 +4,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
 namespace {
@@ -31,7 +32,6 @@ void StereoReconstructionOptions::Check() const {
       "threshold.rule false_matches learns from searches over the whole image and is not offered "
       "here: fixed or variance");
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
-  Require(min_row_agreement > 0 && min_row_agreement < 1, "min_row_agreement must be in (0, 1)");
   Require(min_disparity_px > 0, "min_disparity_px must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
   Require(sigma_inflation > 0, "sigma_inflation must be positive");
@@ -180,7 +180,7 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   LearnRows(left, sightings);
   StereoPoints points = Triangulate(left, sightings);
   // Pictures of two moments teach nothing, unless they stay as they are: a camera that moved.
-  const bool agrees = row_agreement_ >= options_.min_row_agreement;
+  const bool agrees = row_agreement_ >= kMinRowAgreement;
   num_disagreeing_ = agrees ? 0 : num_disagreeing_ + 1;
   if (!agrees && before.IsLearnt() && num_disagreeing_ < kMaxDisagreeing) row_model_ = before;
   return points;

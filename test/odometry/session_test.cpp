@@ -240,6 +240,21 @@ TEST_F(SessionTest, BeginsAnewOnGroundThatTheMapDoesNotKnow) {
   EXPECT_NEAR(pose.odom_from_base.translation.x(), 0.3 * 8, 0.1);
 }
 
+TEST_F(SessionTest, BeginsNoEpochWithPairsWhosePicturesDoNotAgree) {
+  for (int i = 0; i < 4; ++i) Step(0.3 * i);
+  const TexturedWall elsewhere(2);
+  for (int i = 0; i < 10; ++i) {
+    stamp_s_ += kInterval_s;
+    const StereoImages images = elsewhere.Render(stamp_s_, Rigid3());
+    StereoFrame frame = frontend_.Process(images);
+    ASSERT_GT(frame.points.size(), 100u);
+    frame.row_agreement = 0.2;
+    const SessionUpdate pose = session_.Process(frame, wall_.camera(), images, BaseFromCamera(0));
+    EXPECT_FALSE(pose.IsTracked());
+    EXPECT_EQ(pose.epoch, 1u) << i;
+  }
+}
+
 TEST_F(SessionTest, AMapUpdateMovesTheTrajectoryAndNotThePose) {
   const SessionUpdate first = Step(0);
   Step(0.1);

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
+#include "image/image_noise.h"
 #include "ros/textured_wall.h"
 
 namespace arfm_vo {
@@ -68,11 +69,7 @@ TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
   cv::RNG random(3);
   for (int i = 0; i < 30; ++i) {
     StereoImages noisy{0.1 * i, still.left.clone(), still.right.clone()};
-    for (cv::Mat* image : {&noisy.left, &noisy.right}) {
-      cv::Mat noise(image->size(), CV_16S);
-      random.fill(noise, cv::RNG::NORMAL, 0, 2);
-      cv::add(*image, noise, *image, cv::noArray(), CV_8U);
-    }
+    for (cv::Mat* image : {&noisy.left, &noisy.right}) AddNoise(*image, 2, random);
     const PoseEstimate pose = odometry_.Process(noisy).update.pose;
     ASSERT_TRUE(pose.IsTracked());
     EXPECT_LT(pose.camera_from_world.translation.norm(), 1e-3) << i;

@@ -17,6 +17,24 @@ void SpoilPixels(int count, RandomEngine& engine, std::vector<PointObservation>&
   }
 }
 
+/// A camera that sees what stands still and a group of points that moved on its own.
+struct TwoGroups {
+  Rigid3 truth;
+  Rigid3 wrong;                                ///< by the group that moved
+  std::vector<PointObservation> observations;  ///< those that stand still come first
+};
+
+TwoGroups MakeTwoGroups(int num_still, int num_moving, const Eigen::Vector3d& motion,
+                        RandomEngine& engine) {
+  TwoGroups scene;
+  scene.truth = scene.wrong = RandomPose(engine, 1, 5);
+  scene.wrong.translation += motion;
+  scene.observations = MakeObservations(scene.truth, num_still, 0.5, engine);
+  const auto moving = MakeObservations(scene.wrong, num_moving, 0.5, engine);
+  scene.observations.insert(scene.observations.end(), moving.begin(), moving.end());
+  return scene;
+}
+
 TEST(PoseEstimator, IsExactWithoutNoiseOrPrediction) {
   RandomEngine engine(1);
   for (int trial = 0; trial < 20; ++trial) {
@@ -62,12 +80,7 @@ TEST(PoseEstimator, DoesNotBelieveAWrongPrediction) {
 TEST(PoseEstimator, AMinorityThatFitsThePredictionDoesNotWin) {
   RandomEngine engine(8);
   for (int trial = 0; trial < 10; ++trial) {
-    const Rigid3 truth = RandomPose(engine, 1, 5);
-    Rigid3 wrong = truth;
-    wrong.translation += Eigen::Vector3d(1, 0, 2);
-    auto observations = MakeObservations(truth, 220, 0.5, engine);
-    const auto vehicle = MakeObservations(wrong, 180, 0.5, engine);
-    observations.insert(observations.end(), vehicle.begin(), vehicle.end());
+    const auto [truth, wrong, observations] = MakeTwoGroups(220, 180, {1, 0, 2}, engine);
     const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, wrong, {});
     ASSERT_EQ(estimate.status, PoseStatus::kDegraded);
     EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.06);
@@ -80,12 +93,7 @@ TEST(PoseEstimator, AMinorityThatFitsThePredictionDoesNotWin) {
 
 TEST(PoseEstimator, PointsThatAgreedBeforeOutvoteMoreThatDidNot) {
   RandomEngine engine(11);
-  const Rigid3 truth = RandomPose(engine, 1, 5);
-  Rigid3 object = truth;
-  object.translation += Eigen::Vector3d(1, 0, 2);
-  auto observations = MakeObservations(truth, 100, 0.5, engine);
-  const auto moving = MakeObservations(object, 250, 0.5, engine);
-  observations.insert(observations.end(), moving.begin(), moving.end());
+  auto [truth, wrong, observations] = MakeTwoGroups(100, 250, {1, 0, 2}, engine);
   EXPECT_GT(StepBetween(
                 truth, EstimatePose(kSceneCamera, observations, std::nullopt, {}).camera_from_world)
                 .norm(),
@@ -103,12 +111,7 @@ TEST(PoseEstimator, PointsThatAgreedBeforeOutvoteMoreThatDidNot) {
 TEST(PoseEstimator, APoseThatTheMotionDoesNotAllowNeedsFourTimesTheVotes) {
   for (const int num_moving : {150, 600}) {
     RandomEngine engine(12);
-    const Rigid3 truth = RandomPose(engine, 1, 5);
-    Rigid3 object = truth;
-    object.translation += Eigen::Vector3d(1, 0, 2);
-    auto observations = MakeObservations(truth, 100, 0.5, engine);
-    const auto moving = MakeObservations(object, num_moving, 0.5, engine);
-    observations.insert(observations.end(), moving.begin(), moving.end());
+    const auto [truth, wrong, observations] = MakeTwoGroups(100, num_moving, {1, 0, 2}, engine);
     PredictedPose predicted(truth);
     predicted.max_shift_m = 0.5;
     predicted.max_turn_rad = 0.1;
@@ -116,7 +119,7 @@ TEST(PoseEstimator, APoseThatTheMotionDoesNotAllowNeedsFourTimesTheVotes) {
     ASSERT_TRUE(estimate.HasPose());
     const bool is_object = num_moving > 400;
     EXPECT_EQ(estimate.is_plausible, !is_object);
-    EXPECT_LT(StepBetween(is_object ? object : truth, estimate.camera_from_world).norm(), 0.1);
+    EXPECT_LT(StepBetween(is_object ? wrong : truth, estimate.camera_from_world).norm(), 0.1);
   }
 }
 
@@ -125,13 +128,8 @@ TEST(PoseEstimator, AMajorityForThePredictionItselfIsNotGivenToItsRefinement) {
   int num_right = 0;
   for (int seed = 0; seed < 10; ++seed) {
     RandomEngine engine(seed);
-    const Rigid3 truth = RandomPose(engine, 1, 5);
-    Rigid3 object = truth;
-    object.translation += Eigen::Vector3d(0.1, 0, 0.2);
-    auto observations = MakeObservations(truth, 100, 0.5, engine);
-    for (PointObservation& observation : observations) observation.votes = 4;
-    const auto moving = MakeObservations(object, 300, 0.5, engine);
-    observations.insert(observations.end(), moving.begin(), moving.end());
+    auto [truth, wrong, observations] = MakeTwoGroups(100, 300, {0.1, 0, 0.2}, engine);
+    for (int i = 0; i < 100; ++i) observations[i].votes = 4;
     const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, truth, {});
     num_right += StepBetween(truth, estimate.camera_from_world).norm() < 0.08;
   }

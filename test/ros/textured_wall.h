@@ -6,6 +6,7 @@
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
+#include "image/image_noise.h"
 
 namespace arfm_vo {
 
@@ -37,11 +38,7 @@ class TexturedWall {
   /// What pixels of a camera do: no two pictures are the same.
   static void AddNoise(double stamp_s, StereoImages& images) {
     cv::RNG random(static_cast<uint64_t>(1e6 * stamp_s) + 1);
-    for (cv::Mat* image : {&images.left, &images.right}) {
-      cv::Mat noise(image->size(), CV_16S);
-      random.fill(noise, cv::RNG::NORMAL, 0, 0.5);
-      cv::add(*image, noise, *image, cv::noArray(), CV_8U);
-    }
+    for (cv::Mat* image : {&images.left, &images.right}) arfm_vo::AddNoise(*image, 0.5, random);
   }
 
   /// What a covered lens sees.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "arfm_vo/simulation/hash_noise.h"
+#include "image/image_noise.h"
 
 namespace arfm_vo {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kNoiseLevels = 15, kDarker = 0.5, kBrighter = 2;
 constexpr int kBlurPx = 11, kJpegQuality = 25, kRowShiftPx = 2;
 
 using Apply = std::function<void(int, StereoImages&)>;
-
-void AddNoise(cv::Mat& image, double sigma, cv::RNG& random) {
-  cv::Mat noise(image.size(), CV_16S);
-  random.fill(noise, cv::RNG::NORMAL, 0, sigma);
-  cv::add(image, noise, image, cv::noArray(), CV_8U);
-}
 
 void CompressAsJpeg(cv::Mat& image) {
   std::vector<uchar> bytes;

@@ -23,9 +23,7 @@ struct Arguments {
 };
 
 OdometryOptions ReadOptions(const Arguments& arguments) {
-  OdometryOptions options = arguments.config.empty()
-                                ? OdometryOptions()
-                                : ReadYamlFile<OdometryOptions>(arguments.config);
+  OdometryOptions options = ReadYamlFileOrDefaults<OdometryOptions>(arguments.config);
   if (arguments.close_loops) options.global.loops.enabled = true;
   return options;
 }

@@ -7,6 +7,7 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/simulation/hash_noise.h"
 #include "arfm_vo/simulation/scene.h"
+#include "image/image_noise.h"
 
 namespace {
 
@@ -63,9 +64,8 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
   const Scene scene(options);
   const StereoImages still = scene.RenderPair(0);
   const Intruder intruder(still.left.size(), arguments.intruder_share, arguments.seed);
-  VisualOdometry odometry(scene.camera(), arguments.config.empty()
-                                              ? OdometryOptions()
-                                              : ReadYamlFile<OdometryOptions>(arguments.config));
+  VisualOdometry odometry(scene.camera(),
+                          ReadYamlFileOrDefaults<OdometryOptions>(arguments.config));
   cv::RNG random(static_cast<uint64_t>(arguments.seed));
   Drift drift;
   for (int pair = 0; pair < arguments.num_pairs; ++pair) {
@@ -73,9 +73,7 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
     intruder.Paint(images.left, pair, 0, is_shadow);
     intruder.Paint(images.right, pair, is_shadow ? 20 : 40, is_shadow);
     for (cv::Mat* image : {&images.left, &images.right}) {
-      cv::Mat noise(image->size(), CV_16S), noisy;
-      random.fill(noise, cv::RNG::NORMAL, 0, arguments.noise_grey_levels);
-      cv::add(*image, noise, *image, cv::noArray(), CV_8U);
+      AddNoise(*image, arguments.noise_grey_levels, random);
     }
     const PoseEstimate pose = odometry.Process(images).update.pose;
     if (!pose.IsTracked()) throw std::runtime_error("pair " + std::to_string(pair) + " is lost");

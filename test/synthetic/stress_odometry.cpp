@@ -31,9 +31,8 @@ struct Drive {
 
 Drive Run(const Arguments& arguments, const Disturbance& disturbance) {
   KittiSequence sequence(arguments.sequence, arguments.selection);
-  VisualOdometry odometry(sequence.camera(), arguments.config.empty()
-                                                 ? OdometryOptions()
-                                                 : ReadYamlFile<OdometryOptions>(arguments.config));
+  VisualOdometry odometry(sequence.camera(),
+                          ReadYamlFileOrDefaults<OdometryOptions>(arguments.config));
   Drive drive;
   while (const auto pair = sequence.Next()) {
     StereoImages images{pair->images.stamp_s, pair->images.left.clone(),

@@ -14,9 +14,6 @@ std::vector<double> MeasureConsistency(const EyeCalibration& left, const EyeCali
                                        const std::vector<CornerPair>& pairs,
                                        const Chessboard& board);
 
-/// The middle value (of the upper half); 0 of nothing.
-double Median(std::vector<double> values);
-
 /// 1 for each error that stands out: above `factor` times the median and above `floor`. Of those
 /// only the worse half is marked, for a gross one lifts its neighbours: to be called again.
 std::vector<char> FindOutliers(const std::vector<double>& errors, double factor, double floor);

@@ -105,4 +105,10 @@ Options ReadYamlFile(const std::string& path) {
   return options;
 }
 
+/// The same, or the defaults where `path` is empty.
+template <class Options>
+Options ReadYamlFileOrDefaults(const std::string& path) {
+  return path.empty() ? Options() : ReadYamlFile<Options>(path);
+}
+
 }  // namespace arfm_vo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -38,5 +39,14 @@ struct LandmarkObservation {
   double sigma_px = 1;     ///< standard deviation of each coordinate
 };
 using LandmarkObservations = std::vector<LandmarkObservation>;
+
+/// The observation of a landmark among those sorted by landmark; null where there is none.
+inline const LandmarkObservation* FindObservation(const LandmarkObservations& observations,
+                                                  LandmarkId id) {
+  const auto found = std::lower_bound(
+      observations.begin(), observations.end(), id,
+      [](const LandmarkObservation& a, LandmarkId landmark) { return a.landmark < landmark; });
+  return found != observations.end() && found->landmark == id ? &*found : nullptr;
+}
 
 }  // namespace arfm_vo

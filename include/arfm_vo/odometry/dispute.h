@@ -19,7 +19,7 @@ class Dispute {
   /// to be believed.
   bool Judge(const PoseEstimate& pose, int num_proven) {
     const bool is_proven = pose.is_plausible && num_proven >= kMinProven;
-    const double bound = IsWary() ? kContest / 2 : kContest;
+    const double bound = IsWary() ? kContested / 2 : kContested;
     if (pose.contest >= bound || !pose.is_plausible) {
       BeWary();
       is_open_ = is_open_ || !is_proven;
@@ -34,7 +34,6 @@ class Dispute {
 
  private:
   static constexpr int kWaryFrames = 10, kMinProven = 15;
-  static constexpr double kContest = 0.5;
 
   int num_wary_ = 0;
   bool is_open_ = false;

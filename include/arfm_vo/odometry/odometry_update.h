@@ -19,6 +19,7 @@ struct OdometryUpdate {
   std::string remark;  ///< why the pose is degraded
   /// As pose.covariance, but against the first camera of all: what the map has drifted added.
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
+  bool can_start = false;  ///< whether a map could begin with the pair
   bool is_keyframe = false;
   bool is_relocalised = false;        ///< found among keyframes that had left the local map
   bool is_disputed = false;           ///< no pose: two groups of points moved differently

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arfm_vo/reconstruction/stereo_frame.h"
+
 namespace arfm_vo {
 
 /// Whether the two pictures of a pair are of one moment and one rig, by the share of what both see
@@ -9,7 +11,7 @@ class RowWatch {
  public:
   /// The next pair's StereoFrame::row_agreement.
   void Look(double row_agreement) {
-    if (row_agreement < kLeast) {
+    if (row_agreement < kMinRowAgreement) {
       num_to_prove_ = kProof;
     } else if (num_to_prove_ > 0) {
       num_to_prove_ = row_agreement < kGood ? kProof : num_to_prove_ - 1;
@@ -18,7 +20,7 @@ class RowWatch {
   bool IsSkewed() const { return num_to_prove_ > 0; }
 
  private:
-  static constexpr double kLeast = 0.5, kGood = 0.7;
+  static constexpr double kGood = 0.7;
   static constexpr int kProof = 3;
   int num_to_prove_ = 0;
 };

@@ -80,7 +80,6 @@ class Session {
              SessionUpdate& pose);
   void FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose);
   void Bridge(const Rigid3& base_from_camera, SessionUpdate& pose);
-  bool IsGood(const StereoFrame& frame) const;
   bool IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
   void SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const;

@@ -20,6 +20,9 @@ enum class PoseStatus {
 /// The name of a status as messages and files show it, such as "too few matches".
 const char* ToString(PoseStatus status);
 
+/// PoseEstimate::contest from which a pose is degraded.
+constexpr double kContested = 0.5;
+
 /// The pose of one frame. Where HasPose() is false, pose and covariance hold nothing.
 struct PoseEstimate {
   PoseStatus status = PoseStatus::kTooFewFeatures;

@@ -17,7 +17,6 @@ struct PoseEstimatorOptions {
   int min_inliers = 15;              ///< fewer are no pose
   double min_inlier_share = 0.15;    ///< of the observations' votes
   PoseRefinementOptions refinement;
-  double rival_share = 0.5;  ///< contest from which a pose is degraded
 
   /// The same, which looks for another pose also beside one with a majority.
   PoseEstimatorOptions Wary() const {
@@ -37,7 +36,6 @@ struct PoseEstimatorOptions {
     visit("min_inliers", min_inliers);
     visit("min_inlier_share", min_inlier_share);
     visit("refinement", refinement);
-    visit("rival_share", rival_share);
   }
 };
 

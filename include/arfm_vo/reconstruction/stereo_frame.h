@@ -8,6 +8,9 @@
 
 namespace arfm_vo {
 
+/// StereoFrame::row_agreement below which the pictures are of two moments, or of a rig that moved.
+constexpr double kMinRowAgreement = 0.5;
+
 /// What one pair holds for the odometry: the left image's features and the points that both eyes
 /// see.
 struct StereoFrame {

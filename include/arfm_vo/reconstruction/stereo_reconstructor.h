@@ -34,7 +34,6 @@ struct StereoReconstructionOptions {
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
   RowSearchOptions row_search;
   double max_row_deviation = 3;    ///< from the expected row, in standard deviations
-  double min_row_agreement = 0.5;  ///< share of what both eyes see; below, the rows are not learnt
   double min_disparity_px = 0.5;   ///< after refinement
   double sigma_floor_px = 0.07;    ///< no point is better than this
   double sigma_inflation = 2;      ///< times the alignment's prediction, as rows show
@@ -54,7 +53,6 @@ struct StereoReconstructionOptions {
     visit("search_rows", search_rows);
     visit("row_search", row_search);
     visit("max_row_deviation", max_row_deviation);
-    visit("min_row_agreement", min_row_agreement);
     visit("min_disparity_px", min_disparity_px);
     visit("sigma_floor_px", sigma_floor_px);
     visit("sigma_inflation", sigma_inflation);

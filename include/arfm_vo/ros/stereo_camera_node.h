@@ -12,8 +12,8 @@
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
 #include "arfm_vo/ros/camera_health.h"
+#include "arfm_vo/ros/camera_info_server.h"
 #include "arfm_vo/ros/drive_listener.h"
-#include "arfm_vo/ros/eye_calibration.h"
 
 namespace arfm_vo {
 
@@ -58,7 +58,7 @@ class StereoCameraNode {
     sensor_msgs::CameraInfo Fitting(int width, int height);
 
     ros::NodeHandle node_;
-    EyeCalibration calibration_;
+    CameraInfoServer calibration_;
     image_transport::ImageTransport transport_;
     image_transport::CameraPublisher publisher_;
   };

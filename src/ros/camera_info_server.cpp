@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/eye_calibration.h"
+#include "arfm_vo/ros/camera_info_server.h"
 
 #include <camera_calibration_parsers/parse.h>
 #include <ros/package.h>
@@ -29,19 +29,20 @@ std::string PathOf(const std::string& url) {
 
 }  // namespace
 
-EyeCalibration::EyeCalibration(ros::NodeHandle node, const std::string& name,
-                               const std::string& url, std::function<std::string()> find_refusal)
+CameraInfoServer::CameraInfoServer(ros::NodeHandle node, const std::string& name,
+                                   const std::string& url,
+                                   std::function<std::string()> find_refusal)
     : name_(name),
       url_(url.empty() ? "file://${ROS_HOME}/camera_info/${NAME}.yaml" : url),
       find_refusal_(std::move(find_refusal)),
       manager_(node, name, url_) {
   // The manager's own service knows no reason to refuse.
   ros::ServiceManager::instance()->unadvertiseService(node.resolveName(kService));
-  server_ = node.advertiseService(kService, &EyeCalibration::Set, this);
+  server_ = node.advertiseService(kService, &CameraInfoServer::Set, this);
 }
 
-bool EyeCalibration::Set(sensor_msgs::SetCameraInfo::Request& request,
-                         sensor_msgs::SetCameraInfo::Response& response) {
+bool CameraInfoServer::Set(sensor_msgs::SetCameraInfo::Request& request,
+                           sensor_msgs::SetCameraInfo::Response& response) {
   try {
     const std::string refusal = find_refusal_();
     Require(refusal.empty(), refusal);
@@ -55,7 +56,7 @@ bool EyeCalibration::Set(sensor_msgs::SetCameraInfo::Request& request,
   return true;
 }
 
-void EyeCalibration::Store(const sensor_msgs::CameraInfo& info) {
+void CameraInfoServer::Store(const sensor_msgs::CameraInfo& info) {
   const std::filesystem::path path = PathOf(manager_.resolveURL(url_, name_));
   std::filesystem::create_directories(path.parent_path());
   Require(camera_calibration_parsers::writeCalibration(path, name_, info),

@@ -10,11 +10,11 @@ namespace arfm_vo {
 
 /// The camera_info of one eye, loaded from an URL, and the service set_camera_info that sets and
 /// stores it.
-class EyeCalibration {
+class CameraInfoServer {
  public:
   /// `find_refusal` says why set_camera_info is refused now; empty where it is not.
-  EyeCalibration(ros::NodeHandle node, const std::string& name, const std::string& url,
-                 std::function<std::string()> find_refusal);
+  CameraInfoServer(ros::NodeHandle node, const std::string& name, const std::string& url,
+                   std::function<std::string()> find_refusal);
 
   /// K[0] is 0 where there is none.
   sensor_msgs::CameraInfo Get() { return manager_.getCameraInfo(); }
