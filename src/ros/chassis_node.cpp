@@ -6,6 +6,7 @@
 
 #include "arfm_vo/ros/chassis_messages.h"
 #include "arfm_vo/ros/parameters.h"
+#include "arfm_vo/ros/wait_for_clock.h"
 
 namespace arfm_vo {
 namespace {
@@ -42,6 +43,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
+  WaitForClock();
   Listen(node);
   Serve(private_node);
   SetPace(node);

@@ -11,6 +11,7 @@
 #include "arfm_vo/hardware/serial_port.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/trigger_service.h"
+#include "arfm_vo/ros/wait_for_clock.h"
 
 namespace arfm_vo {
 
@@ -68,6 +69,7 @@ PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
       refused_(node.advertise<std_msgs::String>("refused", 10)),
       drive_(node),
       updater_(node, private_node, private_node.getNamespace()) {
+  WaitForClock();
   updater_.setHardwareID("pan-tilt unit on " + options_.port);
   updater_.add("pan-tilt", this, &PanTiltNode::Report);
   commands_ = node.subscribe("cmd", 1, &PanTiltNode::TakeCommand, this);

@@ -7,11 +7,13 @@ import sys
 import time
 import unittest
 
+import rosservice
 import rospy
 import rostest
 from arfm_vo.msg import DriveStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
 
@@ -116,6 +118,20 @@ class SimulationTest(unittest.TestCase):
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=PATIENCE_S)
         self.assertNotEqual(answer.returncode, 0)
         self.assertIn("'can0' is a real bus", answer.stdout)
+
+    def test_before_the_first_clock_the_chassis_takes_no_start(self):
+        node = subprocess.Popen(
+            ["rosrun", "arfm_vo", "chassis_node", "__name:=early", "/clock:=/early/clock", "_can:=udp:14901:14902"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self.addCleanup(node.wait)
+        self.addCleanup(node.terminate)
+        said = next((line for line in node.stdout if "/early/clock" in line), "")
+        self.assertIn("nothing comes on /early/clock", said)
+        with self.assertRaises(rospy.ROSException):
+            rospy.wait_for_service("/early/start", timeout=0.5)
+        clock = rospy.Publisher("/early/clock", Clock, queue_size=1, latch=True)
+        clock.publish(rospy.Time(1000))
+        self.wait(lambda: any(name == "/early/start" for name in rosservice.get_service_list()), "the service")
 
     def test_drives_to_a_goal_by_sight_while_the_head_moves(self):
         speeds = []
