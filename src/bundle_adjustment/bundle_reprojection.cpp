@@ -32,11 +32,12 @@ Eigen::Matrix<double, 4, 3> ReprojectionTerm::ByPoint(const Eigen::Matrix3d& rot
 }
 
 Eigen::Matrix<double, 4, StereoCorrection::kSize> ReprojectionTerm::ByCorrection() const {
-  constexpr int kNumTerms = ImageBasis::kNumTerms;
+  constexpr int kNumField = StereoCorrection::kNumField;
   Eigen::Matrix<double, 4, StereoCorrection::kSize> by_correction;
   by_correction.setZero();
-  by_correction.row(2).head<kNumTerms>() = right_by_coefficients;
-  by_correction.row(3).tail<kNumTerms>() = right_by_coefficients;
+  by_correction.row(2).head<kNumField>() = right_by_field;
+  by_correction.middleCols<StereoCorrection::kNumRadial>(kNumField) = by_radial;
+  by_correction.row(3).tail<kNumField>() = right_by_field;
   return by_correction;
 }
 
@@ -56,10 +57,12 @@ bool ReprojectionModel::Evaluate(const BundleObservation& observation,
   if (!(x.z() > kMinDepth)) return false;
   const double inverse_sigma = 1 / observation.sigma_px;
   const Eigen::Vector3d rectified = camera_.ProjectStereo(x);
-  residual.head<2>() = inverse_sigma * (rectified.head<2>() - observation.pixels.head<2>());
+  Eigen::Vector2d left = rectified.head<2>();
+  if (!is_rectified_) left += correction_.AtLeft(camera_, left);
+  residual.head<2>() = inverse_sigma * (left - observation.pixels.head<2>());
   if (!observation.has_right) return true;
   Eigen::Vector2d right(rectified.z(), rectified.y());
-  if (!is_rectified_) right += correction_.At(camera_, right);
+  if (!is_rectified_) right += correction_.AtRight(camera_, right);
   residual.tail<2>() = inverse_sigma * (right - observation.pixels.tail<2>());
   return true;
 }
@@ -70,7 +73,8 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
                                   ReprojectionTerm& term) const {
   term.x = rotation * point + translation;
   term.by_x.setZero();
-  term.right_by_coefficients.setZero();
+  term.right_by_field.setZero();
+  term.by_radial.setZero();
   term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(term.x.z() > kMinDepth)) return false;
   const double fx = camera_.fx / observation.sigma_px, fy = camera_.fy / observation.sigma_px;
@@ -81,24 +85,42 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
   term.residual[1] = fy * y_z - (pixels[1] - camera_.cy) / observation.sigma_px;
   term.by_x.topRows<2>() << fx * inverse_z, 0, -fx * inverse_z * x_z,  //
       0, fy * inverse_z, -fy * inverse_z * y_z;
+  const bool is_displaced = !is_rectified_ || with_correction_;
+  if (is_displaced) DisplaceRadially({x_z, y_z}, 0, observation.sigma_px, term);
   if (!observation.has_right) return true;
 
   const double xr_z = x_z - camera_.baseline_m * inverse_z;
   term.residual[2] = fx * xr_z - (pixels[2] - camera_.cx) / observation.sigma_px;
   term.residual[3] = fy * y_z - (pixels[3] - camera_.cy) / observation.sigma_px;
-  term.by_x.row(2) << fx * inverse_z, 0, -fx * inverse_z * xr_z;
-  term.by_x.row(3) = term.by_x.row(1);
-  if (is_rectified_ && !with_correction_) return true;
+  term.by_x.bottomRows<2>() << fx * inverse_z, 0, -fx * inverse_z * xr_z,  //
+      0, fy * inverse_z, -fy * inverse_z * y_z;
+  if (!is_displaced) return true;
 
+  const Eigen::Matrix<double, 2, 3> nominal_by_x = term.by_x.bottomRows<2>();
+  DisplaceRadially({xr_z, y_z}, 2, observation.sigma_px, term);
   const ImageBasis basis(camera_, {camera_.fx * xr_z + camera_.cx, camera_.fy * y_z + camera_.cy});
-  const Eigen::Map<const Eigen::Matrix<double, ImageBasis::kNumTerms, 2>> coefficients(
-      correction_.coefficients_px.data());
-  const Eigen::Vector2d displacement = coefficients.transpose() * basis.values;
-  const Eigen::Matrix2d by_pixel = coefficients.transpose() * basis.by_pixel;
-  term.residual.tail<2>() += displacement / observation.sigma_px;
-  term.by_x.bottomRows<2>() += by_pixel * term.by_x.bottomRows<2>().eval();
-  term.right_by_coefficients = basis.values / observation.sigma_px;
+  Eigen::Matrix<double, StereoCorrection::kNumField, 2> field;
+  field << correction_.coefficients_px.head<StereoCorrection::kNumField>(),
+      correction_.coefficients_px.tail<StereoCorrection::kNumField>();
+  term.right_by_field = basis.values / observation.sigma_px;
+  term.residual.tail<2>() += field.transpose() * term.right_by_field;
+  const Eigen::Matrix2d by_pixel = field.transpose() * basis.by_pixel;
+  term.by_x.bottomRows<2>() += by_pixel * nominal_by_x;
   return true;
+}
+
+void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, double sigma_px,
+                                         ReprojectionTerm& term) const {
+  constexpr int kNumRadial = StereoCorrection::kNumRadial;
+  const RadialBasis basis(
+      camera_, {camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy});
+  const auto coefficients =
+      correction_.coefficients_px.segment<kNumRadial>(StereoCorrection::kNumField);
+  Eigen::Matrix2d by_pixel = Eigen::Matrix2d::Identity();
+  for (int i = 0; i < kNumRadial; ++i) by_pixel += coefficients[i] * basis.by_pixel[i];
+  term.by_radial.middleRows<2>(row) = basis.values / sigma_px;
+  term.residual.segment<2>(row) += term.by_radial.middleRows<2>(row) * coefficients;
+  term.by_x.middleRows<2>(row) = by_pixel * term.by_x.middleRows<2>(row).eval();
 }
 
 ConstraintTerm LinearizeConstraint(const PoseConstraint& constraint, const Rigid3& first_from_world,

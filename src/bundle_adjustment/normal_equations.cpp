@@ -110,24 +110,43 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
       sighting_blocks_[index].topRows<3>() += CrossColumns(term.x, m_r);
       sighting_blocks_[index].bottomRows<3>() += m_r;
     }
-    if (num_coefficients_ == 0 || !observation.has_right) continue;
-    constexpr int kNumTerms = ImageBasis::kNumTerms;
-    const auto& basis = term.right_by_coefficients;
-    const Eigen::Matrix<double, kNumTerms, kNumTerms> corner = weight * basis * basis.transpose();
-    for (const int k : {0, 1}) {  // the coefficients of u, which move u alone, and those of v
-      const Eigen::Vector3d by_x = weighted.row(2 + k);
-      point_borders_[track].middleCols<kNumTerms>(k * kNumTerms).noalias() +=
-          (rotation.transpose() * by_x) * basis.transpose();
-      piece.sum.corner.block<kNumTerms, kNumTerms>(k * kNumTerms, k * kNumTerms) += corner;
-      piece.sum.corner_right.segment<kNumTerms>(k * kNumTerms) -=
-          weight * term.residual[2 + k] * basis;
-      if (free_pose == BundleStructure::kFixed) continue;
-      Vector6d by_pose;
-      by_pose << term.x.cross(by_x), by_x;
-      piece.sum.border[free_pose].middleCols<kNumTerms>(k * kNumTerms).noalias() +=
-          by_pose * basis.transpose();
-    }
+    if (num_coefficients_ > 0) LinearizeByCorrection(term, weight, rotation, track, free_pose, piece);
   }
+}
+
+void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double weight,
+                                            const Eigen::Matrix3d& rotation, int track,
+                                            int free_pose, Piece& piece) {
+  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  const auto& field = term.right_by_field;
+  const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
+  const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
+  // The coefficients of u move row 2 alone, those of v row 3, the radial ones all four.
+  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
+    const Eigen::Vector3d by_x = weighted.row(row);
+    point_borders_[track].middleCols<kNumField>(first).noalias() +=
+        (rotation.transpose() * by_x) * field.transpose();
+    piece.sum.corner.block<kNumField, kNumField>(first, first) += corner;
+    piece.sum.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
+    const Eigen::Matrix<double, kNumField, kNumRadial> mixed =
+        weight * field * term.by_radial.row(row);
+    piece.sum.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
+    piece.sum.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
+    if (free_pose == BundleStructure::kFixed) continue;
+    Vector6d by_pose;
+    by_pose << term.x.cross(by_x), by_x;
+    piece.sum.border[free_pose].middleCols<kNumField>(first).noalias() +=
+        by_pose * field.transpose();
+  }
+  const Eigen::Matrix<double, 3, kNumRadial> by_x = weighted.transpose() * term.by_radial;
+  point_borders_[track].middleCols<kNumRadial>(kNumField).noalias() += rotation.transpose() * by_x;
+  piece.sum.corner.block<kNumRadial, kNumRadial>(kNumField, kNumField) +=
+      weight * term.by_radial.transpose() * term.by_radial;
+  piece.sum.corner_right.segment<kNumRadial>(kNumField) -=
+      weight * term.by_radial.transpose() * term.residual;
+  if (free_pose == BundleStructure::kFixed) return;
+  piece.sum.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
+  piece.sum.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
 }
 
 double NormalEquations::AddConstraints(const BundleState& state) {

@@ -7,13 +7,14 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kNumTerms = ImageBasis::kNumTerms;
+constexpr int kNumPlacing = StereoCorrection::kNumPlacing;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 /// A point's share in the information, to be eliminated.
 struct PointShare {
   Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, kNumTerms> by_columns = Eigen::Matrix<double, 3, kNumTerms>::Zero();
+  Eigen::Matrix<double, 3, kNumPlacing> by_correction =
+      Eigen::Matrix<double, 3, kNumPlacing>::Zero();
   std::vector<std::pair<int, Matrix63>> by_pose;  ///< pose, block of pose by point
 };
 
@@ -26,7 +27,7 @@ PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleRe
                                 RobustLoss(options.loss, options.loss_threshold_sigma, 4)};
   const auto size = 6 * static_cast<Eigen::Index>(result.camera_from_world.size());
   PoseInformation information{Eigen::MatrixXd::Zero(size, size),
-                              Eigen::MatrixXd::Zero(size, kNumTerms)};
+                              Eigen::MatrixXd::Zero(size, kNumPlacing)};
   std::vector<PointShare> points(problem.points.size());
   for (const BundleObservation& observation : problem.observations) {
     if (!result.point_is_used[observation.point]) continue;
@@ -45,12 +46,11 @@ PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleRe
         weight * by_pose.transpose() * by_pose;
     PointShare& share = points[observation.point];
     share.block += weight * by_point.transpose() * by_point;
-    if (observation.has_right) {  // the third row alone moves with the columns
-      const auto basis = weight * term.right_by_coefficients.transpose();
-      information.by_columns.middleRows<6>(6 * observation.pose) +=
-          by_pose.row(2).transpose() * basis;
-      share.by_columns += by_point.row(2).transpose() * basis;
-    }
+    const Eigen::Matrix<double, 4, kNumPlacing> by_correction =
+        weight * term.ByCorrection().leftCols<kNumPlacing>();
+    information.by_correction.middleRows<6>(6 * observation.pose) +=
+        by_pose.transpose() * by_correction;
+    share.by_correction += by_point.transpose() * by_correction;
     share.by_pose.emplace_back(observation.pose, weight * by_pose.transpose() * by_point);
   }
   for (const PointShare& share : points) {
@@ -59,7 +59,7 @@ PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleRe
     if (!covariance.allFinite()) continue;
     for (const auto& [row, row_block] : share.by_pose) {
       const Matrix63 eliminated = row_block * covariance;
-      information.by_columns.middleRows<6>(6 * row) -= eliminated * share.by_columns;
+      information.by_correction.middleRows<6>(6 * row) -= eliminated * share.by_correction;
       for (const auto& [column, column_block] : share.by_pose) {
         information.poses.block<6, 6>(6 * row, 6 * column) -= eliminated * column_block.transpose();
       }

@@ -8,7 +8,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kNumTerms = ImageBasis::kNumTerms;
+constexpr int kNumTerms = ImageBasis::kNumTerms, kNumRadial = RadialBasis::kNumTerms;
 
 /// Small differences between two cameras that a calibration may leave: wx, wy, wz (rad), relative
 /// focal length, its aspect, centre (px), k1, k2, k3, p1, p2. Far wider than calibrations are, as
@@ -18,6 +18,8 @@ constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,
                                             20,   0.01, 0.01,  0.01, 0.01,  0.01};
 /// What no such error explains, and the size of the whole field, px a coefficient.
 constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
+/// Of the radial coefficients, px in the corners.
+constexpr double kRadialSigmaPx = 3;
 
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
 
@@ -53,7 +55,8 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
     along_v += basis.values * dv;
   }
   Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> coefficients;
-  coefficients << gram.ldlt().solve(along_u), gram.ldlt().solve(along_v);
+  coefficients << gram.ldlt().solve(along_u), Eigen::Matrix<double, kNumRadial, kNumErrors>::Zero(),
+      gram.ldlt().solve(along_v);
   return coefficients;
 }
 
@@ -72,6 +75,8 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
                            Isotropic(kUnmodelledSigmaPx).covariance;
   CorrectionBelief belief;
   belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
+  belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
+                                                                          kRadialSigmaPx);
   return belief;
 }
 
@@ -84,7 +89,8 @@ double CorrectionBelief::MaxColumnSigma(const StereoCamera& camera) const {
     const Eigen::Vector2d edge(camera.width - 1, camera.height - 1);
     const Eigen::Vector2d place(i % kGrid, i / kGrid);
     const ImageBasis basis(camera, edge.cwiseProduct(place) / (kGrid - 1));
-    largest = std::max(largest, basis.values.dot(ColumnCovariance() * basis.values));
+    largest = std::max(
+        largest, basis.values.dot(covariance.topLeftCorner<kNumTerms, kNumTerms>() * basis.values));
   }
   return std::sqrt(largest);
 }

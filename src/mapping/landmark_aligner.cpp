@@ -82,7 +82,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   const auto patch = Patch::Sample(reference.left, place, *warp);
   if (!patch) return std::nullopt;
 
-  const Eigen::Vector3d predicted = camera_.ProjectStereo(camera_from_world * landmark.x_in_world);
+  const Eigen::Vector4d predicted =
+      ProjectStereo4(camera_, correction_, camera_from_world * landmark.x_in_world);
   const PatchAlignment left = aligner_.Align(
       *patch, images.left, {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
   if (!left.IsAligned()) return std::nullopt;
@@ -90,9 +91,9 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   float variance = left.covariance[0] + left.covariance[2];
-  Eigen::Vector2d in_right(left.position.x - predicted.x() + predicted.z(), left.position.y);
-  if (!correction_.IsZero()) in_right += correction_.At(camera_, in_right);
-  const cv::Point2f guess(static_cast<float>(in_right.x()), static_cast<float>(in_right.y()));
+  const cv::Point2f guess(
+      static_cast<float>(predicted.z() + left.position.x - predicted.x()),
+      static_cast<float>(predicted.w() + left.position.y - predicted.y()));
   PatchAlignment right;
   const Rigid3 right_from_world(
       camera_from_world.rotation,

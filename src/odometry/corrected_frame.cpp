@@ -11,12 +11,13 @@ StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
                       const StereoCorrection& correction) {
   if (correction.IsZero()) return frame;
   const auto is_too_far = [&](StereoPoint& point) {
-    const Eigen::Vector2d right(point.observation.z(),
-                                point.observation.y() + point.row_residual_px);
-    const double disparity =
-        point.observation.x() - NominalRightPixel(camera, correction, right).x();
+    const Eigen::Vector3d& seen = point.observation;
+    const Eigen::Vector3d nominal =
+        NominalPixels(camera, correction,
+                      {seen.x(), seen.y(), seen.z(), seen.y() + point.row_residual_px});
+    const double disparity = nominal.x() - nominal.z();
     if (!(disparity > point.sigma_px)) return true;
-    point.x_in_camera = camera.Triangulate(point.observation.x(), point.observation.y(), disparity);
+    point.x_in_camera = camera.Triangulate(nominal.x(), nominal.y(), disparity);
     return false;
   };
   StereoPoints& points = frame.points;

@@ -54,8 +54,8 @@ void DriftEstimator::Add(KeyframeId keyframe, const PoseDrift& drift) {
   larger.topLeftCorner(size, size) = covariance_;
   larger.bottomRightCorner<6, 6>() = drift.covariance;
   covariance_ = std::move(larger);
-  by_columns_.conservativeResize(size + 6, ImageBasis::kNumTerms);
-  by_columns_.bottomRows<6>() = drift.by_columns;
+  by_correction_.conservativeResize(size + 6, StereoCorrection::kNumPlacing);
+  by_correction_.bottomRows<6>() = drift.by_correction;
 }
 
 PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
@@ -63,16 +63,16 @@ PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_ke
   const Matrix6 carried = CarryStep(pose_from_keyframe);
   const PoseDrift drift = Drift(keyframe);
   return {own.covariance + carried * drift.covariance * carried.transpose(),
-          own.by_columns + carried * drift.by_columns};
+          own.by_correction + carried * drift.by_correction};
 }
 
 void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
-  const CorrectionBelief::Columns columns = correction.ColumnCovariance();
+  const CorrectionBelief::Placing columns = correction.PlacingCovariance();
   const bool is_learnt = columns.trace() <= columns_.trace();
   // What is learnt is independent of what stays unknown; another camera is all new.
-  const CorrectionBelief::Columns settled = is_learnt ? columns_ - columns : columns_;
-  covariance_ += by_columns_ * settled * by_columns_.transpose();
-  if (!is_learnt) by_columns_.setZero();
+  const CorrectionBelief::Placing settled = is_learnt ? columns_ - columns : columns_;
+  covariance_ += by_correction_ * settled * by_correction_.transpose();
+  if (!is_learnt) by_correction_.setZero();
   columns_ = columns;
 }
 
@@ -83,13 +83,13 @@ void DriftEstimator::Forget(KeyframeId oldest) {
   keyframes_.erase(keyframes_.begin(), first);
   const Eigen::Index size = covariance_.rows() - gone;
   covariance_ = covariance_.bottomRightCorner(size, size).eval();
-  by_columns_ = by_columns_.bottomRows(size).eval();
+  by_correction_ = by_correction_.bottomRows(size).eval();
 }
 
 void DriftEstimator::Clear() {
   keyframes_.clear();
   covariance_.resize(0, 0);
-  by_columns_.resize(0, ImageBasis::kNumTerms);
+  by_correction_.resize(0, StereoCorrection::kNumPlacing);
 }
 
 int DriftEstimator::Find(KeyframeId keyframe) const {
@@ -121,17 +121,17 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
   const MatrixXd free_by_others = step * TakeBlocks(covariance_, held_known, others);
   const MatrixXd free_by_free =
       own + step * TakeBlocks(covariance_, held_known, held_known) * step.transpose();
-  MatrixXd pulled(6 * free.size(), ImageBasis::kNumTerms);
+  MatrixXd pulled(6 * free.size(), StereoCorrection::kNumPlacing);
   for (size_t i = 0; i < free.size(); ++i) {
-    pulled.middleRows<6>(6 * i) = information.by_columns.middleRows<6>(6 * free[i]);
+    pulled.middleRows<6>(6 * i) = information.by_correction.middleRows<6>(6 * free[i]);
   }
-  MatrixXd held_by_columns(6 * held.size(), ImageBasis::kNumTerms);
+  MatrixXd held_by_correction(6 * held.size(), StereoCorrection::kNumPlacing);
   for (size_t i = 0; i < held.size(); ++i) {
-    held_by_columns.middleRows<6>(6 * i) = by_columns_.middleRows<6>(6 * held_known[i]);
+    held_by_correction.middleRows<6>(6 * i) = by_correction_.middleRows<6>(6 * held_known[i]);
   }
-  const MatrixXd free_by_columns = step * held_by_columns - factor.solve(pulled);
+  const MatrixXd free_by_correction = step * held_by_correction - factor.solve(pulled);
   for (size_t i = 0; i < free.size(); ++i) {
-    by_columns_.middleRows<6>(6 * free_known[i]) = free_by_columns.middleRows<6>(6 * i);
+    by_correction_.middleRows<6>(6 * free_known[i]) = free_by_correction.middleRows<6>(6 * i);
   }
   PutBlocks(free_by_others, free_known, others, covariance_);
   PutBlocks(free_by_others.transpose(), others, free_known, covariance_);
@@ -141,7 +141,7 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
 PoseDrift DriftEstimator::Drift(KeyframeId keyframe) const {
   const int i = Find(keyframe);
   if (i < 0) return {};
-  return {covariance_.block<6, 6>(6 * i, 6 * i), by_columns_.middleRows<6>(6 * i)};
+  return {covariance_.block<6, 6>(6 * i, 6 * i), by_correction_.middleRows<6>(6 * i)};
 }
 
 Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,

@@ -101,13 +101,10 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
   PointObservation point;
   point.x_in_world = landmark.x_in_world;
   point.x_covariance = landmark.covariance;
-  point.pixels = observation.pixels.head<3>();
+  point.pixels = NominalPixels(camera_, correction_, observation.pixels);
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
   point.votes = Votes(landmark);
-  if (point.has_right) {
-    point.pixels[2] = NominalRightPixel(camera_, correction_, observation.pixels.tail<2>()).x();
-  }
   correspondences.points.push_back(point);
 }
 
@@ -134,7 +131,8 @@ FrameTracker::Correspondences FrameTracker::MatchNear(const StereoFrame& frame, 
   std::vector<Prediction> predictions;
   for (const Landmark* landmark : landmarks) {
     const Eigen::Vector3d x = predicted * landmark->x_in_world;
-    const Eigen::Vector2d uv = camera_.Project(x);
+    const Eigen::Vector2d nominal = camera_.Project(x);
+    const Eigen::Vector2d uv = nominal + correction_.AtLeft(camera_, nominal);
     const Keyframe* reference = map.FindKeyframe(landmark->reference);
     const double reference_depth =
         reference ? (reference->camera_from_world * landmark->x_in_world).z() : x.z();

@@ -103,9 +103,10 @@ void GlobalMap::CheckCorrection(const KeyframeRecord& keyframe) {
   std::vector<double> deviations;
   for (const LandmarkObservation& observation : keyframe.observations) {
     if (!observation.has_right) continue;
-    const Eigen::Vector2d right = observation.pixels.tail<2>();
-    const double off = correction_.mean.At(camera_, right).y();
-    deviations.push_back(std::abs(right.y() - observation.pixels.y() - off));
+    const Eigen::Vector2d left = observation.pixels.head<2>(), right = observation.pixels.tail<2>();
+    const double off = NominalRightPixel(camera_, correction_.mean, right).y() -
+                       NominalLeftPixel(camera_, correction_.mean, left).y();
+    deviations.push_back(std::abs(off));
   }
   if (deviations.empty()) return;
   num_contradictions_ =

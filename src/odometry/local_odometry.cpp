@@ -11,7 +11,7 @@
 #include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
-#include "step_by_columns.h"
+#include "step_by_correction.h"
 
 namespace arfm_vo {
 
@@ -266,7 +266,7 @@ class LocalOdometry::Implementation {
   void AddDrift(OdometryUpdate& update) {
     const Keyframe& newest = map_.keyframes().back();
     const PoseDrift own{update.pose.covariance,
-                        FindStepByColumns(camera_, correction_.mean, map_.landmarks(),
+                        FindStepByCorrection(camera_, correction_.mean, map_.landmarks(),
                                           {newest.camera_from_world, newest.observations},
                                           {update.pose.camera_from_world, update.observations},
                                           options_.bundle.solver)};

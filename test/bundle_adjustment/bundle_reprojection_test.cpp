@@ -34,7 +34,7 @@ TEST(BundleReprojection, RightPixelsDoNotCountWithoutThem) {
                              Eigen::Vector3d(1, 0.5, 6), term));
   EXPECT_EQ(term.residual.tail<2>(), Eigen::Vector2d::Zero());
   EXPECT_TRUE(term.by_x.bottomRows<2>().isZero(0));
-  EXPECT_TRUE(term.right_by_coefficients.isZero(0));
+  EXPECT_TRUE(term.right_by_field.isZero(0));
 }
 
 TEST(BundleReprojection, APointBehindTheCameraIsALargeConstant) {

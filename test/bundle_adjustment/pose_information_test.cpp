@@ -60,7 +60,7 @@ TEST(PoseInformation, TellsHowThePosesMoveWithTheCorrection) {
   const Eigen::VectorXd expected =
       -information.poses.bottomRightCorner(kSize, kSize)
            .ldlt()
-           .solve(information.by_columns.bottomRows(kSize) * step.head<ImageBasis::kNumTerms>());
+           .solve(information.by_correction.bottomRows(kSize) * step.head<ImageBasis::kNumTerms>());
   for (int pose = kFirst; pose < 6; ++pose) {
     const Rigid3 motion = moved.camera_from_world[pose] * held.camera_from_world[pose].Inverse();
     const Eigen::Vector3d shift = moved.camera_from_world[pose].translation -

@@ -25,7 +25,7 @@ PoseInformation Chain(int num_poses, double weight) {
     information.block<6, 6>(6 * i, 6 * i + 6) -= weight * kOne;
     information.block<6, 6>(6 * i + 6, 6 * i) -= weight * kOne;
   }
-  return {information, Eigen::MatrixXd::Zero(6 * num_poses, ImageBasis::kNumTerms)};
+  return {information, Eigen::MatrixXd::Zero(6 * num_poses, StereoCorrection::kNumPlacing)};
 }
 
 TEST(DriftEstimator, EachStepOfAChainAddsItsVariance) {
@@ -74,7 +74,7 @@ TEST(DriftEstimator, AnUnknownCorrectionErrsAlikeInEachStep) {
     for (int k = first; k <= last; ++k) {
       drift.Add(k, drift.Beside(k - 1, Rigid3(), Noise(kOne)));
       PoseInformation step = Chain(2, 1e12);
-      step.by_columns(6 + 5, 0) = -1e12 * 0.01;
+      step.by_correction(6 + 5, 0) = -1e12 * 0.01;
       drift.Update({k - 1, k}, {1, 0}, step);
     }
   };

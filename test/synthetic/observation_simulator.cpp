@@ -160,7 +160,7 @@ std::optional<SimulatedObservation> ObservationSimulator::Observe(int id) {
 void ObservationSimulator::Disturb(SimulatedObservation& observation) {
   Eigen::Vector3d& pixels = observation.pixels;
   const Eigen::Vector2d displaced =
-      options_.displacement.At(camera_, {pixels.z(), observation.v_right});
+      options_.displacement.AtRight(camera_, {pixels.z(), observation.v_right});
   pixels.z() += displaced.x();
   observation.v_right += displaced.y();
   observation.is_outlier = RandomUnit(engine_) < options_.outlier_fraction;

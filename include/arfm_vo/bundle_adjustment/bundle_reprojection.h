@@ -11,17 +11,18 @@ namespace arfm_vo {
 Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega);
 
 /// The reprojection error of a stereo observation of point X by pose (R, t), px / sigma:
-///   r = (pi(x) - (u_left, v_left), p + d(p) - (u_right, v_right)) / sigma
-///   x = R X + t,  p = pi(x - (b, 0, 0))
-/// with pi the pinhole projection (eq 1), b the baseline and d the displacement by the
+///   r = (p + l(p) - (u_left, v_left), q + d(q) - (u_right, v_right)) / sigma
+///   x = R X + t,  p = pi(x),  q = pi(x - (b, 0, 0))
+/// with pi the pinhole projection (eq 1), b the baseline and l, d the displacements by the
 /// StereoCorrection. The last two rows are zero where the right image does not see the point.
 struct ReprojectionTerm {
   Eigen::Vector4d residual;
   Eigen::Vector3d x;                 ///< m, camera frame
   Eigen::Matrix<double, 4, 3> by_x;  ///< derivative by x
   /// Derivative of the third row by the correction's coefficients of u, which is that of the fourth
-  /// by its coefficients of v; the others are zero.
-  Eigen::Matrix<double, ImageBasis::kNumTerms, 1> right_by_coefficients;
+  /// by its coefficients of v; other rows do not depend on these.
+  Eigen::Matrix<double, StereoCorrection::kNumField, 1> right_by_field;
+  Eigen::Matrix<double, 4, StereoCorrection::kNumRadial> by_radial;
 
   /// Derivatives by the step of BoxPlus(pose, .), by X, and by the correction.
   Eigen::Matrix<double, 4, 6> ByPose() const;
@@ -47,6 +48,10 @@ class ReprojectionModel {
                 Eigen::Vector4d& residual) const;
 
  private:
+  /// Adds the radial displacement to the two rows of `term` from `row` on, whose ray is (x/z, y/z).
+  void DisplaceRadially(const Eigen::Vector2d& ray, int row, double sigma_px,
+                        ReprojectionTerm& term) const;
+
   StereoCamera camera_;
   StereoCorrection correction_;
   bool is_rectified_;  ///< the correction is zero

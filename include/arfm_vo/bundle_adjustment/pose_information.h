@@ -12,9 +12,9 @@ struct PoseInformation {
   /// [6P x 6P]. The block of some poses is the inverse of their covariance given all others; the
   /// whole is singular, as nothing ties it to the world.
   Eigen::MatrixXd poses;
-  /// [6P x 10], px^-1: the same between the poses and the coefficients of the columns' displacement
-  /// (StereoCorrection), which the adjustment holds.
-  Eigen::MatrixXd by_columns;
+  /// [6P x StereoCorrection::kNumPlacing], px^-1: the same between the poses and the coefficients of
+  /// the correction that move points, which the adjustment holds.
+  Eigen::MatrixXd by_correction;
 };
 
 /// At the result and with the weights of `options`.

@@ -17,14 +17,16 @@ struct CorrectionBelief {
   /// against the left that would cause it: rotation, focal length, centre and the distortion of
   /// Brown and Conrady (k1..k3, p1, p2), which move columns and rows together, so that rows tell
   /// of columns; 0.1 px a coefficient is left for what that model does not know, and the whole
-  /// field is no more than about a pixel, as a calibration makes it.
+  /// field is no more than about a pixel, as a calibration makes it. Where a board seldom comes, in
+  /// the corners, both images may be off radially by some pixels.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
 
   Matrix Information() const;
-  using Columns = Eigen::Matrix<double, ImageBasis::kNumTerms, ImageBasis::kNumTerms>;
-  /// Of the coefficients of the columns' displacement, which moves points in space.
-  Columns ColumnCovariance() const {
-    return covariance.topLeftCorner<ImageBasis::kNumTerms, ImageBasis::kNumTerms>();
+  using Placing =
+      Eigen::Matrix<double, StereoCorrection::kNumPlacing, StereoCorrection::kNumPlacing>;
+  /// Of the coefficients that move points in space.
+  Placing PlacingCovariance() const {
+    return covariance.topLeftCorner<StereoCorrection::kNumPlacing, StereoCorrection::kNumPlacing>();
   }
   /// Largest standard deviation of the columns' displacement over the image, px.
   double MaxColumnSigma(const StereoCamera& camera) const;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cmath>
 
 #include "arfm_vo/geometry/stereo_camera.h"
 
@@ -26,22 +28,51 @@ struct ImageBasis {
   }
 };
 
-/// What rectification left undone: how far from where the calibration says the right image shows
-/// things, a smooth field over that image. Every small error of the right camera's rotation, focal
-/// length, centre or distortion is such a field nearly enough (cf. Kreso and Segvic, VISAPP 2015),
-/// and so is the difference of such errors in both cameras.
+/// Radial distortion about the principal point: displacements by r^3 (k1 of Brown and Conrady), 1 px
+/// in the corners for each px of its coefficient, and by r^5 - r^3, zero there (k2, mostly).
+struct RadialBasis {
+  static constexpr int kNumTerms = 2;
+  Eigen::Matrix<double, 2, kNumTerms> values;      ///< (u, v) by the coefficients
+  std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
+
+  RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
+    const double inverse = 2 / std::hypot(camera.width, camera.height);
+    const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
+    const double r2 = p.squaredNorm(), gain[kNumTerms] = {r2, r2 * r2 - r2};
+    const double slope[kNumTerms] = {2, 4 * r2 - 2};
+    for (int i = 0; i < kNumTerms; ++i) {
+      values.col(i) = gain[i] * p;
+      by_pixel[i] = inverse * (gain[i] * Eigen::Matrix2d::Identity() + slope[i] * p * p.transpose());
+    }
+  }
+};
+
+/// What calibration and rectification left undone: how far from where the calibration says the
+/// images show things. The right image's displacement is a smooth field: every small error of its
+/// camera's rotation, focal length, centre or distortion is such a field nearly enough (cf. Kreso
+/// and Segvic, VISAPP 2015), and so is the difference of such errors in both cameras. What both
+/// cameras have in common, which stereo does not see and motion does, is radial.
 struct StereoCorrection {
-  static constexpr int kSize = 2 * ImageBasis::kNumTerms;
+  static constexpr int kNumField = ImageBasis::kNumTerms, kNumRadial = RadialBasis::kNumTerms;
+  static constexpr int kSize = 2 * kNumField + kNumRadial;
+  /// The first so many coefficients move points in space and poses; rows do not.
+  static constexpr int kNumPlacing = kNumField + kNumRadial;
   using Coefficients = Eigen::Matrix<double, kSize, 1>;
 
-  Coefficients coefficients_px = Coefficients::Zero();  ///< of ImageBasis: ten of u, ten of v
+  /// Ten of the right image's u, two radial ones of both images, ten of the right image's v.
+  Coefficients coefficients_px = Coefficients::Zero();
 
   bool IsZero() const { return coefficients_px.isZero(0); }
-  /// Displacement (du, dv), px, of what the calibration places at `pixel` of the right image.
-  Eigen::Vector2d At(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
+  /// Displacement (du, dv), px, of what the calibration places at `pixel` of the left image.
+  Eigen::Vector2d AtLeft(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
+    return RadialBasis(camera, pixel).values * coefficients_px.segment<kNumRadial>(kNumField);
+  }
+  /// The same of the right image.
+  Eigen::Vector2d AtRight(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
     const ImageBasis basis(camera, pixel);
-    return {coefficients_px.head<ImageBasis::kNumTerms>().dot(basis.values),
-            coefficients_px.tail<ImageBasis::kNumTerms>().dot(basis.values)};
+    return AtLeft(camera, pixel) +
+           Eigen::Vector2d(coefficients_px.head<kNumField>().dot(basis.values),
+                           coefficients_px.tail<kNumField>().dot(basis.values));
   }
 };
 
@@ -51,20 +82,38 @@ inline Eigen::Vector4d ProjectStereo4(const StereoCamera& camera,
                                       const StereoCorrection& correction,
                                       const Eigen::Vector3d& x_in_left) {
   const Eigen::Vector3d rectified = camera.ProjectStereo(x_in_left);
-  const Eigen::Vector2d right(rectified.z(), rectified.y());
-  Eigen::Vector4d pixels;
-  pixels << rectified.head<2>(), right + correction.At(camera, right);
-  return pixels;
+  Eigen::Vector2d left = rectified.head<2>(), right(rectified.z(), rectified.y());
+  if (!correction.IsZero()) {
+    left += correction.AtLeft(camera, left);
+    right += correction.AtRight(camera, right);
+  }
+  return {left.x(), left.y(), right.x(), right.y()};
 }
 
-/// Where a right image without the displacement would show what the real one shows at
-/// `right_pixel`, to the square of the field's slope.
+/// Where a left image without the displacement would show what the real one shows at `pixel`, to
+/// the square of the displacement's slope.
+inline Eigen::Vector2d NominalLeftPixel(const StereoCamera& camera,
+                                        const StereoCorrection& correction,
+                                        const Eigen::Vector2d& pixel) {
+  if (correction.IsZero()) return pixel;
+  return pixel - correction.AtLeft(camera, pixel - correction.AtLeft(camera, pixel));
+}
+
+/// The same for the right image.
 inline Eigen::Vector2d NominalRightPixel(const StereoCamera& camera,
                                          const StereoCorrection& correction,
-                                         const Eigen::Vector2d& right_pixel) {
-  if (correction.IsZero()) return right_pixel;
-  const Eigen::Vector2d guess = right_pixel - correction.At(camera, right_pixel);
-  return right_pixel - correction.At(camera, guess);
+                                         const Eigen::Vector2d& pixel) {
+  if (correction.IsZero()) return pixel;
+  return pixel - correction.AtRight(camera, pixel - correction.AtRight(camera, pixel));
+}
+
+/// (u_left, v_left, u_right) that a rectified pair would show for what the real one shows at
+/// (u_left, v_left, u_right, v_right); u_right is not to be used where the right image does not see
+/// the point.
+inline Eigen::Vector3d NominalPixels(const StereoCamera& camera, const StereoCorrection& correction,
+                                     const Eigen::Vector4d& pixels) {
+  const Eigen::Vector2d left = NominalLeftPixel(camera, correction, pixels.head<2>());
+  return {left.x(), left.y(), NominalRightPixel(camera, correction, pixels.tail<2>()).x()};
 }
 
 }  // namespace arfm_vo

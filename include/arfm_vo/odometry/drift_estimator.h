@@ -16,8 +16,8 @@ namespace arfm_vo {
 struct PoseDrift {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by noise
   /// Step by the coefficients of the columns' displacement, px^-1.
-  Eigen::Matrix<double, 6, ImageBasis::kNumTerms> by_columns =
-      Eigen::Matrix<double, 6, ImageBasis::kNumTerms>::Zero();
+  Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> by_correction =
+      Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing>::Zero();
 };
 
 /// How unsure the poses of the window's keyframes are against the first camera of all: what each
@@ -47,7 +47,7 @@ class DriftEstimator {
   Matrix6 Covariance(KeyframeId keyframe) const { return Covariance(Drift(keyframe)); }
   /// Covariance of a pose, all told.
   Matrix6 Covariance(const PoseDrift& drift) const {
-    return drift.covariance + drift.by_columns * columns_ * drift.by_columns.transpose();
+    return drift.covariance + drift.by_correction * columns_ * drift.by_correction.transpose();
   }
   /// Of a pose beside a keyframe (no drift where that is unknown); `own` is its drift against it.
   PoseDrift Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
@@ -61,8 +61,8 @@ class DriftEstimator {
   std::vector<KeyframeId> keyframes_;  ///< ascending
   Eigen::MatrixXd covariance_;         ///< [6N x 6N], without what the correction errs
   /// [6N x 10] steps by the columns' coefficients, px^-1
-  Eigen::MatrixXd by_columns_ = Eigen::MatrixXd(0, ImageBasis::kNumTerms);
-  CorrectionBelief::Columns columns_ = CorrectionBelief::Columns::Zero();
+  Eigen::MatrixXd by_correction_ = Eigen::MatrixXd(0, StereoCorrection::kNumPlacing);
+  CorrectionBelief::Placing columns_ = CorrectionBelief::Placing::Zero();
 };
 
 /// `covariance` of a pose a_from_world as that of b_from_world = b_from_a * a_from_world with

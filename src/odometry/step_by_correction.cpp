@@ -1,4 +1,4 @@
-#include "step_by_columns.h"
+#include "step_by_correction.h"
 
 #include <Eigen/Cholesky>
 
@@ -11,7 +11,7 @@ constexpr size_t kNumPoints = 100;
 
 }  // namespace
 
-Eigen::Matrix<double, 6, ImageBasis::kNumTerms> FindStepByColumns(
+Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     const StereoCamera& camera, const StereoCorrection& correction, const Landmarks& landmarks,
     const PosedObservations& before, const PosedObservations& now, const BundleOptions& solver) {
   BundleProblem problem;
@@ -40,9 +40,9 @@ Eigen::Matrix<double, 6, ImageBasis::kNumTerms> FindStepByColumns(
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(
       information.poses.bottomRightCorner<6, 6>());
   if (!factor.isPositive() || factor.rcond() < 1e-12) {
-    return Eigen::Matrix<double, 6, ImageBasis::kNumTerms>::Zero();
+    return Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing>::Zero();
   }
-  return -factor.solve(information.by_columns.bottomRows<6>());
+  return -factor.solve(information.by_correction.bottomRows<6>());
 }
 
 }  // namespace arfm_vo
