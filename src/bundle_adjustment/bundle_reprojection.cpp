@@ -112,8 +112,8 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
 void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, double sigma_px,
                                          ReprojectionTerm& term) const {
   constexpr int kNumRadial = StereoCorrection::kNumRadial;
-  const RadialBasis basis(
-      camera_, {camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy});
+  const RadialBasis basis(camera_,
+                          {camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy});
   const auto coefficients =
       correction_.coefficients_px.segment<kNumRadial>(StereoCorrection::kNumField);
   Eigen::Matrix2d by_pixel = Eigen::Matrix2d::Identity();

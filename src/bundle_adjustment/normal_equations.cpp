@@ -110,7 +110,8 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
       sighting_blocks_[index].topRows<3>() += CrossColumns(term.x, m_r);
       sighting_blocks_[index].bottomRows<3>() += m_r;
     }
-    if (num_coefficients_ > 0) LinearizeByCorrection(term, weight, rotation, track, free_pose, piece);
+    if (num_coefficients_ > 0)
+      LinearizeByCorrection(term, weight, rotation, track, free_pose, piece);
   }
 }
 

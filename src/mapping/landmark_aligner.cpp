@@ -91,9 +91,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   float variance = left.covariance[0] + left.covariance[2];
-  const cv::Point2f guess(
-      static_cast<float>(predicted.z() + left.position.x - predicted.x()),
-      static_cast<float>(predicted.w() + left.position.y - predicted.y()));
+  const cv::Point2f guess(static_cast<float>(predicted.z() + left.position.x - predicted.x()),
+                          static_cast<float>(predicted.w() + left.position.y - predicted.y()));
   PatchAlignment right;
   const Rigid3 right_from_world(
       camera_from_world.rotation,

@@ -12,9 +12,8 @@ StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
   if (correction.IsZero()) return frame;
   const auto is_too_far = [&](StereoPoint& point) {
     const Eigen::Vector3d& seen = point.observation;
-    const Eigen::Vector3d nominal =
-        NominalPixels(camera, correction,
-                      {seen.x(), seen.y(), seen.z(), seen.y() + point.row_residual_px});
+    const Eigen::Vector3d nominal = NominalPixels(
+        camera, correction, {seen.x(), seen.y(), seen.z(), seen.y() + point.row_residual_px});
     const double disparity = nominal.x() - nominal.z();
     if (!(disparity > point.sigma_px)) return true;
     point.x_in_camera = camera.Triangulate(nominal.x(), nominal.y(), disparity);

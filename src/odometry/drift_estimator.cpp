@@ -67,13 +67,13 @@ PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_ke
 }
 
 void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
-  const CorrectionBelief::Placing columns = correction.PlacingCovariance();
-  const bool is_learnt = columns.trace() <= columns_.trace();
+  const CorrectionBelief::Placing unknown = correction.PlacingCovariance();
+  const bool is_learnt = unknown.trace() <= unknown_.trace();
   // What is learnt is independent of what stays unknown; another camera is all new.
-  const CorrectionBelief::Placing settled = is_learnt ? columns_ - columns : columns_;
+  const CorrectionBelief::Placing settled = is_learnt ? unknown_ - unknown : unknown_;
   covariance_ += by_correction_ * settled * by_correction_.transpose();
   if (!is_learnt) by_correction_.setZero();
-  columns_ = columns;
+  unknown_ = unknown;
 }
 
 void DriftEstimator::Forget(KeyframeId oldest) {

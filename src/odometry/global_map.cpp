@@ -22,6 +22,10 @@ constexpr double kKnownSigmaPx = 0.1;
 /// simulated drives (simulated_run_test: NEES).
 constexpr double kTrackCorrelation = 3;
 
+/// No coefficient is known better: so much do drives with the same camera differ, whatever the
+/// statistics of one say (docs/self_calibration.md).
+constexpr double kModelSigmaPx = 0.05;
+
 /// Rows that are off by more than this, the median of a keyframe, in so many keyframes on end, say
 /// that the camera has changed.
 constexpr double kContradictionPx = 0.5;
@@ -33,7 +37,9 @@ constexpr double kAdjustmentGrowth = 1.5;
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
 
 bool IsKnown(const CorrectionBelief& correction, const StereoCamera& camera) {
-  return correction.MaxColumnSigma(camera) <= std::sqrt(kTrackCorrelation) * kKnownSigmaPx;
+  const double model_px = CorrectionBelief::Isotropic(kModelSigmaPx).MaxColumnSigma(camera);
+  return correction.MaxColumnSigma(camera) <=
+         std::hypot(std::sqrt(kTrackCorrelation) * kKnownSigmaPx, model_px);
 }
 
 }  // namespace
@@ -217,6 +223,7 @@ void GlobalMap::LearnCorrection(const BundleResult& result) {
       result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
   if (!is_whole || result.correction_covariance.isZero(0)) return;
   correction_ = {result.correction, kTrackCorrelation * result.correction_covariance};
+  correction_.covariance.diagonal().array() += kModelSigmaPx * kModelSigmaPx;
   is_learning_ = !IsKnown(correction_, camera_);
 }
 

@@ -267,9 +267,9 @@ class LocalOdometry::Implementation {
     const Keyframe& newest = map_.keyframes().back();
     const PoseDrift own{update.pose.covariance,
                         FindStepByCorrection(camera_, correction_.mean, map_.landmarks(),
-                                          {newest.camera_from_world, newest.observations},
-                                          {update.pose.camera_from_world, update.observations},
-                                          options_.bundle.solver)};
+                                             {newest.camera_from_world, newest.observations},
+                                             {update.pose.camera_from_world, update.observations},
+                                             options_.bundle.solver)};
     pose_drift_ = drift_.Beside(
         newest.id, update.pose.camera_from_world * newest.camera_from_world.Inverse(), own);
     update.covariance_from_start = drift_.Covariance(pose_drift_);

@@ -14,8 +14,8 @@ struct PosedObservations {
   const LandmarkObservations& observations;  ///< sorted by landmark
 };
 
-/// PoseDrift::by_correction of `now` against `before`, by the points that both see: some 100 of them.
-/// Zero where these do not fix the pose.
+/// PoseDrift::by_correction of `now` against `before`, by the points that both see: some 100 of
+/// them. Zero where these do not fix the pose.
 Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     const StereoCamera& camera, const StereoCorrection& correction, const Landmarks& landmarks,
     const PosedObservations& before, const PosedObservations& now, const BundleOptions& solver);

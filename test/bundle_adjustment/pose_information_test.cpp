@@ -54,13 +54,14 @@ TEST(PoseInformation, TellsHowThePosesMoveWithTheCorrection) {
   const PoseInformation information = FindPoseInformation(scene.problem, held, options);
   StereoCorrection::Coefficients step = StereoCorrection::Coefficients::Zero();
   step.head<4>() << 0.02, -0.01, 0.01, 0.015;
+  step.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField) << 0.02, 0.03;
   scene.problem.correction.coefficients_px = step;
   const BundleResult moved = AdjustBundle(scene.problem, options);
   constexpr int kFirst = 2, kSize = 6 * 4;  // two poses are held
-  const Eigen::VectorXd expected =
-      -information.poses.bottomRightCorner(kSize, kSize)
-           .ldlt()
-           .solve(information.by_correction.bottomRows(kSize) * step.head<ImageBasis::kNumTerms>());
+  const Eigen::VectorXd expected = -information.poses.bottomRightCorner(kSize, kSize)
+                                        .ldlt()
+                                        .solve(information.by_correction.bottomRows(kSize) *
+                                               step.head<StereoCorrection::kNumPlacing>());
   for (int pose = kFirst; pose < 6; ++pose) {
     const Rigid3 motion = moved.camera_from_world[pose] * held.camera_from_world[pose].Inverse();
     const Eigen::Vector3d shift = moved.camera_from_world[pose].translation -

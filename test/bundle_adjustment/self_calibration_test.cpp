@@ -12,15 +12,18 @@ namespace {
 
 using Coefficients = StereoCorrection::Coefficients;
 
-/// Small errors of the right camera: a turn about each axis, and what a lens leaves.
+/// Small errors of the right camera: a turn about each axis, and what its lens leaves; and radial
+/// ones of both.
 Coefficients MakeDisplacement() {
   Coefficients coefficients = Coefficients::Zero();
   coefficients[0] = 0.2;
   coefficients[3] = 0.15;
   coefficients[6] = -0.1;
-  coefficients[10] = -0.3;
-  coefficients[11] = 0.2;
-  coefficients[14] = 0.4;
+  coefficients.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField) << 2, -1;
+  constexpr int kRows = StereoCorrection::kNumPlacing;
+  coefficients[kRows] = -0.3;
+  coefficients[kRows + 1] = 0.2;
+  coefficients[kRows + 4] = 0.4;
   return coefficients;
 }
 
@@ -43,16 +46,22 @@ CorridorOptions MakeOptions(const Coefficients& displacement) {
 BundleResult Calibrate(const CorridorOptions& corridor) {
   BundleProblem problem = MakeCorridor(corridor).problem;
   problem.correction_prior = CorrectionBelief::Isotropic(5);  // no help
-  return AdjustBundle(problem, {});
+  BundleOptions options;
+  options.function_tolerance = 1e-10;  // what is told worst settles last
+  return AdjustBundle(problem, options);
 }
 
 TEST(SelfCalibration, FindsTheDisplacementOfTheRightImageFromNoisyImagesAlone) {
   const Coefficients truth = MakeDisplacement();
-  const BundleResult result = Calibrate(MakeOptions(truth));
+  CorridorOptions corridor = MakeOptions(truth);
+  corridor.num_poses = 24;
+  corridor.num_points = 1600;
+  const BundleResult result = Calibrate(corridor);
   EXPECT_LT(SquaredDistance(result, truth), ChiSquareQuantile(StereoCorrection::kSize, 0.99));
   for (int i = 0; i < StereoCorrection::kSize; ++i) {
     const double sigma = std::sqrt(result.correction_covariance(i, i));
-    EXPECT_LT(sigma, 0.1) << "coefficient " << i << " is not worth stating";
+    const bool is_radial = i >= StereoCorrection::kNumField && i < StereoCorrection::kNumPlacing;
+    EXPECT_LT(sigma, is_radial ? 0.5 : 0.1) << "coefficient " << i << " is not worth stating";
     EXPECT_NEAR(result.correction.coefficients_px[i], truth[i], 4 * sigma) << i;
   }
 }
@@ -67,7 +76,7 @@ TEST(SelfCalibration, StatesAnHonestCovarianceWithAndWithoutADisplacement) {
       CorridorOptions corridor = MakeOptions(truth);
       corridor.num_poses = 8;
       corridor.num_points = 300;
-      corridor.seed = 1000 + trial;
+      corridor.seed = 1 + trial;
       const BundleResult result = Calibrate(corridor);
       sum += SquaredDistance(result, truth);
       num_significant +=
@@ -140,16 +149,21 @@ TEST(SelfCalibration, EarlierInformationCountsAsMuchAsTheObservations) {
   const Coefficients truth = MakeDisplacement();
   BundleProblem problem = MakeCorridor(MakeOptions(truth)).problem;
   problem.correction_prior = CorrectionBelief::Isotropic(5);
-  const BundleResult alone = AdjustBundle(problem, {});
+  BundleOptions options;
+  options.function_tolerance = 1e-12;
+  options.max_iterations = 100;
+  const BundleResult alone = AdjustBundle(problem, options);
   const Coefficients shift = 0.01 * Coefficients::Ones();
+  const auto distance = [&](const Coefficients& step) {  // in standard deviations
+    return std::sqrt(step.dot(alone.correction_covariance.ldlt().solve(step)));
+  };
   problem.correction_prior->covariance = alone.correction_covariance;
   problem.correction_prior->mean.coefficients_px = alone.correction.coefficients_px + shift;
   for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
-    BundleOptions options;
     options.solver = solver;
     const BundleResult both = AdjustBundle(problem, options);
     const Coefficients moved = both.correction.coefficients_px - alone.correction.coefficients_px;
-    for (int i = 0; i < StereoCorrection::kSize; ++i) EXPECT_NEAR(moved[i], 0.005, 0.001) << i;
+    EXPECT_LT(distance(moved - shift / 2), 0.2 * distance(shift / 2));
     const double ratio = both.correction_covariance.trace() / alone.correction_covariance.trace();
     EXPECT_NEAR(ratio, 0.5, 0.1);
   }

@@ -25,7 +25,8 @@ StereoCorrection Fit(Field&& field) {
   }
   StereoCorrection fitted;
   const Eigen::Matrix<double, kNumTerms, 2> solution = gram.ldlt().solve(along);
-  fitted.coefficients_px << solution.col(0), solution.col(1);
+  fitted.coefficients_px.head<kNumTerms>() = solution.col(0);
+  fitted.coefficients_px.tail<kNumTerms>() = solution.col(1);
   return fitted;
 }
 
@@ -52,6 +53,16 @@ TEST(CorrectionBelief, OfACalibrationIsAboutAPixelWide) {
   EXPECT_GT(belief.MaxColumnSigma(kCamera), 1);
 }
 
+TEST(CorrectionBelief, BothCornersOfACalibrationMayBeOffBySomePixels) {
+  const CorrectionBelief belief = CorrectionBelief::OfCalibration(kCamera);
+  const RadialBasis corner(kCamera, {kCamera.width - 1.0, kCamera.height - 1.0});
+  constexpr int kFirst = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  const Eigen::Matrix2d covariance =
+      corner.values * belief.covariance.block<kNumRadial, kNumRadial>(kFirst, kFirst) *
+      corner.values.transpose();
+  EXPECT_NEAR(std::sqrt(covariance.trace()), 3, 1);
+}
+
 /// A roll of 1 mrad: rows by 0.6 px at the edges, columns by 0.2 px at top and bottom.
 TEST(CorrectionBelief, RowsThatShowARollTellOfColumns) {
   const CorrectionBelief prior = CorrectionBelief::OfCalibration(kCamera);
@@ -72,7 +83,7 @@ TEST(CorrectionBelief, RowsByXyTellOfColumnsByXSquaredAndYSquared) {
     return Eigen::Vector2d(kCamera.fx * (yaw * x * x + p2 * (3 * x * x + y * y)),
                            kCamera.fy * (yaw + 2 * p2) * x * y);
   });
-  ASSERT_GT(std::abs(field.coefficients_px[14]), 1);
+  ASSERT_GT(std::abs(field.coefficients_px[StereoCorrection::kNumPlacing + 4]), 1);
   const Eigen::VectorXd columns = ColumnsByRows(prior, field);
   for (const int k : {3, 5}) {
     EXPECT_GT(std::abs(field.coefficients_px[k]), 0.3) << k;

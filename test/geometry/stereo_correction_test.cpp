@@ -19,9 +19,9 @@ TEST(StereoCorrection, ZeroIsTheRectifiedPair) {
 
 TEST(StereoCorrection, DisplacesTheRightImageAsCanBeCheckedByHand) {
   StereoCorrection correction;
-  correction.coefficients_px[0] = 0.5;   // u by a constant
-  correction.coefficients_px[1] = 0.25;  // and by x
-  correction.coefficients_px[14] = 2;    // v by x y
+  correction.coefficients_px[0] = 0.5;                                // u by a constant
+  correction.coefficients_px[1] = 0.25;                               // and by x
+  correction.coefficients_px[StereoCorrection::kNumPlacing + 4] = 2;  // v by x y
   const Eigen::Vector3d x(2, 0.5, 10);
   const Eigen::Vector3d rectified = kCamera.ProjectStereo(x);
   const Eigen::Vector4d pixels = ProjectStereo4(kCamera, correction, x);
@@ -59,15 +59,51 @@ TEST(StereoCorrection, SlopesAgreeWithNumericOnes) {
   }
 }
 
-TEST(StereoCorrection, NominalRightPixelUndoesTheDisplacement) {
+TEST(StereoCorrection, RadialTermsMoveBothImagesAwayFromTheCentre) {
+  StereoCorrection correction;
+  correction.coefficients_px[StereoCorrection::kNumField] = 2;
+  const Eigen::Vector2d centre(kCamera.cx, kCamera.cy);
+  const Eigen::Vector2d to_corner(kCamera.width / 2.0, kCamera.height / 2.0);
+  EXPECT_NEAR(correction.AtLeft(kCamera, centre).norm(), 0, 1e-12);
+  const Eigen::Vector2d corner = correction.AtLeft(kCamera, centre + to_corner);
+  EXPECT_NEAR(corner.norm(), 2, 1e-12);
+  EXPECT_NEAR(corner.dot(to_corner), corner.norm() * to_corner.norm(), 1e-9);
+  EXPECT_NEAR(correction.AtLeft(kCamera, centre - to_corner / 2).norm(), 2.0 / 8, 1e-12);
+  EXPECT_EQ(correction.AtRight(kCamera, centre + to_corner), corner);
+  correction.coefficients_px.setZero();
+  correction.coefficients_px[StereoCorrection::kNumField + 1] = 2;
+  EXPECT_NEAR(correction.AtLeft(kCamera, centre + to_corner).norm(), 0, 1e-12);
+  EXPECT_NEAR(correction.AtLeft(kCamera, centre - to_corner / 2).norm(), 2.0 / 8 * 3 / 4, 1e-12);
+}
+
+TEST(StereoCorrection, SlopesOfRadialTermsAgreeWithNumericOnes) {
+  const Eigen::Vector2d pixel(900, 50);
+  const RadialBasis basis(kCamera, pixel);
+  constexpr double kStep = 1e-4;
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
+    const Eigen::Matrix2d numeric =
+        (RadialBasis(kCamera, pixel + step).values - RadialBasis(kCamera, pixel - step).values) /
+        (2 * kStep);
+    for (int i = 0; i < RadialBasis::kNumTerms; ++i) {
+      EXPECT_LT((basis.by_pixel[i].col(k) - numeric.col(i)).norm(), 1e-9) << i;
+    }
+  }
+}
+
+TEST(StereoCorrection, NominalPixelsUndoTheDisplacement) {
   StereoCorrection correction;
   correction.coefficients_px.setLinSpaced(-0.5, 0.6);
+  correction.coefficients_px.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField)
+      << 2,
+      -1;
   for (const double z : {2.0, 10.0, 1000.0}) {
     const Eigen::Vector3d x(0.5 * z, -0.1 * z, z);
-    const Eigen::Vector2d seen = ProjectStereo4(kCamera, correction, x).tail<2>();
-    const Eigen::Vector2d nominal = ProjectStereo4(kCamera, {}, x).tail<2>();
-    EXPECT_GT((seen - nominal).norm(), 0.1);
-    EXPECT_LT((NominalRightPixel(kCamera, correction, seen) - nominal).norm(), 1e-4);
+    const Eigen::Vector4d seen = ProjectStereo4(kCamera, correction, x);
+    const Eigen::Vector4d nominal = ProjectStereo4(kCamera, {}, x);
+    EXPECT_GT((seen - nominal).head<2>().norm(), 0.1);
+    EXPECT_GT((seen - nominal).tail<2>().norm(), 0.1);
+    EXPECT_LT((NominalPixels(kCamera, correction, seen) - nominal.head<3>()).norm(), 2e-4);
   }
 }
 

@@ -59,7 +59,8 @@ TEST(DriftEstimator, HeldKeyframesThatErrAlikeDoNotHelpEachOther) {
   information.bottomRightCorner<6, 6>() = 2 * kOne;
   information.block<6, 6>(12, 0) = information.block<6, 6>(12, 6) = -kOne;
   information.block<6, 6>(0, 12) = information.block<6, 6>(6, 12) = -kOne;
-  drift.Update({1, 2, 3}, {1, 1, 0}, {information, Eigen::MatrixXd::Zero(18, 10)});
+  drift.Update({1, 2, 3}, {1, 1, 0},
+               {information, Eigen::MatrixXd::Zero(18, StereoCorrection::kNumPlacing)});
   EXPECT_NEAR((drift.Covariance(3) - 1.5 * kOne).norm(), 0, 1e-6);
 }
 

@@ -42,7 +42,7 @@ double LargestError(const RowModel& model) {
 
 TEST(RowModel, BeginsWithWhatIsKnown) {
   CorrectionBelief known = CorrectionBelief::Isotropic(0.02);
-  known.mean.coefficients_px[10] = 0.4;
+  known.mean.coefficients_px[StereoCorrection::kNumPlacing] = 0.4;
   RowModel model(kCamera, known);
   EXPECT_NEAR(model.Predict(300, 100), 0.4, 1e-12);
   model.Update({{100, 50, 2.0, 1}});  // one odd match does not undo it

@@ -159,10 +159,11 @@ std::optional<SimulatedObservation> ObservationSimulator::Observe(int id) {
 /// half another place in both.
 void ObservationSimulator::Disturb(SimulatedObservation& observation) {
   Eigen::Vector3d& pixels = observation.pixels;
-  const Eigen::Vector2d displaced =
+  const Eigen::Vector2d right =
       options_.displacement.AtRight(camera_, {pixels.z(), observation.v_right});
-  pixels.z() += displaced.x();
-  observation.v_right += displaced.y();
+  pixels.head<2>() += options_.displacement.AtLeft(camera_, pixels.head<2>());
+  pixels.z() += right.x();
+  observation.v_right += right.y();
   observation.is_outlier = RandomUnit(engine_) < options_.outlier_fraction;
   if (!observation.is_outlier) {
     for (int i = 0; i < 3; ++i) pixels[i] += options_.noise_px * DrawNormal(engine_);

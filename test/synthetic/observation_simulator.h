@@ -21,7 +21,7 @@ struct ObservationSimulatorOptions {
   double camera_height_m = 1.65;  ///< nothing is seen below a plane so far under the camera
   double noise_px = 0.5;          ///< standard deviation of each coordinate
   double outlier_fraction = 0.2;
-  StereoCorrection displacement;  ///< of the right image, as rectification would leave it
+  StereoCorrection displacement;  ///< of the images, as calibration would leave it
   double mean_track_frames = 12;  ///< a track ends by chance, with equal probability in each frame
   int rest_frames = 50;           ///< after its track a landmark is not seen for so long
   double max_view_change_deg = 40;  ///< how far round a landmark can be seen from

@@ -12,8 +12,8 @@ struct PoseInformation {
   /// [6P x 6P]. The block of some poses is the inverse of their covariance given all others; the
   /// whole is singular, as nothing ties it to the world.
   Eigen::MatrixXd poses;
-  /// [6P x StereoCorrection::kNumPlacing], px^-1: the same between the poses and the coefficients of
-  /// the correction that move points, which the adjustment holds.
+  /// [6P x StereoCorrection::kNumPlacing], px^-1: the same between the poses and the coefficients
+  /// of the correction that move points, which the adjustment holds.
   Eigen::MatrixXd by_correction;
 };
 

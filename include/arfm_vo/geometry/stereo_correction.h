@@ -28,11 +28,11 @@ struct ImageBasis {
   }
 };
 
-/// Radial distortion about the principal point: displacements by r^3 (k1 of Brown and Conrady), 1 px
-/// in the corners for each px of its coefficient, and by r^5 - r^3, zero there (k2, mostly).
+/// Radial distortion about the principal point: displacements by r^3 (k1 of Brown and Conrady), 1
+/// px in the corners for each px of its coefficient, and by r^5 - r^3, zero there (k2, mostly).
 struct RadialBasis {
   static constexpr int kNumTerms = 2;
-  Eigen::Matrix<double, 2, kNumTerms> values;      ///< (u, v) by the coefficients
+  Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
   std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
@@ -42,7 +42,8 @@ struct RadialBasis {
     const double slope[kNumTerms] = {2, 4 * r2 - 2};
     for (int i = 0; i < kNumTerms; ++i) {
       values.col(i) = gain[i] * p;
-      by_pixel[i] = inverse * (gain[i] * Eigen::Matrix2d::Identity() + slope[i] * p * p.transpose());
+      by_pixel[i] =
+          inverse * (gain[i] * Eigen::Matrix2d::Identity() + slope[i] * p * p.transpose());
     }
   }
 };

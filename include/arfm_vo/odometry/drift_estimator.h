@@ -15,7 +15,7 @@ namespace arfm_vo {
 /// same for all poses.
 struct PoseDrift {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by noise
-  /// Step by the coefficients of the columns' displacement, px^-1.
+  /// Step by the coefficients that move points, px^-1.
   Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> by_correction =
       Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing>::Zero();
 };
@@ -47,7 +47,7 @@ class DriftEstimator {
   Matrix6 Covariance(KeyframeId keyframe) const { return Covariance(Drift(keyframe)); }
   /// Covariance of a pose, all told.
   Matrix6 Covariance(const PoseDrift& drift) const {
-    return drift.covariance + drift.by_correction * columns_ * drift.by_correction.transpose();
+    return drift.covariance + drift.by_correction * unknown_ * drift.by_correction.transpose();
   }
   /// Of a pose beside a keyframe (no drift where that is unknown); `own` is its drift against it.
   PoseDrift Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
@@ -60,9 +60,10 @@ class DriftEstimator {
 
   std::vector<KeyframeId> keyframes_;  ///< ascending
   Eigen::MatrixXd covariance_;         ///< [6N x 6N], without what the correction errs
-  /// [6N x 10] steps by the columns' coefficients, px^-1
+  /// [6N x kNumPlacing] steps by the coefficients that move points, px^-1
   Eigen::MatrixXd by_correction_ = Eigen::MatrixXd(0, StereoCorrection::kNumPlacing);
-  CorrectionBelief::Placing columns_ = CorrectionBelief::Placing::Zero();
+  /// Covariance of these coefficients, px^2.
+  CorrectionBelief::Placing unknown_ = CorrectionBelief::Placing::Zero();
 };
 
 /// `covariance` of a pose a_from_world as that of b_from_world = b_from_a * a_from_world with
