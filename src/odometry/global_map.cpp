@@ -85,7 +85,7 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
     landmark->second.last_keyframe = newest;
   }
   if (options_.loops.enabled) {
-    if (const auto loop = detector_.Detect(store_)) Close(*loop);
+    if (const auto loop = detector_.Detect(store_, correction_.mean)) Close(*loop);
   }
   if (num_keyframes() <= options_.NumMoving()) return;
   is_learning_ = false;  // a drive that did not tell more so far: the rest would count twice

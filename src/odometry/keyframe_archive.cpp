@@ -76,6 +76,7 @@ void KeyframeArchive::DropLeastMissed() {
 }
 
 std::vector<PointObservation> KeyframeArchive::Match(const StereoFrame& frame,
+                                                     const StereoCorrection& correction,
                                                      const View& view) const {
   const std::vector<const StereoPoint*> stereo = frame.PointsByKeypoint();
   std::vector<PointObservation> observations;
@@ -85,7 +86,7 @@ std::vector<PointObservation> KeyframeArchive::Match(const StereoFrame& frame,
     const StereoPoint* point = stereo[match.second];
     PointObservation observation;
     observation.x_in_world = view.x_in_world[match.first];
-    observation.pixels << keypoint.x, keypoint.y, 0;
+    observation.pixels << NominalLeftPixel(camera_, correction, {keypoint.x, keypoint.y}), 0;
     observation.has_right = point != nullptr;
     if (point != nullptr) observation.pixels.z() = camera_.ProjectStereo(point->x_in_camera).z();
     observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
@@ -94,10 +95,11 @@ std::vector<PointObservation> KeyframeArchive::Match(const StereoFrame& frame,
   return observations;
 }
 
-std::optional<ArchivedPlace> KeyframeArchive::Find(const StereoFrame& frame) const {
+std::optional<ArchivedPlace> KeyframeArchive::Find(const StereoFrame& frame,
+                                                   const StereoCorrection& correction) const {
   if (frame.features.size() == 0) return std::nullopt;
   std::vector<std::pair<const View*, std::vector<PointObservation>>> alike;
-  for (const View& view : views_) alike.emplace_back(&view, Match(frame, view));
+  for (const View& view : views_) alike.emplace_back(&view, Match(frame, correction, view));
   std::stable_sort(alike.begin(), alike.end(),
                    [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   alike.resize(std::min<size_t>(alike.size(), options_.max_tries));

@@ -208,7 +208,8 @@ class LocalOdometry::Implementation {
 
   /// New points without a right image.
   StereoPoints PointsByMotion(const StereoFrame& frame, const OdometryUpdate& update) const {
-    return TriangulateByMotion(camera_, {frame.features, update.pose.camera_from_world},
+    return TriangulateByMotion(camera_, correction_.mean,
+                               {frame.features, update.pose.camera_from_world},
                                {newest_features_, map_.keyframes().back().camera_from_world},
                                options_.tracker.keypoint_sigma);
   }
@@ -216,7 +217,7 @@ class LocalOdometry::Implementation {
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
   void Recover(const StereoFrame& frame, OdometryUpdate& update) {
     if (!update.can_start) return;
-    const auto place = archive_.Find(frame);
+    const auto place = archive_.Find(frame, correction_.mean);
     if (!place) return;
     for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
     map_.Clear();

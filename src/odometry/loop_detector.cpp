@@ -58,14 +58,14 @@ LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& option
   options.Check();
 }
 
-std::optional<Loop> LoopDetector::Detect(const MapStore& map) {
+std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrection& correction) {
   Index(map);
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
   if (!index_.is_trained() || newest < next_search_) return std::nullopt;
   next_search_ = newest + options_.search_interval_keyframes;
   const View view(map);
   const auto place = Recognise(map, view);
-  return place ? Verify(map, view, *place) : std::nullopt;
+  return place ? Verify(map, correction, view, *place) : std::nullopt;
 }
 
 /// Takes up the landmarks of the keyframe that is now old enough, if others saw them too.
@@ -159,7 +159,8 @@ int LoopDetector::FindSame(const MapStore::Point& seen, const std::vector<Known>
   return found;
 }
 
-std::optional<Loop> LoopDetector::Verify(const MapStore& map, const View& view, int place) const {
+std::optional<Loop> LoopDetector::Verify(const MapStore& map, const StereoCorrection& correction,
+                                         const View& view, int place) const {
   const std::vector<Known> known = KnownAround(map, place, view.keyframe);
   const Rigid3& place_from_map = map.keyframes[place].camera_from_map;
   Loop loop;
@@ -171,7 +172,7 @@ std::optional<Loop> LoopDetector::Verify(const MapStore& map, const View& view, 
     const LandmarkObservation& observation = *view.observations[i];
     PointObservation point;
     point.x_in_world = known[found].second->x_in_map;
-    point.pixels = observation.pixels.head<3>();
+    point.pixels = NominalPixels(camera_, correction, observation.pixels);
     point.has_right = observation.has_right;
     point.sigma_px = observation.sigma_px;
     points.push_back(point);

@@ -13,8 +13,9 @@ constexpr double kMaxRatio = 0.8;           // nearest / second-nearest distance
 constexpr double kMaxDepthDeviation = 0.1;  // standard deviation over depth
 constexpr double kMaxResidual = 3;          // in standard deviations
 
-Eigen::Vector2d Normalize(const StereoCamera& camera, const Keypoint& keypoint) {
-  return {(keypoint.x - camera.cx) / camera.fx, (keypoint.y - camera.cy) / camera.fy};
+/// (x/z, y/z) of what the left image of `camera` would show at a pixel.
+Eigen::Vector2d Normalize(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
+  return {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy};
 }
 
 /// A depth along a ray, and how unsure it is, m.
@@ -38,8 +39,9 @@ std::optional<Depth> FindDepth(const Eigen::Vector2d& now, const Eigen::Vector2d
 
 }  // namespace
 
-StereoPoints TriangulateByMotion(const StereoCamera& camera, const PosedFeatures& now,
-                                 const PosedFeatures& before, double keypoint_sigma) {
+StereoPoints TriangulateByMotion(const StereoCamera& camera, const StereoCorrection& correction,
+                                 const PosedFeatures& now, const PosedFeatures& before,
+                                 double keypoint_sigma) {
   const Rigid3 before_from_now = before.camera_from_world * now.camera_from_world.Inverse();
   StereoPoints points;
   for (const Match& match : SelectMatches(FindNeighboursExactly(now.features, before.features),
@@ -47,8 +49,10 @@ StereoPoints TriangulateByMotion(const StereoCamera& camera, const PosedFeatures
     const Keypoint& keypoint = now.features.keypoints[match.first];
     const Keypoint& other = before.features.keypoints[match.second];
     const double sigma = keypoint_sigma * std::hypot(keypoint.scale, other.scale) / camera.fx;
-    const auto depth =
-        FindDepth(Normalize(camera, keypoint), Normalize(camera, other), before_from_now, sigma);
+    const Eigen::Vector2d pixel = NominalLeftPixel(camera, correction, {keypoint.x, keypoint.y});
+    const Eigen::Vector2d pixel_before = NominalLeftPixel(camera, correction, {other.x, other.y});
+    const auto depth = FindDepth(Normalize(camera, pixel), Normalize(camera, pixel_before),
+                                 before_from_now, sigma);
     if (!depth || depth->z < camera.baseline_m || depth->sigma > kMaxDepthDeviation * depth->z) {
       continue;
     }
@@ -58,7 +62,7 @@ StereoPoints TriangulateByMotion(const StereoCamera& camera, const PosedFeatures
     point.observation = {keypoint.x, keypoint.y, keypoint.x - disparity};
     point.has_right = false;
     point.sigma_px = disparity * depth->sigma / depth->z / std::sqrt(2.0);
-    point.x_in_camera = camera.Triangulate(keypoint.x, keypoint.y, disparity);
+    point.x_in_camera = camera.Triangulate(pixel.x(), pixel.y(), disparity);
     points.push_back(point);
   }
   return points;

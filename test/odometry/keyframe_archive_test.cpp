@@ -61,12 +61,12 @@ class KeyframeArchiveTest : public ::testing::Test {
 TEST_F(KeyframeArchiveTest, FindsWhereAFrameWasTaken) {
   KeyframeArchive archive(kCamera, {});
   for (int i = 0; i < 5; ++i) Visit(i, 100 * i, archive, map_);
-  const auto place = archive.Find(SeeWall(3, 0.5));
+  const auto place = archive.Find(SeeWall(3, 0.5), {});
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->pose.camera_from_world.Inverse().translation.x(), 300.5, 1e-3);
   EXPECT_GT(place->covariance_from_start.trace(), 5e-6);
-  EXPECT_FALSE(archive.Find(SeeWall(77, 0)));
-  EXPECT_FALSE(archive.Find(StereoFrame()));
+  EXPECT_FALSE(archive.Find(SeeWall(77, 0), {}));
+  EXPECT_FALSE(archive.Find(StereoFrame(), {}));
 }
 
 TEST_F(KeyframeArchiveTest, KeepsABoundedNumberOfDifferentViews) {
@@ -77,7 +77,7 @@ TEST_F(KeyframeArchiveTest, KeepsABoundedNumberOfDifferentViews) {
   for (int i = 0; i < 10; ++i) Visit(2, 200 + 0.1 * i, archive, map_);  // ten times the same
   Visit(3, 300, archive, map_);
   EXPECT_EQ(archive.size(), 4);
-  for (const int seed : {1, 2, 3}) EXPECT_TRUE(archive.Find(SeeWall(seed, 0))) << seed;
+  for (const int seed : {1, 2, 3}) EXPECT_TRUE(archive.Find(SeeWall(seed, 0), {})) << seed;
 }
 
 TEST_F(KeyframeArchiveTest, HoldsNothingAfterClearOrWhereItIsSwitchedOff) {
@@ -88,7 +88,7 @@ TEST_F(KeyframeArchiveTest, HoldsNothingAfterClearOrWhereItIsSwitchedOff) {
   Visit(1, 100, cleared, map_);
   cleared.Clear();
   EXPECT_EQ(none.size() + cleared.size(), 0);
-  EXPECT_FALSE(cleared.Find(SeeWall(1, 0)));
+  EXPECT_FALSE(cleared.Find(SeeWall(1, 0), {}));
   options.ratio = 0;
   EXPECT_THROW(KeyframeArchive(kCamera, options), std::invalid_argument);
 }

@@ -43,7 +43,7 @@ class MotionStereoTest : public testing::Test {
 
 TEST_F(MotionStereoTest, PlacesPointsByAKnownMotion) {
   const StereoPoints points =
-      TriangulateByMotion(kSceneCamera, See(moved_, 0), See(Rigid3(), 0), 0.4);
+      TriangulateByMotion(kSceneCamera, {}, See(moved_, 0), See(Rigid3(), 0), 0.4);
   ASSERT_GT(points.size(), 50u);
   for (const StereoPoint& point : points) {
     const Eigen::Vector3d truth = moved_ * points_[point.keypoint];
@@ -55,7 +55,7 @@ TEST_F(MotionStereoTest, PlacesPointsByAKnownMotion) {
 
 TEST_F(MotionStereoTest, SaysHowUnsureADepthIs) {
   const StereoPoints points =
-      TriangulateByMotion(kSceneCamera, See(moved_, 0.6), See(Rigid3(), 0.6), 0.4);
+      TriangulateByMotion(kSceneCamera, {}, See(moved_, 0.6), See(Rigid3(), 0.6), 0.4);
   ASSERT_GT(points.size(), 50u);
   double sum = 0;
   for (const StereoPoint& point : points) {
@@ -70,13 +70,13 @@ TEST_F(MotionStereoTest, SaysHowUnsureADepthIs) {
 
 TEST_F(MotionStereoTest, PlacesNothingWithoutAMotion) {
   EXPECT_TRUE(
-      TriangulateByMotion(kSceneCamera, See(Rigid3(), 0.3), See(Rigid3(), 0.3), 0.4).empty());
+      TriangulateByMotion(kSceneCamera, {}, See(Rigid3(), 0.3), See(Rigid3(), 0.3), 0.4).empty());
 }
 
 TEST_F(MotionStereoTest, LeavesOutWhatIsNotOnTheEpipolarLine) {
   PosedFeatures now = See(moved_, 0);
   for (Keypoint& keypoint : now.features.keypoints) keypoint.y += 20;
-  EXPECT_LT(TriangulateByMotion(kSceneCamera, now, See(Rigid3(), 0), 0.4).size(), 20u);
+  EXPECT_LT(TriangulateByMotion(kSceneCamera, {}, now, See(Rigid3(), 0), 0.4).size(), 20u);
 }
 
 }  // namespace

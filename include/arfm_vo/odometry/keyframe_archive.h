@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/mapping/local_map.h"
 #include "arfm_vo/odometry/recognition_pose.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
@@ -47,7 +47,8 @@ class KeyframeArchive {
   void Add(const Keyframe& keyframe, const LocalMap& map,
            const Eigen::Matrix<double, 6, 6>& covariance);
   /// Nothing where no keyframe shows the frame's view.
-  std::optional<ArchivedPlace> Find(const StereoFrame& frame) const;
+  std::optional<ArchivedPlace> Find(const StereoFrame& frame,
+                                    const StereoCorrection& correction) const;
 
   int size() const { return static_cast<int>(views_.size()); }
   void Clear() { views_.clear(); }
@@ -63,7 +64,8 @@ class KeyframeArchive {
   };
   static double Difference(const View& a, const View& b);
   void DropLeastMissed();
-  std::vector<PointObservation> Match(const StereoFrame& frame, const View& view) const;
+  std::vector<PointObservation> Match(const StereoFrame& frame, const StereoCorrection& correction,
+                                      const View& view) const;
 
   StereoCamera camera_;
   KeyframeArchiveOptions options_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/bundle_problem.h"
-#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/matching/descriptor_index.h"
 #include "arfm_vo/odometry/map_store.h"
 #include "arfm_vo/odometry/recognition_pose.h"
@@ -54,14 +54,15 @@ class LoopDetector {
   LoopDetector(const StereoCamera& camera, const LoopOptions& options);
 
   /// Looks whether the newest keyframe of `map` closes a loop. Call it after each keyframe.
-  std::optional<Loop> Detect(const MapStore& map);
+  std::optional<Loop> Detect(const MapStore& map, const StereoCorrection& correction);
 
  private:
   struct View;
   using Known = std::pair<LandmarkId, const MapStore::Point*>;
   void Index(const MapStore& map);
   std::optional<int> Recognise(const MapStore& map, const View& view) const;
-  std::optional<Loop> Verify(const MapStore& map, const View& view, int place) const;
+  std::optional<Loop> Verify(const MapStore& map, const StereoCorrection& correction,
+                             const View& view, int place) const;
   std::vector<Known> KnownAround(const MapStore& map, int place, int newest) const;
   int FindSame(const MapStore::Point& seen, const std::vector<Known>& known,
                const Eigen::Vector3d& centre) const;

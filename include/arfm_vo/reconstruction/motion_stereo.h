@@ -2,7 +2,7 @@
 
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/geometry/rigid3.h"
-#include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/reconstruction/stereo_point.h"
 
 namespace arfm_vo {
@@ -18,7 +18,8 @@ struct PosedFeatures {
 /// sigma_px is that of a disparity that would place them as well. `keypoint_sigma`: of a keypoint's
 /// position, in units of its scale. Points whose depth would be unsure by more than a tenth are
 /// left out.
-StereoPoints TriangulateByMotion(const StereoCamera& camera, const PosedFeatures& now,
-                                 const PosedFeatures& before, double keypoint_sigma);
+StereoPoints TriangulateByMotion(const StereoCamera& camera, const StereoCorrection& correction,
+                                 const PosedFeatures& now, const PosedFeatures& before,
+                                 double keypoint_sigma);
 
 }  // namespace arfm_vo
