@@ -82,6 +82,21 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
 
 CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
 
+CorrectionBelief::Radial CorrectionBelief::LargestRadial() const {
+  constexpr int kSteps = 20;
+  Radial radial;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double r = double(i) / kSteps;
+    const auto by_coefficients = (r * RadialBasis::Gains(r * r)).eval();
+    const double off = by_coefficients.dot(mean.coefficients_px.segment<kNumRadial>(kNumTerms));
+    if (std::abs(off) < std::abs(radial.largest_px)) continue;
+    radial = {off, std::sqrt(by_coefficients.dot(
+                       covariance.block<kNumRadial, kNumRadial>(kNumTerms, kNumTerms) *
+                       by_coefficients))};
+  }
+  return radial;
+}
+
 double CorrectionBelief::MaxColumnSigma(const StereoCamera& camera) const {
   constexpr int kGrid = 9;
   double largest = 0;

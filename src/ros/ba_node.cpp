@@ -166,9 +166,26 @@ std::optional<MapUpdate> BaNode::Adjust() {
   Tell();
   if (update) {
     learned_.Write(update->correction);
+    TellOfCalibration(update->correction);
     PublishMap();
   }
   return update;
+}
+
+void BaNode::TellOfCalibration(const CorrectionBelief& learnt) {
+  constexpr double kWarnPx = 1, kSignificant = 3;
+  figures_.columns_sigma_px = learnt.MaxColumnSigma(map_.camera());
+  figures_.radial = learnt.LargestRadial();
+  told_.Set(figures_);
+  const auto& [off_px, sigma_px] = figures_.radial;
+  const double surely_off_px = std::abs(off_px) - kSignificant * sigma_px;
+  if (told_to_calibrate_ || learnt.mean.IsZero() || surely_off_px < kWarnPx) return;
+  told_to_calibrate_ = true;
+  ROS_WARN(
+      "both images are off radially by up to %.1f px (sigma %.1f), which is made up for: calibrate "
+      "the cameras anew, "
+      "with the board in the corners too",
+      off_px, sigma_px);
 }
 
 void BaNode::PublishMap() {
@@ -221,6 +238,9 @@ void BaNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   status.addf("cost", "%.1f", figures.cost);
   status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
   status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
+  status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
+  status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
+              figures.radial.largest_px, figures.radial.sigma_px);
 }
 
 }  // namespace arfm_vo

@@ -30,6 +30,12 @@ struct CorrectionBelief {
   }
   /// Largest standard deviation of the columns' displacement over the image, px.
   double MaxColumnSigma(const StereoCamera& camera) const;
+  /// Largest radial displacement of both images between centre and corners, px (negative: towards
+  /// the centre), and its standard deviation.
+  struct Radial {
+    double largest_px = 0, sigma_px = 0;
+  };
+  Radial LargestRadial() const;
 };
 
 }  // namespace arfm_vo

@@ -35,10 +35,15 @@ struct RadialBasis {
   Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
   std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
 
+  /// What the terms displace at a squared distance of r2 from the centre, over the distance; r is 1
+  /// in the corners.
+  static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2}; }
+
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
     const double inverse = 2 / std::hypot(camera.width, camera.height);
     const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
-    const double r2 = p.squaredNorm(), gain[kNumTerms] = {r2, r2 * r2 - r2};
+    const double r2 = p.squaredNorm();
+    const auto gain = Gains(r2);
     const double slope[kNumTerms] = {2, 4 * r2 - 2};
     for (int i = 0; i < kNumTerms; ++i) {
       values.col(i) = gain[i] * p;

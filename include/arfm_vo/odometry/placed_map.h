@@ -43,6 +43,8 @@ class PlacedMap {
   }
   /// What is known now.
   const std::optional<CorrectionBelief>& correction() const { return correction_; }
+  /// Of the newest keyframe.
+  const StereoCamera& camera() const { return camera_; }
 
   const Rigid3& map_from_odom() const { return frame_.map_from_odom(); }
   uint32_t epoch() const { return epoch_; }

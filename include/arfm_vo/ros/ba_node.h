@@ -63,6 +63,8 @@ class BaNode {
     int iteration = 0;
     double cost = 0;
     double last_ms = 0, longest_ms = 0;
+    double columns_sigma_px = 0;
+    CorrectionBelief::Radial radial;
     Rigid3 map_from_odom;
   };
 
@@ -71,6 +73,7 @@ class BaNode {
   std::optional<MapUpdate> Adjust();
   void AdjustIfSettled();
   void PublishMap();
+  void TellOfCalibration(const CorrectionBelief& learnt);
   void Tell();
   Rigid3 MapFromOdom() const { return map_from_adjusted_ * map_.map_from_odom(); }
   void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
@@ -90,6 +93,7 @@ class BaNode {
   std_msgs::Header newest_;
   bool is_dirty_ = false;  // a keyframe came since the last adjustment
   ros::WallTime settles_;
+  bool told_to_calibrate_ = false;
   Figures figures_;
   Shared<Figures> told_;
   Shared<Trajectory> trajectory_;  // of the keyframes
