@@ -33,8 +33,6 @@ void PatchAlignmentOptions::Check() const {
   Require(max_iterations >= 1, "alignment.max_iterations must be at least 1");
   Require(convergence_px > 0, "alignment.convergence_px must be positive");
   Require(max_shift_px > 0, "alignment.max_shift_px must be positive");
-  Require(search_radius_px >= 0 && search_radius_px <= 16,
-          "alignment.search_radius_px must be in 0..16");
   Require(min_zncc > -1 && min_zncc < 1, "alignment.min_zncc must be in (-1, 1)");
   Require(max_sigma_px > 0, "alignment.max_sigma_px must be positive");
 }
@@ -45,43 +43,7 @@ PatchAligner::PatchAligner(const PatchAlignmentOptions& options) : options_(opti
 
 PatchAlignment PatchAligner::Align(const Patch& patch, const cv::Mat& grey,
                                    const cv::Point2f& guess) const {
-  const int radius = options_.search_radius_px;
-  const cv::Point2f start = radius > 0 ? Search(patch, grey, guess, radius, radius) : guess;
-  return Refine(patch, grey, start, InvertSymmetric(patch.hessian_));
-}
-
-PatchAlignment PatchAligner::AlignAlongRow(const Patch& patch, const cv::Mat& grey,
-                                           const cv::Point2f& guess) const {
-  const int radius = options_.search_radius_px;
-  cv::Point2f start = radius > 0 ? Search(patch, grey, guess, radius, 0) : guess;
-  start.y = guess.y;
-  return Refine(patch, grey, start, {1 / patch.hessian_[0], 0, 0});
-}
-
-cv::Point2f PatchAligner::Search(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess,
-                                 int radius_x, int radius_y) const {
-  cv::Point2f best = guess;
-  float best_zncc = -1;
-  const cv::Point2f corner = guess - kToCorner;
-  if (!cv::Rect2f(0, 0, grey.cols, grey.rows).contains(guess)) return guess;
-  const int x = cvRound(corner.x), y = cvRound(corner.y);
-  Patch::Samples samples;
-  for (int top = y - radius_y; top <= y + radius_y; ++top) {
-    if (top < 0 || top + kSize > grey.rows) continue;
-    for (int left = x - radius_x; left <= x + radius_x; ++left) {
-      if (left < 0 || left + kSize > grey.cols) continue;
-      for (int r = 0; r < kSize; ++r) {
-        const uint8_t* row = grey.ptr(top + r) + left;
-        for (int c = 0; c < kSize; ++c) samples[r * kSize + c] = row[c];
-      }
-      const float variance = WeightedVariance(samples);
-      const float zncc = Dot(patch.values_, samples) / std::sqrt(variance * patch.squared_values_);
-      if (zncc <= best_zncc || !(variance > 0)) continue;
-      best_zncc = zncc;
-      best = cv::Point2f(static_cast<float>(left), static_cast<float>(top)) + kToCorner;
-    }
-  }
-  return best;
+  return Refine(patch, grey, guess, InvertSymmetric(patch.hessian_));
 }
 
 PatchAlignment PatchAligner::Refine(const Patch& patch, const cv::Mat& grey,

@@ -27,8 +27,6 @@ struct RansacOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("max_iterations", max_iterations);
-    visit("min_iterations", min_iterations);
-    visit("confidence", confidence);
     visit("seed", seed);
   }
 };

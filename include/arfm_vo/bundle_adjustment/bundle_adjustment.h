@@ -55,17 +55,12 @@ struct BundleOptions {
   void VisitFields(Visitor&& visit) {
     visit("solver", solver);
     visit("strategy", strategy);
-    visit("linear_solver", linear_solver);
     visit("loss", loss);
-    visit("loss_threshold_sigma", loss_threshold_sigma);
     visit("max_iterations", max_iterations);
     visit("function_tolerance", function_tolerance);
     visit("max_time_s", max_time_s);
-    visit("inlier_probability", inlier_probability);
     visit("num_threads", num_threads);
     visit("max_time_share", max_time_share);
-    visit("with_point_covariance", with_point_covariance);
-    visit("with_newest_pose_covariance", with_newest_pose_covariance);
   }
 };
 

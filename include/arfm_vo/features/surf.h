@@ -24,7 +24,6 @@ struct SurfOptions {
     visit("detector", detector);
     visit("descriptor", descriptor);
     visit("smooth", smooth);
-    visit("use_fast_path", use_fast_path);
     visit("threads", threads);
   }
 };

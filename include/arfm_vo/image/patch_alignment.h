@@ -12,21 +12,11 @@ namespace arfm_vo {
 struct PatchAlignmentOptions {
   int max_iterations = 12;       ///< Gauss-Newton steps
   double convergence_px = 0.02;  ///< the last step is shorter than this
-  double max_shift_px = 3;       ///< from the initial guess, after the search
-  int search_radius_px = 0;      ///< best of the whole pixels around the guess first; 0: none
+  double max_shift_px = 3;       ///< from the initial guess
   double min_zncc = 0.8;         ///< correlation at the aligned position
   double max_sigma_px = 0.5;     ///< predicted; more means too little texture
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_iterations", max_iterations);
-    visit("convergence_px", convergence_px);
-    visit("max_shift_px", max_shift_px);
-    visit("search_radius_px", search_radius_px);
-    visit("min_zncc", min_zncc);
-    visit("max_sigma_px", max_sigma_px);
-  }
 };
 
 enum class AlignmentStatus {
@@ -59,13 +49,8 @@ class PatchAligner {
 
   /// Searches `grey` (CV_8UC1) around `guess`.
   PatchAlignment Align(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess) const;
-  /// The same with y held at guess.y; covariance of y is 0.
-  PatchAlignment AlignAlongRow(const Patch& patch, const cv::Mat& grey,
-                               const cv::Point2f& guess) const;
 
  private:
-  cv::Point2f Search(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess,
-                     int radius_x, int radius_y) const;
   PatchAlignment Refine(const Patch& patch, const cv::Mat& grey, const cv::Point2f& start,
                         const cv::Vec3f& inverse_hessian) const;
   void Judge(const Patch& patch, const Patch::Samples& samples, float gain,

@@ -15,13 +15,6 @@ struct SlantAlignmentOptions {
   double max_gradient = 0.8;    ///< a steeper surface is not believed
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_rounds", max_rounds);
-    visit("gradient_sigma", gradient_sigma);
-    visit("noise_grey", noise_grey);
-    visit("max_gradient", max_gradient);
-  }
 };
 
 /// Where a left patch was found in the right image, and how its disparity changes over it.

@@ -17,13 +17,6 @@ struct LandmarkAlignerOptions {
   double max_right_row_px = 2;   ///< |v_right - v_left|; more is a wrong match
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("patch", patch);
-    visit("max_magnification", max_magnification);
-    visit("min_sigma_px", min_sigma_px);
-    visit("max_right_row_px", max_right_row_px);
-  }
 };
 
 /// Measures where landmarks are in a new pair, to a fraction of a pixel: the patch around the

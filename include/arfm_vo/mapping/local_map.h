@@ -23,8 +23,6 @@ struct LocalMapOptions {
     visit("max_keyframes", max_keyframes);
     visit("max_missed_frames", max_missed_frames);
     visit("max_landmarks_in_view", max_landmarks_in_view);
-    visit("grid_cell_px", grid_cell_px);
-    visit("min_separation_px", min_separation_px);
   }
 };
 

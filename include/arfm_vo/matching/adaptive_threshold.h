@@ -56,7 +56,6 @@ struct AdaptiveThresholdOptions {
     visit("min_ratio", min_ratio);
     visit("max_ratio", max_ratio);
     visit("wanted_precision", wanted_precision);
-    visit("memory", memory);
   }
 };
 

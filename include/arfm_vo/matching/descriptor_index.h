@@ -19,13 +19,6 @@ struct DescriptorIndexOptions {
   int seed = 1;          ///< of the tables' random directions
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("tables", tables);
-    visit("bits", bits);
-    visit("max_per_key", max_per_key);
-    visit("seed", seed);
-  }
 };
 
 /// Finds among very many descriptors one near a given one, by hashing with random hyperplanes

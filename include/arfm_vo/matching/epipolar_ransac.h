@@ -18,9 +18,7 @@ struct EpipolarRansacOptions {
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
-    visit("ransac", ransac);
     visit("max_error_px", max_error_px);
-    visit("min_inliers", min_inliers);
   }
 };
 

@@ -12,11 +12,6 @@ struct ExactMatcherOptions {
   bool use_simd = true;  ///< false: the portable kernel even where the CPU has a better one
 
   void Check() const {}
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("use_laplacian_sign", use_laplacian_sign);
-    visit("use_simd", use_simd);
-  }
 };
 
 /// Finds the two nearest neighbours of every descriptor in both directions by exhaustive search:

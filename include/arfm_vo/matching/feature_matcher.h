@@ -38,11 +38,8 @@ struct FeatureMatcherOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("strategy", strategy);
-    visit("exact", exact);
     visit("flann", flann);
-    visit("selection", selection);
     visit("epipolar", epipolar);
-    visit("max_row_difference_px", max_row_difference_px);
   }
 };
 

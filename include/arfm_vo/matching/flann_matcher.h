@@ -15,7 +15,6 @@ struct FlannMatcherOptions {
   void VisitFields(Visitor&& visit) {
     visit("trees", trees);
     visit("checks", checks);
-    visit("seed", seed);
   }
 };
 

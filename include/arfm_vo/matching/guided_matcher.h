@@ -19,9 +19,7 @@ struct StereoSearchOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("max_row_difference_px", max_row_difference_px);
-    visit("min_disparity_px", min_disparity_px);
     visit("max_disparity_px", max_disparity_px);
-    visit("max_scale_ratio", max_scale_ratio);
   }
 };
 

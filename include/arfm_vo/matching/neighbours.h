@@ -42,11 +42,6 @@ struct MatchSelectionOptions {
   double max_distance = 2;  ///< of the descriptors, 0..2; 2 lets all pass
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("cross_check", cross_check);
-    visit("max_distance", max_distance);
-  }
 };
 
 /// The matches whose ratio (of the first image's keypoint, nearest over second nearest; Lowe 2004)

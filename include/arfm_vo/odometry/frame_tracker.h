@@ -29,14 +29,11 @@ struct FrameTrackerOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("search_radius_px", search_radius_px);
-    visit("max_scale_ratio", max_scale_ratio);
     visit("guided_ratio", guided_ratio);
     visit("unguided_ratio", unguided_ratio);
-    visit("min_guided_inliers", min_guided_inliers);
     visit("keypoint_sigma", keypoint_sigma);
     visit("pose", pose);
     visit("align_patches", align_patches);
-    visit("alignment", alignment);
     visit("refinement", refinement);
   }
 };

@@ -22,9 +22,6 @@ struct KeyframeArchiveOptions {
   void VisitFields(Visitor&& visit) {
     visit("max_keyframes", max_keyframes);
     visit("max_tries", max_tries);
-    visit("ratio", ratio);
-    visit("keypoint_sigma", keypoint_sigma);
-    visit("pose", pose);
   }
 };
 

@@ -30,13 +30,7 @@ struct LoopOptions {
     visit("enabled", enabled);
     visit("max_keyframes", max_keyframes);
     visit("min_gap_keyframes", min_gap_keyframes);
-    visit("search_interval_keyframes", search_interval_keyframes);
-    visit("max_distance", max_distance);
-    visit("max_ratio", max_ratio);
     visit("min_votes", min_votes);
-    visit("place_keyframes", place_keyframes);
-    visit("index", index);
-    visit("pose", pose);
   }
 };
 

@@ -19,11 +19,6 @@ struct StandstillOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("enabled", enabled);
-    visit("max_point_shift_px", max_point_shift_px);
-    visit("min_resting_fraction", min_resting_fraction);
-    visit("max_significance", max_significance);
-    visit("max_translation_m", max_translation_m);
-    visit("max_rotation_rad", max_rotation_rad);
   }
 };
 

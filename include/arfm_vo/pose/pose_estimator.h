@@ -32,7 +32,6 @@ struct PoseEstimatorOptions {
   void VisitFields(Visitor&& visit) {
     visit("ransac", ransac);
     visit("sample_size", sample_size);
-    visit("inlier_probability", inlier_probability);
     visit("min_inliers", min_inliers);
     visit("min_inlier_share", min_inlier_share);
     visit("refinement", refinement);

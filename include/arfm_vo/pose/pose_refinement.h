@@ -36,15 +36,7 @@ struct PoseRefinementOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("step", step);
-    visit("max_iterations", max_iterations);
-    visit("max_rounds", max_rounds);
     visit("loss", loss);
-    visit("loss_threshold_sigma", loss_threshold_sigma);
-    visit("inlier_probability", inlier_probability);
-    visit("min_scale", min_scale);
-    visit("max_scale", max_scale);
-    visit("scale_prior_weight", scale_prior_weight);
-    visit("min_inliers", min_inliers);
   }
 };
 

@@ -11,11 +11,6 @@ struct RowSearchOptions {
   double max_ambiguity = 0.7;  ///< (1 - best) / (1 - second-best correlation), 0..1
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("min_zncc", min_zncc);
-    visit("max_ambiguity", max_ambiguity);
-  }
 };
 
 /// Finds points of the left image along their rows in the right one by correlation of 24 x 24 px

@@ -44,18 +44,12 @@ struct StereoReconstructionOptions {
   void VisitFields(Visitor&& visit) {
     visit("guided", guided);
     visit("search", search);
-    visit("selection", selection);
     visit("matcher", matcher);
     visit("threshold", threshold);
     visit("refine_subpixel", refine_subpixel);
-    visit("alignment", alignment);
-    visit("slant", slant);
     visit("search_rows", search_rows);
-    visit("row_search", row_search);
     visit("max_row_deviation", max_row_deviation);
     visit("min_disparity_px", min_disparity_px);
-    visit("sigma_floor_px", sigma_floor_px);
-    visit("sigma_inflation", sigma_inflation);
     visit("keypoint_sigma_px", keypoint_sigma_px);
   }
 };
