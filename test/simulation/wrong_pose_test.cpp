@@ -74,6 +74,27 @@ TEST_F(WrongPoseTest, ANewEpochDropsTheGoalAndBlocksEvenWhereThePoseStaysTheSame
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kReady);
 }
 
+TEST_F(WrongPoseTest, AJumpThatIsSeenBeforeItsEpochIsToldIsANewEpoch) {
+  DriveTo({6, 0, {}}, 5);
+  RestartOdometryAt(PlaceAt(0, 0));
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kPoseContradiction);
+  ++drive_.epoch_;
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kNewEpoch);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+}
+
+TEST_F(WrongPoseTest, ANewEpochExplainsNoOtherStop) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.pilot().SetEmergencyStop("test", true);
+  drive_.Run(0.3);
+  ++drive_.epoch_;
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kEmergencyStop);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+}
+
 TEST_F(WrongPoseTest, AnOdometryThatIsKilledAndRestartedDrivesNowhere) {
   DriveTo({6, 0, {}}, 15);
   drive_.has_pose_ = false;
