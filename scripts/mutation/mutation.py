@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Breaks the driving code in many ways, one at a time, and tells which of them the tests notice.
+
+1. Protections (protections.py): each is removed in turn.
+2. With --sample N: N of the changes that fixed rules (rules.py) make to src/driving: conditions negated or
+   dropped, signs and limits changed, lines removed.
+
+All changes are compiled in at once, each behind a switch that the environment sets (ARFM_VO_MUTANT), so that there is
+one build. Run it in a checkout without changes: the sources are changed in place and put back at the end. Builds into
+BUILD_DIR (default _b). Exit status 0 where all protections are noticed.
+"""
+import argparse
+import os
+import pathlib
+import random
+import subprocess
+import sys
+
+from protections import PROTECTIONS
+from rules import find_changes
+from switch import Source
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("BUILD_DIR", ROOT / "_b"))
+PROGRAMS = BUILD / "devel/lib/arfm_vo"
+
+# What a suite takes: targets to build, and the command.
+SUITES = {
+    "driving": (["test_driving"], [str(PROGRAMS / "test_driving")]),
+    "hardware": (["test_hardware"], [str(PROGRAMS / "test_hardware"), "--gtest_filter=Chassis*:ToChassis*:BusLock*"]),
+    "simulation": (["test_simulation"],
+                   [str(PROGRAMS / "test_simulation"), "--gtest_filter=FaultTable*:WrongPose*:SimulatedChassis*"]),
+    "ros": (["test_ros"], [str(PROGRAMS / "test_ros"), "--gtest_filter=-*HeadSweep*:BagSequence*"]),
+}
+for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
+                       ("clock_stall", ["chassis_node", "test_chassis_node"]),
+                       ("pan_tilt", ["pan_tilt_node", "test_pan_tilt"]),
+                       ("stereo_camera", ["stereo_camera_node", "test_stereo_camera"])):
+    SUITES[suite] = (targets, ["ctest", "--test-dir", str(BUILD), "-R", "^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
+SUITES["simulated_graph"] = (["chassis_node", "simulator_node", "arfm_vo_nodelets", "truth_path_node", "pan_tilt_node"],
+                             ["ctest", "--test-dir", str(BUILD), "-R", "rostest_test_nodes_simulation.test"])
+LIMIT_S = 400
+BASIC = ("driving", "simulation", "hardware")
+
+
+def run(suite, number):
+    """Whether the suite passes with the change of this number switched on."""
+    environment = {**os.environ, "ARFM_VO_MUTANT": str(number), "GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1"}
+    try:
+        return subprocess.run(SUITES[suite][1], env=environment, capture_output=True, timeout=LIMIT_S).returncode == 0
+    except subprocess.TimeoutExpired:
+        return False
+
+
+def notice(suites, number):
+    """The first suite that fails; nothing where none does."""
+    return next((suite for suite in suites if not run(suite, number)), None)
+
+
+def build(suites):
+    targets = sorted({target for suite in suites for target in SUITES[suite][0]})
+    made = subprocess.run(["ninja", "-C", str(BUILD), "-j2"] + targets, capture_output=True, text=True)
+    if made.returncode != 0:
+        sys.exit("does not build:\n" + "\n".join(line for line in made.stdout.splitlines() if "error" in line))
+
+
+def compile_command(path):
+    """How ninja compiles a file, to find the changes that do not compile."""
+    commands = subprocess.run(["ninja", "-C", str(BUILD), "-t", "commands"], capture_output=True, text=True).stdout
+    return next(line for line in commands.splitlines() if line.endswith(str(path)) and " -c " in line)
+
+
+def drop_what_does_not_compile(source):
+    command = compile_command(source.path) + " -fsyntax-only -fmax-errors=0"
+    while True:
+        source.write()
+        said = subprocess.run(command, shell=True, cwd=BUILD, capture_output=True, text=True)
+        if said.returncode == 0:
+            return
+        wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines()
+                 if line.startswith(str(source.path)) and " error:" in line}
+        if not source.drop_lines(wrong):
+            sys.exit("does not compile:\n" + said.stderr)
+
+
+def table(rows, header):
+    return ["", "| %s |" % " | ".join(header), "|" + "---|" * len(header)] + ["| %s |" % " | ".join(row) for row in rows]
+
+
+def try_all(changes, suites_of):
+    """[(change, suite that noticed it or None)]."""
+    tried = []
+    for change in changes:
+        noticed = notice(suites_of(change), change.number)
+        print("%-70s %s" % (change.name, noticed or "NOT NOTICED"), flush=True)
+        tried.append((change, noticed))
+    return tried
+
+
+def make_page(protections, sampled, seed, num_possible):
+    missed = [change for change, noticed in protections if not noticed]
+    lines = ["# What the tests notice", "",
+             "Made by `scripts/mutants.sh`: the driving code is broken in one place at a time, and the tests are run.",
+             "", "## Protections removed", "",
+             "%d of %d are noticed." % (len(protections) - len(missed), len(protections))]
+    lines += table([(change.name, "`%s`" % change.file, noticed or "**not noticed**") for change, noticed in protections],
+                   ("protection", "in", "noticed by test_"))
+    if not sampled:
+        return "\n".join(lines) + "\n"
+    survivors = [change for change, noticed in sampled if not noticed]
+    lines += ["", "## Changes by rule", "",
+              "%d changes of src/driving, drawn (seed %d) from %d that the rules of `scripts/mutation/rules.py` make: %d are"
+              % (len(sampled), seed, num_possible, len(sampled) - len(survivors)),
+              "noticed (%.0f %%). Those that are not:" % (100 * (1 - len(survivors) / len(sampled)))]
+    lines += table([(change.file.split("/")[-1] + ":%d" % change.line, change.rule, "`%s`" % change.text.replace("|", "\\|"))
+                    for change in survivors], ("place", "change", "line"))
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="", help="protections whose name holds this")
+    parser.add_argument("--sample", type=int, default=0, help="of the changes by rule")
+    parser.add_argument("--seed", type=int, default=1, help="of the sample")
+    parser.add_argument("--output", type=pathlib.Path, help="the page, Markdown")
+    arguments = parser.parse_args()
+    sources = {}
+
+    def source(file):
+        return sources.setdefault(file, Source(ROOT, file, len(sources)))
+
+    protections = [source(p.file).protect(p) for p in PROTECTIONS if arguments.only in p.name]
+    suites = {suite for p in protections for suite in p.suites}
+    sampled, num_possible = [], 0
+    try:
+        if arguments.sample:
+            suites |= set(BASIC)
+            for path in sorted((ROOT / "src/driving").glob("*.cpp")):
+                find_changes(source("src/driving/" + path.name))
+            for one in sources.values():
+                if one.has_changes_by_rule():
+                    drop_what_does_not_compile(one)
+            possible = [change for one in sources.values() for change in one.changes_by_rule()]
+            num_possible = len(possible)
+            sampled = random.Random(arguments.seed).sample(possible, min(arguments.sample, num_possible))
+        for one in sources.values():
+            one.write()
+        build(suites)
+        broken = notice(sorted(suites), 0)
+        if broken:
+            sys.exit("test_%s fails with nothing changed" % broken)
+        protections = try_all(protections, lambda change: change.suites)
+        sampled = try_all(sampled, lambda change: BASIC)
+    finally:
+        for one in sources.values():
+            one.restore()
+    build(suites)
+    for what, tried in ("protections", protections), ("changes by rule", sampled):
+        print("%s: %d of %d noticed" % (what, sum(bool(noticed) for _, noticed in tried), len(tried)))
+    if arguments.output:
+        arguments.output.write_text(make_page(protections, sampled, arguments.seed, num_possible))
+    return 0 if all(noticed for _, noticed in protections) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
