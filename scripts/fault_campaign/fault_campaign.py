@@ -87,6 +87,8 @@ class Campaign:
             return None
         self.pids = {node: pid_of("/" + node) for node in NODES}
         del self.rover.reports[:]
+        del self.rover.odometry_texts[:]
+        self.rover.sight.mark()
         way_m = self.tap.way_m()
         injected_s, simulated_s = time.monotonic(), rospy.get_time()
         fault.inject(self)
@@ -101,6 +103,7 @@ class Campaign:
         row = {"name": fault.name, "promise": fault.promise, "limit_s": fault.limit_s / min(1.0, pace)}
         row["held_up_s"] = held_up_s
         row["moves"] = self.rover.moves()
+        row["pose_off_m"] = self.rover.sight.error_m()
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
         row["way_m"] = self.tap.way_m() - way_m

@@ -97,6 +97,50 @@ def try_all(changes, suites_of):
     return tried
 
 
+def try_switched(sources, changes, suites, suites_of):
+    """The same, with the switches in the sources meanwhile."""
+    try:
+        for source in sources:
+            source.write()
+        build(suites)
+        broken = notice(sorted(suites), 0)
+        if broken:
+            sys.exit("test_%s fails with nothing changed" % broken)
+        return try_all(changes, suites_of)
+    finally:
+        for source in sources:
+            source.restore()
+        build(suites)
+
+
+def try_protections(text):
+    sources = {}
+    changes = []
+    for protection in PROTECTIONS:
+        if text in protection.name:
+            source = sources.setdefault(protection.file, Source(ROOT, protection.file, len(sources)))
+            changes.append(source.protect(protection))
+    suites = {suite for change in changes for suite in change.suites}
+    return try_switched(sources.values(), changes, suites, lambda change: change.suites)
+
+
+def try_rules(size, seed):
+    """What became of a sample, and how many changes it was drawn from."""
+    paths = sorted((ROOT / "src/driving").glob("*.cpp"))
+    sources = [Source(ROOT, "src/driving/" + path.name, i) for i, path in enumerate(paths)]
+    try:
+        for source in sources:
+            find_changes(source)
+            drop_what_does_not_compile(source)
+    except BaseException:
+        for source in sources:
+            source.restore()
+        raise
+    possible = [change for source in sources for change in source.changes_by_rule()]
+    sample = random.Random(seed).sample(possible, min(size, len(possible)))
+    return try_switched(sources, sample, set(BASIC), lambda change: BASIC), len(possible)
+
+
 def make_page(protections, sampled, seed, num_possible):
     missed = [change for change, noticed in protections if not noticed]
     lines = ["# What the tests notice", "",
@@ -124,37 +168,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="of the sample")
     parser.add_argument("--output", type=pathlib.Path, help="the page, Markdown")
     arguments = parser.parse_args()
-    sources = {}
-
-    def source(file):
-        return sources.setdefault(file, Source(ROOT, file, len(sources)))
-
-    protections = [source(p.file).protect(p) for p in PROTECTIONS if arguments.only in p.name]
-    suites = {suite for p in protections for suite in p.suites}
-    sampled, num_possible = [], 0
-    try:
-        if arguments.sample:
-            suites |= set(BASIC)
-            for path in sorted((ROOT / "src/driving").glob("*.cpp")):
-                find_changes(source("src/driving/" + path.name))
-            for one in sources.values():
-                if one.has_changes_by_rule():
-                    drop_what_does_not_compile(one)
-            possible = [change for one in sources.values() for change in one.changes_by_rule()]
-            num_possible = len(possible)
-            sampled = random.Random(arguments.seed).sample(possible, min(arguments.sample, num_possible))
-        for one in sources.values():
-            one.write()
-        build(suites)
-        broken = notice(sorted(suites), 0)
-        if broken:
-            sys.exit("test_%s fails with nothing changed" % broken)
-        protections = try_all(protections, lambda change: change.suites)
-        sampled = try_all(sampled, lambda change: BASIC)
-    finally:
-        for one in sources.values():
-            one.restore()
-    build(suites)
+    protections = try_protections(arguments.only)
+    sampled, num_possible = try_rules(arguments.sample, arguments.seed) if arguments.sample else ([], 0)
     for what, tried in ("protections", protections), ("changes by rule", sampled):
         print("%s: %d of %d noticed" % (what, sum(bool(noticed) for _, noticed in tried), len(tried)))
     if arguments.output:

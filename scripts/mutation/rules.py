@@ -1,7 +1,7 @@
 """Changes that fixed rules make to a source: conditions, signs, limits, lines."""
 import re
 
-from switch import balanced, strip_strings
+from switch import INNER, balanced, strip_strings
 
 MUTANT = "IsMutant(%d)"
 STATEMENT = re.compile(r"^\s+[a-z][\w.]*(->\w+)*(\(.*\)| [+-]?= .*);$")
@@ -17,7 +17,7 @@ def find_changes(source):
         change_limits_and_signs(source, number, line, bare)
         change_returns(source, number, line, bare)
         if STATEMENT.match(bare) and bare.count("(") == bare.count(")") and is_whole(source, number):
-            source.add("line removed", number, 0, line, "if (!%s) { %s }" % (MUTANT, line))
+            source.add("line removed", number, 0, len(line), "if (!%s) { %s }" % (MUTANT, INNER))
 
 
 def is_whole(source, number):
@@ -30,10 +30,9 @@ def change_conditions(source, number, line, bare):
     for found in re.finditer(r"\bif \(", bare):
         start = found.end() - 1
         end = balanced(bare, start)
-        condition = line[start + 1:end] if end else ""
-        if not end or re.match(r"(const |auto |constexpr )", condition):
+        if not end or re.match(r"(const |auto |constexpr )", line[start + 1:]):
             continue
-        source.add("condition negated", number, start + 1, condition, "%s != static_cast<bool>(%s)" % (MUTANT, condition))
+        source.add("condition negated", number, start + 1, end, "%s != static_cast<bool>(%s)" % (MUTANT, INNER))
         return  # one condition a line; its parts below
 
 
@@ -41,17 +40,16 @@ def change_limits_and_signs(source, number, line, bare):
     if '"' in bare or "template" in bare or re.search(r"\bif \((?!const )", bare):
         return  # conditions are negated as a whole
     for found in re.finditer(r" [<>]=? (?=[a-zA-Z(1-9])", bare):
-        source.add("limit doubled", number, found.start(), found.group(), found.group() + "(%s ? 2 : 1) * " % MUTANT)
+        source.add("limit doubled", number, found.start(), found.end(), INNER + "(%s ? 2 : 1) * " % MUTANT)
     for found in re.finditer(r" ([+-]) (?=[\w(])", bare):
         other = "-" if found.group(1) == "+" else "+"
-        source.add("sign turned to " + other, number, found.start(), found.group(), found.group() + "(%s ? -1 : 1) * " % MUTANT)
+        source.add("sign turned to " + other, number, found.start(), found.end(), INNER + "(%s ? -1 : 1) * " % MUTANT)
     for found in re.finditer(r"std::(min|max)\(", bare):
         end = balanced(bare, found.end() - 1)
         if end:
-            call = line[found.start():end + 1]
             other = {"min": "max", "max": "min"}[found.group(1)]
-            source.add("std::%s turned to std::%s" % (found.group(1), other), number, found.start(), call,
-                       "(%s ? std::%s%s : %s)" % (MUTANT, other, call[8:], call))
+            source.add("std::%s turned to std::%s" % (found.group(1), other), number, found.start(), end + 1,
+                       "(%s ? std::%s%s : %s%s)" % (MUTANT, other, INNER, found.group()[:-1], INNER), (found.end() - 1, end + 1))
             return
 
 
@@ -60,9 +58,7 @@ def change_returns(source, number, line, bare):
     if found:
         column = bare.rindex(found.group(1))
         other = {"true": "!%s", "false": "%s"}[found.group(1)] % MUTANT
-        source.add("result turned round", number, column, found.group(1), other)
+        source.add("result turned round", number, column, column + len(found.group(1)), other)
     found = re.match(r"^\s+return ([^?;{]*(?:&&|\|\||==|!=|<|>)[^?;{]*);$", bare)
     if found:
-        column = found.start(1)
-        value = line[column:found.end(1)]
-        source.add("result turned round", number, column, value, "%s != static_cast<bool>(%s)" % (MUTANT, value))
+        source.add("result turned round", number, *found.span(1), "%s != static_cast<bool>(%s)" % (MUTANT, INNER))

@@ -8,6 +8,18 @@ SWITCH = ("#include <cstdlib>\n"
           "static const int mutant = chosen ? std::atoi(chosen) : 0; return mutant == number; }\n")
 NUM_SWITCH_LINES = SWITCH.count("\n")
 NUMBERS_A_FILE = 10000
+INNER = "@@"
+
+
+def render(line, start, end, changes):
+    """The columns start..end of a line with all changes in them."""
+    text, place = "", start
+    outer = [change for change in changes if not any(other.holds(change) for other in changes)]
+    for change in sorted(outer, key=lambda one: one.start):
+        inside = [other for other in changes if change.holds(other)]
+        text += line[place:change.start] + change.new.replace(INNER, render(line, *change.inner, inside))
+        place = change.end
+    return text + line[place:end]
 
 
 @dataclasses.dataclass
@@ -19,9 +31,15 @@ class Change:
     text: str  # of the line
     rule: str = ""
     suites: tuple = ()
-    column: int = 0
-    old: str = ""
+    # Of a change by a rule: the columns that it takes the place of, and of what is left of them, for which INNER stands.
+    start: int = 0
+    end: int = 0
+    inner: tuple = (0, 0)
     new: str = ""
+
+    def holds(self, other):
+        return other is not self and self.start <= other.start and other.end <= self.end and \
+            (self.start, self.end) != (other.start, other.end)
 
 
 class Source:
@@ -50,15 +68,13 @@ class Source:
         line = self.original[:self.original.index(protection.old)].count("\n") + 1
         return Change(number, protection.name, self.file, line, protection.old, suites=protection.suites)
 
-    def add(self, rule, line, column, old, new):
-        """A change by a rule: at `column` of a line `old` becomes `new`, which holds %d for the switch's number."""
+    def add(self, rule, line, start, end, new, inner=None):
+        """A change by a rule: the columns start..end of a line become `new`, which holds %d for the switch's number and
+        INNER for the columns `inner` (the same where not given)."""
         number, text = self._number(), self.lines[line].strip()
         name = "%s:%d %s: %s" % (self.file.split("/")[-1], line + 1, rule, text)
-        self.by_rule.append(Change(number, name, self.file, line + 1, text, rule, column=column, old=old,
-                                   new=new.replace("%d", str(number))))
-
-    def has_changes_by_rule(self):
-        return bool(self.by_rule)
+        self.by_rule.append(Change(number, name, self.file, line + 1, text, rule, start=start, end=end,
+                                   inner=inner or (start, end), new=new.replace("%d", str(number))))
 
     def changes_by_rule(self):
         return self.by_rule
@@ -77,15 +93,8 @@ class Source:
         self.path.write_text(SWITCH + text)
 
     def _switched_lines(self):
-        lines = list(self.lines)
-        for number, line in enumerate(lines):
-            changes = [change for change in self.by_rule if change.line == number + 1]
-            for change in sorted(changes, key=lambda one: -one.column):
-                place = slice(change.column, change.column + len(change.old))
-                assert line[place] == change.old, (line, change)
-                line = line[:place.start] + change.new + line[place.stop:]
-            lines[number] = line
-        return lines
+        return [render(line, 0, len(line), [change for change in self.by_rule if change.line == number + 1])
+                for number, line in enumerate(self.lines)]
 
     def restore(self):
         self.path.write_text(self.original)
