@@ -60,7 +60,7 @@ class Source:
         if self.original.count(protection.old) != 1:
             sys.exit("%s: this must stand in %s once:\n%s" % (protection.name, self.file, protection.old))
         number = self._number()
-        if protection.old.rstrip().endswith((";", "}")):
+        if protection.old.endswith(";"):
             switched = "if (IsMutant(%d)) { %s } else { %s }" % (number, protection.new, protection.old)
         else:
             switched = "(IsMutant(%d) ? (%s) : (%s))" % (number, protection.new, protection.old)
