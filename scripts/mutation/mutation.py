@@ -13,6 +13,7 @@ import argparse
 import os
 import pathlib
 import random
+import re
 import subprocess
 import sys
 
@@ -23,6 +24,7 @@ from switch import Source
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("BUILD_DIR", ROOT / "_b"))
 PROGRAMS = BUILD / "devel/lib/arfm_vo"
+CTEST = ["ctest", "--output-on-failure", "--test-dir", str(BUILD), "-R"]
 
 # What a suite takes: targets to build, and the command.
 SUITES = {
@@ -36,25 +38,32 @@ for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
                        ("clock_stall", ["chassis_node", "test_chassis_node"]),
                        ("pan_tilt", ["pan_tilt_node", "test_pan_tilt"]),
                        ("stereo_camera", ["stereo_camera_node", "test_stereo_camera"])):
-    SUITES[suite] = (targets, ["ctest", "--test-dir", str(BUILD), "-R", "^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
+    SUITES[suite] = (targets, CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
 SUITES["simulated_graph"] = (["chassis_node", "simulator_node", "arfm_vo_nodelets", "truth_path_node", "pan_tilt_node"],
-                             ["ctest", "--test-dir", str(BUILD), "-R", "rostest_test_nodes_simulation.test"])
+                             CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_simulation.test$"])
 LIMIT_S = 400
+# How gtest and rostest tell of a test that failed.
+FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
 
 
-def run(suite, number):
-    """Whether the suite passes with the change of this number switched on."""
+def find_failure(suite, number):
+    """The first test of a suite that fails with the change of this number switched on; nothing where none does."""
     environment = {**os.environ, "ARFM_VO_MUTANT": str(number), "GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1"}
     try:
-        return subprocess.run(SUITES[suite][1], env=environment, capture_output=True, timeout=LIMIT_S).returncode == 0
+        ended = subprocess.run(SUITES[suite][1], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               timeout=LIMIT_S)
     except subprocess.TimeoutExpired:
-        return False
+        return suite + " (time-out)"
+    if ended.returncode == 0:
+        return None
+    found = FAILED.search(ended.stdout.decode(errors="replace"))
+    return found.group(1) or found.group(2) if found else suite + " (ended)"
 
 
 def notice(suites, number):
-    """The first suite that fails; nothing where none does."""
-    return next((suite for suite in suites if not run(suite, number)), None)
+    """The first test that fails; nothing where none does."""
+    return next(filter(None, (find_failure(suite, number) for suite in suites)), None)
 
 
 def build(suites):
@@ -105,7 +114,7 @@ def try_switched(sources, changes, suites, suites_of):
         build(suites)
         broken = notice(sorted(suites), 0)
         if broken:
-            sys.exit("test_%s fails with nothing changed" % broken)
+            sys.exit("%s fails with nothing changed" % broken)
         return try_all(changes, suites_of)
     finally:
         for source in sources:
@@ -148,7 +157,7 @@ def make_page(protections, sampled, seed, num_possible):
              "", "## Protections removed", "",
              "%d of %d are noticed." % (len(protections) - len(missed), len(protections))]
     lines += table([(change.name, "`%s`" % change.file, noticed or "**not noticed**") for change, noticed in protections],
-                   ("protection", "in", "noticed by test_"))
+                   ("protection", "in", "noticed by"))
     if not sampled:
         return "\n".join(lines) + "\n"
     survivors = [change for change, noticed in sampled if not noticed]
@@ -164,11 +173,12 @@ def make_page(protections, sampled, seed, num_possible):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="protections whose name holds this")
+    parser.add_argument("--rules-only", action="store_true", help="no protections")
     parser.add_argument("--sample", type=int, default=0, help="of the changes by rule")
     parser.add_argument("--seed", type=int, default=1, help="of the sample")
     parser.add_argument("--output", type=pathlib.Path, help="the page, Markdown")
     arguments = parser.parse_args()
-    protections = try_protections(arguments.only)
+    protections = [] if arguments.rules_only else try_protections(arguments.only)
     sampled, num_possible = try_rules(arguments.sample, arguments.seed) if arguments.sample else ([], 0)
     for what, tried in ("protections", protections), ("changes by rule", sampled):
         print("%s: %d of %d noticed" % (what, sum(bool(noticed) for _, noticed in tried), len(tried)))

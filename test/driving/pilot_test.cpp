@@ -426,6 +426,18 @@ TEST_F(PilotTest, ASilentChassisBlocks) {
   EXPECT_EQ(Reason(), StopReason::kNoFeedback);
 }
 
+TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
+  StartDriving();
+  for (int i = 0; i < 27; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObserveTracks(now_s_, 0, 0);
+    pilot_.Tick(now_s_);
+    if (i == 23) EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+  }
+  EXPECT_EQ(Reason(), StopReason::kNoFeedback);
+}
+
 TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
   chassis_.authority = ChassisAuthority::kUs;
   Run(0.1);
