@@ -100,6 +100,8 @@ class Campaign:
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s))
+        if fault.ends_graph:
+            pace = 1.0  # simulated time ends too
         row = {"name": fault.name, "promise": fault.promise, "limit_s": fault.limit_s / min(1.0, pace)}
         row["held_up_s"] = held_up_s
         row["moves"] = self.rover.moves()

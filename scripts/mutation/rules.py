@@ -59,6 +59,6 @@ def change_returns(source, number, line, bare):
         column = bare.rindex(found.group(1))
         other = {"true": "!%s", "false": "%s"}[found.group(1)] % MUTANT
         source.add("result turned round", number, column, column + len(found.group(1)), other)
-    found = re.match(r"^\s+return ([^?;{]*(?:&&|\|\||==|!=|<|>)[^?;{]*);$", bare)
+    found = re.match(r"^\s+return ([^?;{]*(?: && | \|\| | == | != | <=? | >=? )[^?;{]*);$", bare)
     if found:
         source.add("result turned round", number, *found.span(1), "%s != static_cast<bool>(%s)" % (MUTANT, INNER))
