@@ -28,7 +28,7 @@ if [ -d "$input" ]; then
 fi
 input=$(realpath "$input")
 rm -f "$output"/poses*.txt "$output"/trajectory*.tum
-roslaunch arfm_vo replay.launch bag:="$input" rviz:=false trajectory_dir:="$output"
+roslaunch arfm_vo replay.launch bag:="$input" rviz:=false trajectory_dir:="$output" trajectory_of_camera:=true
 [ -s "$output/trajectory.tum" ] || { echo "demo: the nodes saved no trajectory" >&2; exit 1; }
 if scripts/pair_with_truth.py "$output/trajectory.tum" "$input" "$output"; then
   rosrun arfm_vo evaluate_trajectory "$output/estimate.txt" "$output/truth.txt" \

@@ -15,4 +15,5 @@ class Fault:
     mend: Callable = lambda campaign: None
     limit_s: float = 0.0
     ends_graph: bool = False  # nothing can be asked of the graph afterwards
+    is_load: bool = False  # holds the campaign itself up
     is_well: Callable = lambda campaign: True  # what else must hold when the rover has been watched

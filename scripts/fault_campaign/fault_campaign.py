@@ -34,6 +34,9 @@ from std_msgs.msg import Bool  # noqa: E402
 MAX_STOP_S = 0.3  # after the fault, or after its limit
 MAX_WAY_M = 0.10  # of the tracks from the stop on, their own inertia included
 WATCH_S = 3.0
+# A row in which the campaign itself did not run for so long says nothing of the rover: it is measured anew.
+MAX_HELD_UP_S = 0.3
+MAX_TRIES = 3
 BRIEFLY_UNCERTAIN = "pose is too uncertain"  # until the next good covariance
 NODES = ("chassis_node", "pose_node", "ba_node", "arfm_node")
 NAN = float("nan")
@@ -84,17 +87,25 @@ class Campaign:
             return None
         self.pids = {node: pid_of("/" + node) for node in NODES}
         del self.rover.reports[:]
+        del self.rover.odometry_texts[:]
+        self.rover.sight.mark()
         way_m = self.tap.way_m()
         injected_s, simulated_s = time.monotonic(), rospy.get_time()
         fault.inject(self)
         told = [self.rover.status.reason]
         end_s = injected_s + fault.limit_s + WATCH_S
-        while time.monotonic() < end_s:
+        looked_s, held_up_s = time.monotonic(), 0.0
+        while looked_s < end_s:
             told.append(self.rover.status.reason)
             time.sleep(0.01)
+            held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s))
+        if fault.ends_graph:
+            pace = 1.0  # simulated time ends too
         row = {"name": fault.name, "promise": fault.promise, "limit_s": fault.limit_s / min(1.0, pace)}
+        row["held_up_s"] = held_up_s
         row["moves"] = self.rover.moves()
+        row["pose_off_m"] = self.rover.sight.error_m()
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
         row["way_m"] = self.tap.way_m() - way_m
@@ -107,6 +118,15 @@ class Campaign:
         row["go_on"] = "" if fault.ends_graph else self.find_what_it_takes(row)
         row["kept"] = self.is_kept(fault, row) and is_well
         return row
+
+    def measure_undisturbed(self, fault):
+        """The same; once more where the machine held the campaign up and that may be why it is not as promised."""
+        for attempt in range(1, MAX_TRIES + 1):
+            row = self.measure(fault)
+            is_disturbed = row is not None and not row["kept"] and row["held_up_s"] > MAX_HELD_UP_S
+            if not is_disturbed or fault.ends_graph or fault.is_load or attempt == MAX_TRIES:
+                return row
+            print("%s: held up for %.2f s by the machine, measured anew" % (fault.name, row["held_up_s"]), flush=True)
 
     def is_kept(self, fault, row):
         if row["arrived"]:
@@ -425,7 +445,7 @@ def run(faults, log, output, max_stop_s):
         campaign = Campaign(rover, tap, camera, launch, max_stop_s)
         for fault in faults:
             try:
-                row = campaign.measure(fault)
+                row = campaign.measure_undisturbed(fault)
             except NotPermitted as error:
                 print("%s: left out, not permitted here: %s" % (fault.name, error), flush=True)
                 continue

@@ -123,8 +123,8 @@ def machine_faults():
                   "drives on or chassis_node was held up or pose is stale or odometry has started anew or no pose", slow, 1)
             for seconds in (1, -1, 3600, -900)]
     return rows + [
-        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3),
-        Fault("memory is short", press_memory, "drives on or pose is stale", unburden, 3),
+        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3, is_load=True),
+        Fault("memory is short", press_memory, "drives on or pose is stale", unburden, 3, is_load=True),
         Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
         Fault("terminal is frozen", freeze_terminal, "- or drives on", thaw_terminal, 1),
         Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),
@@ -137,5 +137,6 @@ def machine_faults():
 
 def last_faults():
     """After these the graph is not what it was."""
-    return [Fault("roscore killed, then the operator goes", kill_master, "no operator heartbeat", limit_s=0.9,
+    # roslaunch ends all nodes when its master dies, and chassis_node leaves a standing rover behind.
+    return [Fault("roscore killed, then the operator goes", kill_master, "- or no operator heartbeat", limit_s=0.9,
                   ends_graph=True)]

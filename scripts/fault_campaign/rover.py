@@ -1,5 +1,6 @@
 """The running graph of launch/simulation.launch, and a person who drives it."""
 import fcntl
+import math
 import os
 import signal
 import socket
@@ -11,8 +12,9 @@ import rosgraph
 import rosnode
 import rospy
 import rosservice
-from arfm_vo.msg import DriveStatus, GoalReport
+from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus
 from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Odometry
 from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Trigger
 
@@ -72,8 +74,51 @@ class Launch:
             self.process.wait()
 
 
+class Sight:
+    """The way by the odometry beside the true one."""
+
+    def __init__(self):
+        self.truths, self.seen = {}, {}  # places by stamp
+        self.mark_s = 0.0
+        rospy.Subscriber("base_truth", Odometry, self.take_truth)
+        rospy.Subscriber("odom", Odometry, self.take_odometry)
+
+    @staticmethod
+    def note(places, message):
+        place = message.pose.pose.position
+        places[message.header.stamp.to_sec()] = (place.x, place.y)
+        while len(places) > 3000:
+            del places[next(iter(places))]
+
+    def take_truth(self, message):
+        self.note(self.truths, message)
+
+    def take_odometry(self, message):
+        is_known = message.pose.covariance[0] < 1  # a pose that is lost has thousands
+        if is_known and message._connection_header["callerid"] == "/pose_node":
+            self.note(self.seen, message)
+
+    def mark(self):
+        """From here on."""
+        self.mark_s = rospy.get_time() - 1
+
+    def error_m(self):
+        """By how much the way between the first and the last pose that was told differs from the true one."""
+        stamps = [stamp for stamp in sorted(self.seen) if stamp >= self.mark_s]
+        if len(stamps) < 2 or not self.truths:
+            return 0.0
+        ways = []
+        for places in self.seen, self.truths:
+            ends = [places[min(places, key=lambda other: abs(other - stamp))] for stamp in (stamps[0], stamps[-1])]
+            ways.append(math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
+        return abs(ways[0] - ways[1])
+
+
 class Rover:
     def __init__(self, tap):
+        self.sight = Sight()
+        self.odometry_texts = []  # what the odometry said of itself
+        rospy.Subscriber("status", OdometryStatus, lambda status: self.odometry_texts.append(status.text))
         self.tap = tap
         self.status, self.reports = None, []
         self.has_operator = True

@@ -14,6 +14,12 @@ std::optional<Fault> ToFault(const std::optional<StopReason>& reason) {
   return reason ? std::optional(Fault{*reason, ""}) : std::nullopt;
 }
 
+/// What a pose of another epoch looks like.
+bool IsJump(StopReason reason) {
+  return reason == StopReason::kPoseContradiction || reason == StopReason::kSliding ||
+         reason == StopReason::kMapStep;
+}
+
 }  // namespace
 
 std::optional<Fault> Pilot::FindStartFault(double now_s) const {
@@ -58,7 +64,11 @@ void Pilot::Distrust(const Fault& fault) {
   const bool keeps_route =
       fault.reason == StopReason::kMapStep || fault.reason == StopReason::kHeldUp;
   if (!keeps_route) EndRoute(GoalOutcome::kCancelled, fault);
-  if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) Block(fault);
+  // Topics have no order between them: a pose of a new epoch may come before the epoch.
+  const bool is_explained =
+      state_ == DriveState::kBlocked && fault.reason == StopReason::kNewEpoch && IsJump(reason_);
+  if (is_explained || (state_ != DriveState::kStandby && state_ != DriveState::kBlocked))
+    Block(fault);
 }
 
 void Pilot::Pause(double now_s, StopReason reason) {

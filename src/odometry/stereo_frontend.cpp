@@ -10,6 +10,7 @@ namespace arfm_vo {
 StereoFrontend::StereoFrontend(const StereoCamera& camera, const FrontendOptions& options)
     : camera_(camera),
       options_(options),
+      left_mask_(options.left_mask, {camera.width, camera.height}),
       left_surf_(options.surf),
       right_surf_(options.surf),
       reconstructor_(camera, options.stereo) {
@@ -28,7 +29,7 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   frame.left_is_repeated = left_repeated_.Look(images.left);
   frame.right_is_repeated = right_repeated_.Look(images.right);
   auto right = std::async(std::launch::async, [&] { return right_surf_.Extract(images.right); });
-  frame.features = left_surf_.Extract(images.left);
+  frame.features = left_mask_.WithoutHidden(left_surf_.Extract(images.left));
   frame.grey = ComputeGreyStatistics(images.left);
   const Features right_features = right.get();
   frame.num_right_keypoints = right_features.size();

@@ -23,10 +23,9 @@ std::string FormatTracked(const Trajectory& trajectory) {
   return text;
 }
 
-std::string FormatTum(const Trajectory& trajectory) {
+std::string FormatTum(const Trajectory& trajectory, const std::string& frame) {
   std::string text =
-      "# left camera (z ahead, x right, m) in that of the first tracked pair: "
-      "stamp tx ty tz qx qy qz qw\n";
+      "# " + frame + " in that of the first tracked pair: stamp tx ty tz qx qy qz qw\n";
   for (const TrajectoryPose& pose : trajectory) {
     if (!pose.is_tracked) continue;
     const Eigen::Vector3d& t = pose.world_from_camera.translation;

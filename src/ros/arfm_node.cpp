@@ -101,6 +101,7 @@ void ArfmNode::CheckNotRaw(const StereoMessagePair& pair) const {
 
 void ArfmNode::Process(const StereoMessagePair& pair) {
   Stopwatch stopwatch;
+  if (!AcceptStamp(pair.left->header.stamp)) return;
   PrepareFrontend(pair);
   const StereoImages images{pair.left->header.stamp.toSec(),
                             ToGrey(pair.left, topics_.left_image, window_),
@@ -116,12 +117,23 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   figures_.rate.Tick();
 }
 
+bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
+  const StampVerdict verdict = stamps_.Judge(stamp);
+  if (verdict == StampVerdict::kStray) {
+    ++figures_.num_strays;
+    ROS_WARN_THROTTLE(5, "a pair came again or late and is passed over: stamp %.3f", stamp.toSec());
+    return false;
+  }
+  if (verdict == StampVerdict::kJumpBack) {
+    ROS_WARN("time jumped back: starting anew");
+    frontend_.reset();
+  }
+  return true;
+}
+
 void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
   const StereoCamera camera = MakeStereoCamera(*pair.left_info, *pair.right_info);
-  const bool is_jump = pair.left->header.stamp < last_stamp_;
-  if (is_jump) ROS_WARN("time jumped back: starting anew");
-  last_stamp_ = pair.left->header.stamp;
-  if (frontend_ && camera == camera_ && !is_jump) return;
+  if (frontend_ && camera == camera_) return;
   frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
   if (const auto known = learned_.ReadFor(camera)) frontend_->SetCorrection(*known);
   camera_ = camera;
@@ -157,6 +169,7 @@ void ArfmNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("pairs published", figures_.num_published);
   status.add("pairs dropped", worker_.num_dropped());
   status.add("pairs refused", figures_.num_refused);
+  status.add("pairs that came again or late", figures_.num_strays);
   status.add("left images", figures_.input.left);
   status.add("right images", figures_.input.right);
   status.add("left features", figures_.num_left);

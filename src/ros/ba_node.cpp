@@ -47,7 +47,8 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       updates_(node.advertise<MapUpdateStamped>("map_update", 2)),
       path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
       landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
-      trajectory_output_(options_.trajectory_dir),
+      trajectory_output_(options_.trajectory_dir,
+                         NameTrajectoryFrame("base", options_.trajectory_of_camera)),
       learned_(options_.learned),
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
       diagnostics_(node, private_node, private_node.getNamespace()),
@@ -98,7 +99,10 @@ void BaNode::Add(const KeyframeStamped& message) {
   if (!map_.Add(keyframe)) {
     ROS_WARN("the odometry started anew: the map is forgotten");
     map_from_adjusted_ = Rigid3();
+    mounts_.Clear();
   }
+  if (trajectory_output_.is_enabled())
+    mounts_.Add(keyframe.record.stamp_s, keyframe.base_from_camera);
   newest_ = message.header;
   is_dirty_ = true;
   figures_.num_keyframes = map_.num_keyframes();
@@ -143,7 +147,8 @@ void BaNode::AdjustIfSettled() {
 void BaNode::Tell() {
   figures_.map_from_odom = MapFromOdom();
   told_.Set(figures_);
-  trajectory_.Set(map_.MakeTrajectory());
+  const Trajectory of_camera = map_.MakeTrajectory();
+  trajectory_.Set(options_.trajectory_of_camera ? of_camera : mounts_.OfBase(of_camera));
 }
 
 std::optional<MapUpdate> BaNode::Adjust() {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "arfm_vo/driving/range_check.h"
 #include "arfm_vo/ros/message_checks.h"
 
 namespace arfm_vo {
@@ -103,6 +104,20 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
   return points;
 }
 
+/// What says how the pair is as a whole.
+void RequireSummary(const StereoFrameStamped& message) {
+  const std::string name = "StereoFrameStamped: ";
+  constexpr double kMaxGrey = 255;
+  RequireInRange(message.row_agreement, 0, 1, name + "row_agreement");
+  RequireInRange(message.ratio_threshold, 0, 1, name + "ratio_threshold");
+  RequireInRange(message.grey_mean, 0, kMaxGrey, name + "grey_mean");
+  RequireInRange(message.grey_variance, 0, kMaxGrey * kMaxGrey, name + "grey_variance");
+  Require(message.num_right_keypoints <= uint64_t{message.camera.width} * message.camera.height,
+          name + "num_right_keypoints is larger than the number of pixels");
+  RequireFinite(message.stage_ms, name + "stage_ms");
+  RequireSize(message.stage_names, message.stage_ms.size(), name + "stage_names");
+}
+
 }  // namespace
 
 geometry_msgs::Transform ToTransformMessage(const Rigid3& b_from_a) {
@@ -192,6 +207,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
 }
 
 StereoFrame FromMessage(const StereoFrameStamped& message) {
+  RequireSummary(message);
   StereoFrame frame;
   frame.stamp_s = message.header.stamp.toSec();
   frame.features = ImportFeatures(message);

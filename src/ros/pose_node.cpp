@@ -30,7 +30,9 @@ void PoseNodeOptions::Check() const {
 PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<PoseNodeOptions>(private_node)),
       mount_(buffer_, options_.mount),
-      trajectory_output_(options_.trajectory_dir),
+      trajectory_output_(
+          options_.trajectory_dir,
+          NameTrajectoryFrame(options_.mount.base_frame, options_.trajectory_of_camera)),
       outputs_(node, options_.output, options_.mount.base_frame),
       session_(std::make_unique<Session>(options_.algorithm.odometry)),
       health_(options_.health),
@@ -118,7 +120,8 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
           "left/image_rect does not have the size that features tells of the camera");
   if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
   const SessionUpdate pose =
-      ProcessMounted(*session_, mount_, frame, camera, images, message.header);
+      ProcessMounted(*session_, mount_, frame, camera, images, message.header,
+                     trajectory_output_.is_enabled() ? &mounts_ : nullptr);
   if (pose.update.pose.status != PoseStatus::kNoTransform) worker_.Release();
   outputs_.Publish(pose, message, num_dropped);
   outputs_.PublishPicture(images.left, frame, pose, message.header);
@@ -130,8 +133,9 @@ bool PoseNode::AcceptStamp(const ros::Time& stamp) {
   if (stamp < last_stamp_) {
     ROS_WARN("time jumped back by %.3f s: starting anew", (last_stamp_ - stamp).toSec());
     if (trajectory_output_.is_enabled())
-      ROS_INFO("%s", trajectory_output_.Save(session_->MakeTrajectory()).c_str());
+      ROS_INFO("%s", trajectory_output_.Save(MakeTrajectory()).c_str());
     trajectory_output_.StartRun();
+    mounts_.Clear();
     session_ = std::make_unique<Session>(options_.algorithm.odometry, session_->epoch() + 1);
     outputs_.ClearPath();
     health_.Clear();
@@ -155,9 +159,14 @@ void PoseNode::ApplyUpdate(const MapUpdateStamped& message) {
   session_->Offer(FromMessage(message), message.epoch);
 }
 
+Trajectory PoseNode::MakeTrajectory() const {
+  const Trajectory of_camera = session_->MakeTrajectory();
+  return options_.trajectory_of_camera ? of_camera : mounts_.OfBase(of_camera);
+}
+
 std::string PoseNode::Save() {
   Trajectory trajectory;
-  worker_.RunAndWait([&] { trajectory = session_->MakeTrajectory(); });
+  worker_.RunAndWait([&] { trajectory = MakeTrajectory(); });
   return trajectory_output_.Save(trajectory);
 }
 

@@ -71,6 +71,8 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   std_msgs::Header header;
   header.stamp = frame.header.stamp;
   header.frame_id = options_.odom_frame;
+  // First, so that who drives by the pose hears of a new epoch before its poses.
+  PublishStatus(MakeStatus(pose, frame, num_dropped), header);
   if (pose.IsTried()) PublishOdometry(pose, header);
   if (pose.update.pose.IsMeasured()) {  // nobody steers by what no picture told
     if (options_.publish_tf) PublishTransform(pose, header);
@@ -81,9 +83,11 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
     keyframe->header = header;
     keyframe_publisher_.publish(keyframe);
   }
-  const auto status = boost::make_shared<OdometryStatus>(MakeStatus(pose, frame, num_dropped));
-  status->header = header;
-  status_publisher_.publish(status);
+}
+
+void PoseOutputs::PublishStatus(OdometryStatus status, const std_msgs::Header& header) {
+  status.header = header;
+  status_publisher_.publish(boost::make_shared<OdometryStatus>(std::move(status)));
 }
 
 void PoseOutputs::PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header) {

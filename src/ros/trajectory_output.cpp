@@ -18,7 +18,8 @@ std::string TrajectoryOutput::Save(const Trajectory& trajectory) const {
   const std::string tum = directory / ("trajectory" + suffix + ".tum");
   WriteWholeFile(kitti, FormatKitti(trajectory));
   WriteWholeFile(directory / ("tracked" + suffix + ".txt"), FormatTracked(trajectory));
-  WriteWholeFile(tum, FormatTum(trajectory));
+  WriteWholeFile(tum, FormatTum(trajectory, frame_));
+  WriteWholeFile(directory / "frame.txt", frame_ + " in that of the first tracked pair\n");
   const auto num_lost = std::count_if(trajectory.begin(), trajectory.end(),
                                       [](const TrajectoryPose& pose) { return !pose.is_tracked; });
   return std::to_string(trajectory.size()) + " poses saved in " + kitti +

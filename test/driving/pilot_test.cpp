@@ -426,6 +426,18 @@ TEST_F(PilotTest, ASilentChassisBlocks) {
   EXPECT_EQ(Reason(), StopReason::kNoFeedback);
 }
 
+TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
+  StartDriving();
+  for (int i = 0; i < 27; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObserveTracks(now_s_, 0, 0);
+    pilot_.Tick(now_s_);
+    if (i == 23) EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+  }
+  EXPECT_EQ(Reason(), StopReason::kNoFeedback);
+}
+
 TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
   chassis_.authority = ChassisAuthority::kUs;
   Run(0.1);
@@ -447,6 +459,29 @@ TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
   pilot_.Stop();
   pilot_.Start(now_s_);
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, AVelocityOfBeforeABlockIsForgotten) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  pilot_.SetEmergencyStop("test", true);
+  Run(kTick_s);
+  pilot_.SetEmergencyStop("test", false);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, AfterAStopTheSpeedGrowsFromNothing) {
+  StartDriving();
+  pilot_.CancelRoute();
+  Run(kTick_s);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  const double speed_mps = Run(kTick_s).chassis_motion.forward_mps;
+  EXPECT_GT(speed_mps, 0);
+  EXPECT_LE(speed_mps, kTick_s * SpeedLimiterOptions().max_acceleration_mps2 + 1e-9);
 }
 
 TEST_F(PilotTest, ALateTickIsNoLeapOfTheSpeed) {

@@ -32,7 +32,7 @@ print("ready", flush=True)
 rospy.spin()
 """ % (TOPICS,)
 
-# Publishes and calls all of that; given up after some seconds.
+# Publishes and calls all of that, and stays until it is ended.
 SPEAK = """
 import socket, time
 socket.setdefaulttimeout(3)
@@ -44,7 +44,7 @@ publishers = [rospy.Publisher(name, Empty, queue_size=1, latch=True) for name in
 for publisher in publishers:
     publisher.publish(Empty())
 rospy.ServiceProxy("chassis_node/start", Trigger)()
-time.sleep(3)
+time.sleep(600)
 """ % (TOPICS,)
 
 
@@ -100,22 +100,24 @@ def join(rover, stranger):
         side.run("ip", "link", "set", "lo", "up")
 
 
-def hear(listener, seconds):
-    """What the rover's node has heard until now."""
-    time.sleep(seconds)
+def hear(speaker, listener, expected):
+    """What the rover's node hears until that is what is expected, or for some seconds."""
+    heard = set()
     os.set_blocking(listener.stdout.fileno(), False)
-    try:
-        return set(os.read(listener.stdout.fileno(), 65536).decode().split())
-    except BlockingIOError:
-        return set()
+    end = time.monotonic() + (60 if expected else 10)
+    while time.monotonic() < end and (heard != expected or not expected):
+        time.sleep(0.05)
+        try:
+            heard |= set(os.read(listener.stdout.fileno(), 65536).decode().split())
+        except BlockingIOError:
+            pass
+    speaker.kill()
+    speaker.wait()
+    return heard
 
 
-def speak(side, address, limit_s=15):
-    speaker = side.python(SPEAK, address, ROVER)
-    try:
-        speaker.wait(limit_s)
-    except subprocess.TimeoutExpired:
-        speaker.kill()
+def speak(side, address):
+    return side.python(SPEAK, address, ROVER)
 
 
 def connects(side, port):
@@ -138,16 +140,14 @@ def run(rover, stranger):
     listener = rover.python(LISTEN, ROVER, ROVER)
     check(listener.stdout.readline() == "ready\n", "the rover's node runs")
     everything = set(TOPICS) | {"start"}
-    speak(stranger, STRANGER)
-    check(hear(listener, 1) == everything, "without the rules a stranger commands the rover")
+    heard = hear(speak(stranger, STRANGER), listener, everything)
+    check(heard == everything, "without the rules a stranger commands the rover")
     rover.run("nft", "-f", RULES)
     rover.run("nft", "-f", RULES)  # once more is no error
     check(not connects(stranger, PORT), "with the rules he does not reach the master")
-    speak(stranger, STRANGER)
-    check(hear(listener, 1) == set(), "nothing that he says arrives")
+    check(hear(speak(stranger, STRANGER), listener, set()) == set(), "nothing that he says arrives")
     check(connects(stranger, 22), "ssh is reached")
-    speak(rover, ROVER)
-    check(hear(listener, 1) == everything, "what is said on the rover arrives")
+    check(hear(speak(rover, ROVER), listener, everything) == everything, "what is said on the rover arrives")
 
 
 def main():

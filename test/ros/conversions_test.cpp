@@ -184,6 +184,26 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.point_observation[2] = 1 / 0.0; });
 }
 
+TEST(Conversions, AStereoFrameWhoseSummaryIsWrongIsRefusedByName) {
+  const StereoFrameStamped good = ToMessage(MakeFrame(), kCamera);
+  ExpectRefused(good, "row_agreement must be in 0..1",
+                [](auto& message) { message.row_agreement = kNaN; });
+  ExpectRefused(good, "row_agreement must be in 0..1",
+                [](auto& message) { message.row_agreement = 1.01; });
+  ExpectRefused(good, "ratio_threshold must be in 0..1",
+                [](auto& message) { message.ratio_threshold = -0.1; });
+  ExpectRefused(good, "grey_mean must be in 0..255",
+                [](auto& message) { message.grey_mean = 256; });
+  ExpectRefused(good, "grey_variance must be in 0..65025",
+                [](auto& message) { message.grey_variance = kNaN; });
+  ExpectRefused(good, "num_right_keypoints is larger",
+                [](auto& message) { message.num_right_keypoints = 0xFFFFFFFF; });
+  ExpectRefused(good, "stage_ms[0] is not a finite number",
+                [](auto& message) { message.stage_ms = {kNaN}; });
+  ExpectRefused(good, "stage_names holds 0 values, 1 expected",
+                [](auto& message) { message.stage_ms = {1}; });
+}
+
 TEST(Conversions, AMalformedKeyframeIsRefusedByName) {
   const KeyframeStamped good = ToMessage(MakeKeyframe());
   ExpectRefused(good, "observation_pixels holds 7 values, 8 expected",

@@ -208,6 +208,7 @@ TEST_F(MalformedMessages, Features) {
   const cv::Mat grey = cv::Mat::zeros(kCamera.height, kCamera.width, CV_8UC1);
   Feed(ToMessage(SomeFrame(), kCamera), [&](const auto& message) {
     StereoFrame frame = FromMessage(message);
+    ASSERT_TRUE(frame.row_agreement >= 0 && frame.row_agreement <= 1);
     const StereoCamera camera = FromMessage(message.camera);
     Require(camera == kCamera, "another camera than that of the images");  // as pose_node does
     if (num_taken++ % 1000 == 0) session = std::make_unique<Session>(LocalOdometryOptions());

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kFrame = NameTrajectoryFrame("base_link", false);
+
 class TrajectoryOutputTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -25,7 +27,7 @@ class TrajectoryOutputTest : public testing::Test {
 };
 
 TEST_F(TrajectoryOutputTest, WritesBothFormatsIntoAFolderThatItMakes) {
-  const TrajectoryOutput output(folder_ / "run" / "one");
+  const TrajectoryOutput output(folder_ / "run" / "one", kFrame);
   const Trajectory trajectory{{1.5, Rigid3(), true}, {2.5, Rigid3(), true}};
   const std::string said = output.Save(trajectory);
   EXPECT_NE(said.find("2 poses"), std::string::npos);
@@ -36,15 +38,23 @@ TEST_F(TrajectoryOutputTest, WritesBothFormatsIntoAFolderThatItMakes) {
   EXPECT_EQ(line.substr(0, 1), "1");
 }
 
+TEST_F(TrajectoryOutputTest, SaysWhosePosesTheyAre) {
+  TrajectoryOutput(folder_, kFrame).Save({{1.5, Rigid3(), true}});
+  EXPECT_EQ(ReadWholeFile(folder_ / "frame.txt"),
+            "base_link (x ahead, y left, z up, m) in that of the first tracked pair\n");
+  EXPECT_EQ(ReadWholeFile(folder_ / "trajectory.tum").rfind("# base_link (x ahead", 0), 0u);
+}
+
 TEST_F(TrajectoryOutputTest, InterpolatedPosesAreMarked) {
   const Trajectory trajectory{{1.5, Rigid3(), true}, {2.5, Rigid3(), false}, {3.5, Rigid3(), true}};
-  EXPECT_NE(TrajectoryOutput(folder_).Save(trajectory).find("(1 interpolated)"), std::string::npos);
+  EXPECT_NE(TrajectoryOutput(folder_, kFrame).Save(trajectory).find("(1 interpolated)"),
+            std::string::npos);
   EXPECT_EQ(ReadWholeFile(folder_ / "tracked.txt"), "1\n0\n1\n");
   EXPECT_EQ(ReadTumTrajectory(folder_ / "trajectory.tum").size(), 2u);
 }
 
 TEST_F(TrajectoryOutputTest, AFurtherRunDoesNotOverwriteTheFirst) {
-  TrajectoryOutput output(folder_);
+  TrajectoryOutput output(folder_, kFrame);
   output.Save({{1.5, Rigid3(), true}});
   output.StartRun();
   output.Save({{2.5, Rigid3(), true}, {3.5, Rigid3(), true}});
@@ -53,8 +63,8 @@ TEST_F(TrajectoryOutputTest, AFurtherRunDoesNotOverwriteTheFirst) {
 }
 
 TEST_F(TrajectoryOutputTest, WithoutADirectoryItSaysSo) {
-  EXPECT_FALSE(TrajectoryOutput("").is_enabled());
-  EXPECT_INVALID(TrajectoryOutput("").Save({}), "trajectory_dir is not set");
+  EXPECT_FALSE(TrajectoryOutput("", kFrame).is_enabled());
+  EXPECT_INVALID(TrajectoryOutput("", kFrame).Save({}), "trajectory_dir is not set");
 }
 
 }  // namespace

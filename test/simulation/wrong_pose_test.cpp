@@ -74,6 +74,27 @@ TEST_F(WrongPoseTest, ANewEpochDropsTheGoalAndBlocksEvenWhereThePoseStaysTheSame
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kReady);
 }
 
+TEST_F(WrongPoseTest, AJumpThatIsSeenBeforeItsEpochIsToldIsANewEpoch) {
+  DriveTo({6, 0, {}}, 5);
+  RestartOdometryAt(PlaceAt(0, 0));
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kPoseContradiction);
+  ++drive_.epoch_;
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kNewEpoch);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+}
+
+TEST_F(WrongPoseTest, ANewEpochExplainsNoOtherStop) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.pilot().SetEmergencyStop("test", true);
+  drive_.Run(0.3);
+  ++drive_.epoch_;
+  drive_.Run(0.3);
+  ExpectBlocked(StopReason::kEmergencyStop);
+  EXPECT_FALSE(drive_.pilot().Status().has_goal);
+}
+
 TEST_F(WrongPoseTest, AnOdometryThatIsKilledAndRestartedDrivesNowhere) {
   DriveTo({6, 0, {}}, 15);
   drive_.has_pose_ = false;
@@ -115,6 +136,21 @@ TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
   drive_.Run(1);
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+}
+
+TEST(Fence, ARoverThatTheMapPlacesOutsideItStops) {
+  PilotOptions options;
+  options.goal_limits.fence_m = {-1, -0.2, 7, -0.2, 7, 2, -1, 2};
+  SimulatedDrive drive(options);
+  drive.Run(0.5);
+  ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
+  ASSERT_TRUE(drive.pilot().SetRoute({{6, 0, {}}}).is_accepted);
+  drive.Run(3);
+  ASSERT_EQ(drive.pilot().Status().state, DriveState::kDriving);
+  drive.map_from_odom_ = PlaceAt(0, -0.22);  // a step that is allowed
+  drive.Run(0.3);
+  EXPECT_EQ(drive.pilot().Status().state, DriveState::kBlocked);
+  EXPECT_STREQ(ToString(drive.pilot().Status().reason), ToString(StopReason::kOutsideFence));
 }
 
 TEST_F(WrongPoseTest, APoseThatCreepsAwayWhileTheTracksStandIsSliding) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sstream>
 #include <string>
 
 #include "arfm_vo/base/check.h"
@@ -8,8 +9,10 @@ namespace arfm_vo {
 
 /// Throws std::invalid_argument naming the `key` and its range unless `value` is in low..high.
 inline void RequireInRange(double value, double low, double high, const std::string& key) {
-  Require(value >= low && value <= high,
-          key + " must be in " + std::to_string(low) + ".." + std::to_string(high));
+  if (value >= low && value <= high) return;
+  std::ostringstream text;
+  text << key << " must be in " << low << ".." << high;
+  Require(false, text.str());
 }
 
 }  // namespace arfm_vo

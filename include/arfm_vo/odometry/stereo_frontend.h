@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "arfm_vo/features/keypoint_mask.h"
 #include "arfm_vo/features/surf.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/repeated_image.h"
@@ -13,6 +16,9 @@ namespace arfm_vo {
 struct FrontendOptions {
   SurfOptions surf = SurfAtEverySecondPixel();
   StereoReconstructionOptions stereo;
+  /// PNG of the images' size, black where the left one shows the rover itself (mast, tracks): no
+  /// keypoint there is used; empty: no such place.
+  std::string left_mask;
 
   /// As Bay et al. look for blobs: aligned patches make up for their coarser places.
   static SurfOptions SurfAtEverySecondPixel() {
@@ -29,6 +35,7 @@ struct FrontendOptions {
   void VisitFields(Visitor&& visit) {
     visit("surf", surf);
     visit("stereo", stereo);
+    visit("left_mask", left_mask);
   }
 };
 
@@ -36,6 +43,7 @@ struct FrontendOptions {
 /// (floors image to reconstruction). What arfm_node runs. Both eyes are worked on in parallel.
 class StereoFrontend {
  public:
+  /// Throws std::invalid_argument where the camera, an option or the mask's file is wrong.
   StereoFrontend(const StereoCamera& camera, const FrontendOptions& options);
 
   /// What an earlier drive told of the stereo correction; before the first pair.
@@ -50,6 +58,7 @@ class StereoFrontend {
  private:
   StereoCamera camera_;
   FrontendOptions options_;
+  KeypointMask left_mask_;
   Surf left_surf_, right_surf_;
   RepeatedImage left_repeated_, right_repeated_;
   StereoReconstructor reconstructor_;

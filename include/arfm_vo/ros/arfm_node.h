@@ -11,6 +11,7 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/console_watch.h"
 #include "arfm_vo/ros/learned_calibration.h"
+#include "arfm_vo/ros/stamp_order.h"
 #include "arfm_vo/ros/stereo_input.h"
 #include "arfm_vo/ros/wall_rate.h"
 #include "arfm_vo/ros/worker.h"
@@ -44,7 +45,7 @@ class ArfmNode {
  private:
   /// How the pairs since the start fared.
   struct Figures {
-    uint32_t num_published = 0, num_refused = 0;
+    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
     std::string refusal;  ///< why the newest pair was refused; empty where it was not
     int num_left = 0, num_right = 0, num_points = 0;
     double ms = 0;
@@ -60,6 +61,8 @@ class ArfmNode {
   // On the worker's thread:
   void Process(const StereoMessagePair& pair);
   void CheckNotRaw(const StereoMessagePair& pair) const;
+  /// Says whether the pair is to be worked on; begins anew where time has jumped.
+  bool AcceptStamp(const ros::Time& stamp);
   void PrepareFrontend(const StereoMessagePair& pair);
   void Publish(const StereoMessagePair& pair, const StereoFrame& frame, const StageTimes& stages);
   void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -75,7 +78,7 @@ class ArfmNode {
   GreyWindow window_;
   std::unique_ptr<StereoFrontend> frontend_;
   LearnedCalibration learned_;
-  ros::Time last_stamp_;
+  StampOrder stamps_;
   Figures figures_;
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;

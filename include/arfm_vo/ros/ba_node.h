@@ -12,6 +12,7 @@
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/learned_calibration.h"
+#include "arfm_vo/ros/mount_log.h"
 #include "arfm_vo/ros/trajectory_output.h"
 #include "arfm_vo/ros/worker.h"
 
@@ -27,6 +28,7 @@ struct BaNodeOptions {
   double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
   int max_path_poses = 1000;     ///< of path_optimized, at least 2; longer paths are thinned out
   std::string trajectory_dir;    ///< the keyframes are saved here at the end; empty: nowhere
+  bool trajectory_of_camera = false;  ///< poses saved: of the left camera; else of the base
   LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
 
   void Check() const;
@@ -41,6 +43,7 @@ struct BaNodeOptions {
     visit("max_time_share", max_time_share);
     visit("max_path_poses", max_path_poses);
     visit("trajectory_dir", trajectory_dir);
+    visit("trajectory_of_camera", trajectory_of_camera);
     learned.VisitFields(visit);
   }
 };
@@ -89,6 +92,7 @@ class BaNode {
   // Of the worker's thread:
   LearnedCalibration learned_;
   PlacedMap map_;
+  MountLog mounts_;
   Rigid3 map_from_adjusted_;  // moved where a person states where the rover stands
   std_msgs::Header newest_;
   bool is_dirty_ = false;  // a keyframe came since the last adjustment

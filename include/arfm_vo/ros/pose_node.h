@@ -17,6 +17,7 @@
 #include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/learned_calibration.h"
+#include "arfm_vo/ros/mount_log.h"
 #include "arfm_vo/ros/odometry_health.h"
 #include "arfm_vo/ros/pose_outputs.h"
 #include "arfm_vo/ros/trajectory_output.h"
@@ -35,7 +36,8 @@ struct PoseNodeOptions {
   int max_waiting_pairs = 4;          ///< older ones are dropped
   /// Until the tf of a pair is there for the first time, so many wait; for replays.
   int max_held_pairs = 0;
-  std::string trajectory_dir;  ///< the trajectory is saved here at the end; empty: nowhere
+  std::string trajectory_dir;         ///< the trajectory is saved here at the end; empty: nowhere
+  bool trajectory_of_camera = false;  ///< poses saved: of the left camera; else of the base
 
   void Check() const;
   template <class Visitor>
@@ -48,6 +50,7 @@ struct PoseNodeOptions {
     visit("max_waiting_pairs", max_waiting_pairs);
     visit("max_held_pairs", max_held_pairs);
     visit("trajectory_dir", trajectory_dir);
+    visit("trajectory_of_camera", trajectory_of_camera);
   }
 };
 
@@ -67,6 +70,7 @@ class PoseNode {
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node);
   void Offer(ros::NodeHandle node, ros::NodeHandle private_node);
   std::string Save();
+  Trajectory MakeTrajectory() const;
   // On the worker's thread:
   void Process(const Frame& frame, const sensor_msgs::ImageConstPtr& left,
                const sensor_msgs::ImageConstPtr& right);
@@ -81,6 +85,7 @@ class PoseNode {
   PoseOutputs outputs_;
   // Of the worker's thread:
   std::unique_ptr<Session> session_;
+  MountLog mounts_;
   OdometryHealth health_;
   LearnedCalibration learned_;
   GreyWindow window_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arfm_vo/OdometryStatus.h>
 #include <arfm_vo/StereoFrameStamped.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -31,9 +32,9 @@ class PoseOutputs {
  public:
   PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options, std::string base_frame);
 
-  /// Publishes what a pair said, with the stamp of its image. Where it is not tracked there is no
-  /// tf, and odom has a large covariance; without the camera's tf or with the head slewing there is
-  /// no odom either.
+  /// Publishes what a pair said, with the stamp of its image, status first. Where it is not tracked
+  /// there is no tf, and odom has a large covariance; without the camera's tf or with the head
+  /// slewing there is no odom either.
   void Publish(const SessionUpdate& pose, const StereoFrameStamped& frame, uint32_t num_dropped);
 
   /// Only where somebody looks at it.
@@ -43,6 +44,7 @@ class PoseOutputs {
   void ClearPath() { path_.Clear(); }
 
  private:
+  void PublishStatus(OdometryStatus status, const std_msgs::Header& header);
   void PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header);
   void PublishTransform(const SessionUpdate& pose, const std_msgs::Header& header);
   void PublishPath(const SessionUpdate& pose, const std_msgs::Header& header);

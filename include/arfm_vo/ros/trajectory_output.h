@@ -9,12 +9,14 @@ namespace arfm_vo {
 /// Writes DIR/poses.txt (KITTI, lost pairs interpolated), DIR/tracked.txt (a line for each of
 /// poses.txt: 1 where the pair was tracked, 0 where its pose is interpolated) and
 /// DIR/trajectory.tum (tracked pairs only), making DIR; files of the second and later runs are
-/// called poses_2.txt and so on. Each file is written whole or not at all. Throws std::system_error
-/// naming the file.
+/// called poses_2.txt and so on. frame.txt says whose poses they are, as the .tum does. Each file
+/// is written whole or not at all. Throws std::system_error naming the file.
 class TrajectoryOutput {
  public:
-  /// `directory` may be empty: then there is nowhere to write to.
-  explicit TrajectoryOutput(std::string directory) : directory_(std::move(directory)) {}
+  /// `directory` may be empty: then there is nowhere to write to. `frame` is whose poses they are,
+  /// in words.
+  TrajectoryOutput(std::string directory, std::string frame)
+      : directory_(std::move(directory)), frame_(std::move(frame)) {}
 
   bool is_enabled() const { return !directory_.empty(); }
   /// Returns what was written, in words. Throws std::invalid_argument where there is no directory.
@@ -23,8 +25,13 @@ class TrajectoryOutput {
   void StartRun() { ++run_; }
 
  private:
-  std::string directory_;
+  std::string directory_, frame_;
   int run_ = 1;
 };
+
+/// Whose poses the nodes save, in words: those of `base`, or of the left camera.
+inline std::string NameTrajectoryFrame(const std::string& base, bool is_of_camera) {
+  return is_of_camera ? "left camera (z ahead, x right, m)" : base + " (x ahead, y left, z up, m)";
+}
 
 }  // namespace arfm_vo

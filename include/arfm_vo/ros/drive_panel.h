@@ -1,0 +1,56 @@
+#pragma once
+
+#include <arfm_vo/DriveStatus.h>
+#include <ros/ros.h>
+#include <visualization_msgs/InteractiveMarker.h>
+#include <visualization_msgs/InteractiveMarkerFeedback.h>
+
+#include <string>
+
+#include "arfm_vo/base/check.h"
+
+namespace arfm_vo {
+
+struct DrivePanelOptions {
+  std::string base_frame = "base_link";  ///< the panel stands above its origin
+  double height_m = 1.2;                 ///< of the lower edge
+
+  void Check() const {
+    Require(!base_frame.empty(), "base_frame must not be empty");
+    Require(height_m >= 0 && height_m <= 100, "height_m must be in 0..100");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("base_frame", base_frame);
+    visit("height_m", height_m);
+  }
+};
+
+/// What the rover does, in words.
+std::string Describe(const DriveStatus& status);
+
+/// A panel above the rover in rviz (display InteractiveMarkers, tool Interact): what the rover does
+/// in words, and a button each to start and to stop it.
+class DrivePanel {
+ public:
+  /// Throws std::invalid_argument naming a wrong parameter.
+  DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node);
+
+ private:
+  void TakeStatus(const DriveStatus& status);
+  void TakeClick(const visualization_msgs::InteractiveMarkerFeedback& feedback);
+  void Show(const std::string& state);
+  void KeepAlive();
+  visualization_msgs::InteractiveMarker MakePanel() const;
+
+  const DrivePanelOptions options_;
+  std::string state_ = "no drive_status", answer_;
+  uint64_t number_ = 0;  // of the updates
+  ros::WallTime heard_;  // the last drive_status
+  ros::ServiceClient start_, stop_;
+  ros::Publisher whole_, updates_;
+  ros::Subscriber status_, clicks_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,12 @@
+#include "arfm_vo/ros/drive_panel.h"
+#include "arfm_vo/ros/node_main.h"
+
+int main(int argc, char** argv) {
+  return arfm_vo::RunNode<arfm_vo::DrivePanel, arfm_vo::DrivePanelOptions>(
+      argc, argv, "drive_panel_node",
+      R"(A panel above the rover in rviz (display InteractiveMarkers): its state in words, start and stop.
+
+in    drive_status, drive_panel/feedback (visualization_msgs/InteractiveMarkerFeedback)
+out   drive_panel/update, drive_panel/update_full
+calls chassis_node/start, chassis_node/stop (std_srvs/Trigger))");
+}

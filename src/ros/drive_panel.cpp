@@ -1,0 +1,143 @@
+#include "arfm_vo/ros/drive_panel.h"
+
+#include <std_srvs/Trigger.h>
+#include <visualization_msgs/InteractiveMarkerInit.h>
+#include <visualization_msgs/InteractiveMarkerUpdate.h>
+
+#include <cstdio>
+
+#include "arfm_vo/ros/parameters.h"
+
+namespace arfm_vo {
+namespace {
+
+using visualization_msgs::InteractiveMarkerControl;
+using visualization_msgs::Marker;
+
+constexpr double kTextHeight_m = 0.14, kButton_m = 0.3, kRow_m = 0.45;
+/// chassis_node tells 5 times a second.
+const ros::WallDuration kMaxSilence(2);
+/// rviz takes a panel that is silent for longer for dead.
+const ros::WallDuration kKeepAlive(0.4);
+const char* const kServer = "drive_panel";
+
+Marker MakeMarker(int type, double y_m, double z_m, double size_m) {
+  Marker marker;
+  marker.type = type;
+  marker.pose.position.y = y_m;
+  marker.pose.position.z = z_m;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = size_m;
+  marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1;
+  return marker;
+}
+
+Marker MakeText(const std::string& text, double y_m, double z_m) {
+  Marker marker = MakeMarker(Marker::TEXT_VIEW_FACING, y_m, z_m, kTextHeight_m);
+  marker.text = text;
+  return marker;
+}
+
+InteractiveMarkerControl MakeButton(const std::string& name, double y_m, double z_m, float red,
+                                    float green) {
+  InteractiveMarkerControl button;
+  button.name = name;
+  button.interaction_mode = InteractiveMarkerControl::BUTTON;
+  button.always_visible = true;
+  button.orientation.w = 1;
+  button.markers = {MakeMarker(Marker::CUBE, y_m, z_m, kButton_m),
+                    MakeText(name, y_m, z_m + kButton_m)};
+  button.markers[0].color.r = red;
+  button.markers[0].color.g = green;
+  button.markers[0].color.b = 0.1f;
+  return button;
+}
+
+}  // namespace
+
+std::string Describe(const DriveStatus& status) {
+  std::string text = status.state_text;
+  if (status.reason != "none") text += ": " + status.reason;
+  if (!status.has_goal) return text;
+  char way[48];
+  std::snprintf(way, sizeof(way), "\n%s, %.1f m to go", status.phase.c_str(),
+                status.distance_to_goal_m);
+  return text + way;
+}
+
+DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<DrivePanelOptions>(private_node)),
+      start_(node.serviceClient<std_srvs::Trigger>("chassis_node/start")),
+      stop_(node.serviceClient<std_srvs::Trigger>("chassis_node/stop")),
+      whole_(node.advertise<visualization_msgs::InteractiveMarkerInit>("drive_panel/update_full", 1,
+                                                                       true)),
+      updates_(
+          node.advertise<visualization_msgs::InteractiveMarkerUpdate>("drive_panel/update", 10)) {
+  status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
+  clicks_ = node.subscribe("drive_panel/feedback", 10, &DrivePanel::TakeClick, this);
+  Show(state_);
+  timer_ = node.createWallTimer(kKeepAlive, [this](const ros::WallTimerEvent&) { KeepAlive(); });
+}
+
+void DrivePanel::TakeStatus(const DriveStatus& status) {
+  heard_ = ros::WallTime::now();
+  if (Describe(status) != state_) Show(Describe(status));
+}
+
+void DrivePanel::TakeClick(const visualization_msgs::InteractiveMarkerFeedback& feedback) {
+  if (feedback.event_type != visualization_msgs::InteractiveMarkerFeedback::BUTTON_CLICK) return;
+  ros::ServiceClient& service = feedback.control_name == "stop" ? stop_ : start_;
+  if (feedback.control_name != "stop" && feedback.control_name != "start") return;
+  std_srvs::Trigger call;
+  const bool is_answered = service.call(call);
+  answer_ = feedback.control_name + ": " +
+            (is_answered ? call.response.message : "no answer from " + service.getService());
+  ROS_INFO("%s", answer_.c_str());
+  Show(state_);
+}
+
+visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
+  visualization_msgs::InteractiveMarker panel;
+  panel.header.frame_id = options_.base_frame;
+  panel.name = kServer;
+  panel.scale = 1;
+  panel.pose.orientation.w = 1;
+  const double z_m = options_.height_m;
+  InteractiveMarkerControl words;
+  words.name = "words";
+  words.always_visible = true;
+  words.orientation.w = 1;
+  words.markers = {MakeText(state_ + "\n" + answer_, 0, z_m + 2 * kRow_m)};
+  panel.controls = {MakeButton("start", kRow_m, z_m, 0.1f, 0.7f),
+                    MakeButton("stop", -kRow_m, z_m, 0.9f, 0.1f), words};
+  return panel;
+}
+
+void DrivePanel::Show(const std::string& state) {
+  state_ = state;
+  visualization_msgs::InteractiveMarkerInit whole;
+  whole.server_id = kServer;
+  whole.seq_num = ++number_;
+  whole.markers = {MakePanel()};
+  whole_.publish(whole);
+  visualization_msgs::InteractiveMarkerUpdate update;
+  update.server_id = kServer;
+  update.seq_num = number_;
+  update.type = visualization_msgs::InteractiveMarkerUpdate::UPDATE;
+  update.markers = whole.markers;
+  updates_.publish(update);
+}
+
+void DrivePanel::KeepAlive() {
+  if (!heard_.isZero() && ros::WallTime::now() - heard_ > kMaxSilence) {
+    heard_ = {};
+    Show("chassis_node is silent");
+  }
+  visualization_msgs::InteractiveMarkerUpdate update;
+  update.server_id = kServer;
+  update.seq_num = number_;
+  update.type = visualization_msgs::InteractiveMarkerUpdate::KEEP_ALIVE;
+  updates_.publish(update);
+}
+
+}  // namespace arfm_vo

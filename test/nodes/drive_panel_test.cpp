@@ -1,0 +1,98 @@
+// The panel's node, and chassis_node's services in the test's place.
+#include <arfm_vo/DriveStatus.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <visualization_msgs/InteractiveMarkerFeedback.h>
+#include <visualization_msgs/InteractiveMarkerInit.h>
+#include <visualization_msgs/InteractiveMarkerUpdate.h>
+
+#include "nodes/inbox.h"
+
+namespace arfm_vo {
+namespace {
+
+using visualization_msgs::InteractiveMarkerFeedback;
+using visualization_msgs::InteractiveMarkerUpdate;
+
+class DrivePanelTest : public testing::Test {
+ protected:
+  DrivePanelTest() {
+    const auto serve = [this](const std::string& name) {
+      using Request = std_srvs::Trigger::Request;
+      using Response = std_srvs::Trigger::Response;
+      return node_.advertiseService<Request, Response>("chassis_node/" + name,
+                                                       [this, name](Request&, Response& response) {
+                                                         called_.push_back(name);
+                                                         response.message = name + " it is";
+                                                         return true;
+                                                       });
+    };
+    services_ = {serve("start"), serve("stop")};
+    WaitUntil([this] { return clicks_.getNumSubscribers() > 0 && panel_.size() > 0; }, "the panel");
+  }
+
+  void Tell(const DriveStatus& status) { told_.publish(status); }
+  void Click(const std::string& control, uint8_t event) {
+    InteractiveMarkerFeedback feedback;
+    feedback.control_name = control;
+    feedback.event_type = event;
+    clicks_.publish(feedback);
+  }
+  std::string Words() const {
+    return panel_.all().back().markers.at(0).controls.at(2).markers.at(0).text;
+  }
+  void AwaitWords(const std::string& words) {
+    WaitUntil([&] { return Words().find(words) != std::string::npos; }, "\"" + words + "\"");
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher told_ = node_.advertise<DriveStatus>("drive_status", 1, true);
+  ros::Publisher clicks_ = node_.advertise<InteractiveMarkerFeedback>("drive_panel/feedback", 10);
+  Inbox<visualization_msgs::InteractiveMarkerInit> panel_{"drive_panel/update_full"};
+  Inbox<InteractiveMarkerUpdate> updates_{"drive_panel/update"};
+  std::vector<std::string> called_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+TEST_F(DrivePanelTest, SaysWhatTheRoverDoesAndThatNobodyTellsItAnyMore) {
+  DriveStatus status;
+  status.state_text = "paused";
+  status.reason = "pose is stale";
+  status.has_goal = true;
+  status.phase = "driving";
+  status.distance_to_goal_m = 2.34;
+  Tell(status);
+  AwaitWords("paused: pose is stale\ndriving, 2.3 m to go");
+  AwaitWords("chassis_node is silent");
+  const auto& panel = panel_.all().back();
+  EXPECT_EQ(panel.markers[0].header.frame_id, "base_link");
+  // rviz follows the numbers of the updates.
+  WaitUntil([&] { return updates_.size() > 0 && updates_.all().back().seq_num == panel.seq_num; },
+            "the newest number");
+  for (int i = 1; i < updates_.size(); ++i) {
+    const bool is_update = updates_.all()[i].type == InteractiveMarkerUpdate::UPDATE;
+    EXPECT_EQ(updates_.all()[i].seq_num - updates_.all()[i - 1].seq_num, is_update ? 1u : 0u);
+  }
+}
+
+TEST_F(DrivePanelTest, TheButtonsStartAndStopAndTheAnswerIsShown) {
+  Click("start", InteractiveMarkerFeedback::MOUSE_DOWN);
+  Click("words", InteractiveMarkerFeedback::BUTTON_CLICK);
+  Click("start", InteractiveMarkerFeedback::BUTTON_CLICK);
+  AwaitWords("start: start it is");
+  Click("stop", InteractiveMarkerFeedback::BUTTON_CLICK);
+  AwaitWords("stop: stop it is");
+  EXPECT_THAT(called_, testing::ElementsAre("start", "stop"));
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_drive_panel");
+  const ros::NodeHandle keeper;  // between tests too
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,35 @@
+#include "arfm_vo/ros/driving_clock.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+class SimulatedTime : public testing::Test {
+ protected:
+  ~SimulatedTime() override { ros::Time::init(); }  // the machine's time again
+  static void Set(double now_s) { ros::Time::setNow(ros::Time(now_s)); }
+};
+
+TEST_F(SimulatedTime, DrivingTimeGoesOnWithItAndNeverBack) {
+  Set(100);
+  DrivingClock clock;
+  const double start_s = clock.Now();
+  Set(101.5);
+  EXPECT_NEAR(clock.Now() - start_s, 1.5, 1e-9);
+  Set(50);
+  EXPECT_NEAR(clock.Now() - start_s, 1.5, 1e-9);
+  Set(50.25);
+  EXPECT_NEAR(clock.Now() - start_s, 1.75, 1e-9);
+  EXPECT_NEAR(clock.At(ros::Time(50)) - start_s, 1.5, 1e-9);
+}
+
+TEST(DrivingClock, IsSteadyWhereTimeIsTheMachines) {
+  DrivingClock clock;
+  const double before_s = ros::SteadyTime::now().toSec();
+  EXPECT_GE(clock.Now(), before_s);
+  EXPECT_LE(clock.Now(), ros::SteadyTime::now().toSec());
+}
+
+}  // namespace
+}  // namespace arfm_vo
