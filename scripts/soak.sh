@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Feeds pairs of recordings, back and forth, with drop-outs, darkness, exposure steps, blur, a dark eye and jumps of time,
-# through the running nodes as fast as they take them; in the second half a node is restarted each 1,000 pairs, in turn, by
+# through the running nodes as fast as they take them; in the last third a node is restarted each 1,000 pairs, in turn, by
 # SIGTERM and by SIGKILL. Samples memory, files, threads and latency of each node each 200 pairs to BUILD_DIR/soak.csv and
 # writes docs/soak.md. Status 1 where it was not tracked again.
 # Usage: scripts/soak.sh [PAIRS [SECONDS [KITTI_FOLDER ...]]]     default: 50000 pairs; ends after SECONDS (0: never)
@@ -28,7 +28,7 @@ trap 'kill $!' EXIT
   echo "(pose_node) and the keyframe's \`map_update\` (ba_node), with two pairs on their way at a time. A fault begins at each"
   echo "100th pair: drop-out of 5 pairs, darkness of 10, exposure halved, doubled, blur, a dark right eye, time 60 s back, ahead."
   echo
-  scripts/soak.py --pairs "$pairs" --restart-every 1000 --restart-from $((pairs / 2)) \
+  scripts/soak.py --pairs "$pairs" --restart-every 1000 --restart-from $((pairs * 2 / 3)) \
     --max-seconds $((seconds > 0 ? seconds : 1 << 30)) --csv "$build/soak.csv" --programs "$build/devel/lib/arfm_vo" "${folders[@]}"
 } > "$build/soak.md"
 mv "$build/soak.md" docs/soak.md
