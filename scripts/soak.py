@@ -140,6 +140,12 @@ class Answers:
             self.changed.wait_for(lambda: stamp in self.states, ANSWER_S)
             return self.states.get(stamp)
 
+    def forget(self):
+        """The stamps that follow may have been used before."""
+        with self.changed:
+            self.sent.clear()
+            self.states.clear()
+
     def take_sample(self):
         with self.changed:
             taken = {name: sorted(values) for name, values in self.latencies_ms.items()}
@@ -191,7 +197,10 @@ class Soak:
             message.header.stamp, message.header.frame_id = stamp, "left_camera_optical"
             publisher.publish(message)
         self.in_flight.append((stamp.secs, stamp.nsecs))
-        while len(self.in_flight) >= IN_FLIGHT:
+        self.finish_pairs(IN_FLIGHT - 1)
+
+    def finish_pairs(self, num_left=0):
+        while len(self.in_flight) > num_left:
             self.judge(self.answers.wait(self.in_flight.pop(0)))
 
     def judge(self, state):
@@ -213,6 +222,7 @@ class Soak:
 
     def restart(self, turn):
         name = NODES[turn % 3]
+        self.finish_pairs()
         self.nodes[name].restart(signal.SIGTERM if turn % 2 == 0 else signal.SIGKILL)
         self.wait_for_nodes()
         self.event(f"restart of {name}")
@@ -258,7 +268,11 @@ class Soak:
             left = right = same
         elif age == length - 1:
             self.event(name)
-            self.stamp_s += {"time 60 s back": -60, "time 60 s ahead": 60}.get(name, 0)
+            step_s = {"time 60 s back": -60, "time 60 s ahead": 60}.get(name, 0)
+            if step_s:
+                self.finish_pairs()
+                self.answers.forget()
+                self.stamp_s += step_s
         if left:
             self.send(recording, index, left, right)
         else:
