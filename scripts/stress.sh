@@ -1,9 +1,14 @@
 #!/usr/bin/env bash
 # Spoils the pictures of recordings and of a rendered drive (test/synthetic/disturbances.cpp) and writes what the odometry
 # makes of them to docs/stress.md, and the state of each pair over time to docs/stress.png.
-# Usage: scripts/stress.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there, the hand-held walk too
+# Usage: scripts/stress.sh [--all] [KITTI_FOLDER ...]
+#        default folders: those of ../shared/data that are there, the hand-held walk too
+#        --all   60 disturbances instead of 16, to docs/stress_all.md, and how long it took
 set -euo pipefail
 cd "$(dirname "$0")/.."
+all=()
+page=stress
+if [[ ${1-} == --all ]]; then all=(--all) page=stress_all; shift; fi
 . scripts/kitti_folders.sh stress "$@"
 walk=${ARFM_VO_SHARED:-../shared}/data/handheld/boofcv_backyard
 if [ $# -eq 0 ] && [ -d "$walk" ]; then folders+=("$walk"); fi
@@ -42,26 +47,39 @@ PLOT
 {
   echo "# Stress"
   echo
-  echo "Written by \`scripts/stress.sh\`: the first 60 pairs of each recording, once for each disturbance of its pictures."
+  echo "Written by \`scripts/stress.sh ${all[*]}\`: the first 60 pairs of each recording, once for each disturbance of its pictures."
   echo "Live and after the drive: mean translation error over 10..50 m, % / ATE, m; against the truth, or against the"
   echo "undisturbed live poses where there is none. Wrong: pairs called tracked whose place is more than 3 standard"
   echo "deviations from that of the undisturbed drive; beside it the largest deviation of a tracked pair, in standard"
-  echo "deviations. Objects are textured, 40 or 60 % of the picture, from pair 15 to the end; what else begins during"
-  echo "the drive begins at pair 20."
+  echo "deviations. Objects are textured, as many % of the picture as their name says, from pair 15 to the end; what else"
+  echo "begins during the drive begins at pair 20. Pairs that are missing are not counted."
   for folder in "${folders[@]}"; do
     name=$(basename "$folder")
     mkdir -p "$work/states"
-    "$programs/stress_odometry" "$folder" --states "$work/states" > "$work/lines"
-    [ "$name" != raw_2011_09_26_drive_0001 ] || { plot "$name" && mv "$work/stress.png" docs/stress.png; }
+    "$programs/stress_odometry" "$folder" "${all[@]}" --states "$work/states" > "$work/lines"
+    picture=
+    [ "$name$page" != raw_2011_09_26_drive_0001stress ] || picture=stress.png
+    [ -z "$picture" ] || { plot "$name" && mv "$work/stress.png" docs/stress.png; }
     echo
     echo "## $name"
     echo
-    [ "$name" != raw_2011_09_26_drive_0001 ] || { echo "![state of each pair](stress.png)"; echo; }
+    [ -z "$picture" ] || { echo "![state of each pair](stress.png)"; echo; }
     echo "| disturbance | live | after | tracked | degraded | lost | wrong | largest |"
     echo "|---|---|---|---|---|---|---|---|"
     awk -F, 'NR > 1 {gsub("nan", "-"); printf "| %s | %s / %s | %s / %s | %s | %s | %s | %s | %s |\n", \
       $1, $2, $3, $4, $5, $6, $7, $8, $9, $10}' "$work/lines"
+    awk -F, -v name="$name" 'NR > 1 && $9 > 0 {printf "| %s | %s | %s | %s |\n", name, $1, $9, $10}' "$work/lines" >> "$work/wrong"
   done
+  if [ $page = stress_all ]; then
+    echo
+    echo "## Tracked and more than 3 standard deviations off"
+    echo
+    echo "| sequence | disturbance | wrong | largest |"
+    echo "|---|---|---|---|"
+    cat "$work/wrong"
+    echo
+    echo "It took $SECONDS s."
+  fi
 } > "$work/stress.md"
-mv "$work/stress.md" docs/stress.md
-cat docs/stress.md
+mv "$work/stress.md" docs/$page.md
+cat docs/$page.md

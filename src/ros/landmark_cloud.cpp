@@ -15,6 +15,7 @@ sensor_msgs::PointCloud2 MakeLandmarkCloud(const std::vector<LandmarkPoint>& poi
       sensor_msgs::PointField::FLOAT32);
   modifier.resize(points.size());
   cloud.is_dense = true;
+  if (points.empty()) return cloud;  // the iterators take the first byte's address
 
   std::vector<float> depths_m;
   for (const LandmarkPoint& point : points) depths_m.push_back(point.depth_m);

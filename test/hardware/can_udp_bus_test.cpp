@@ -114,5 +114,11 @@ TEST(CanAddress, AnInterfaceThatIsNotThereIsNamedInTheError) {
   }
 }
 
+TEST(CanBusState, EachHasANameOfItsOwn) {
+  EXPECT_STREQ(ToString(CanBusState::kUp), "up");
+  EXPECT_STREQ(ToString(CanBusState::kBusOff), "bus-off");
+  EXPECT_STREQ(ToString(CanBusState::kDown), "down");
+}
+
 }  // namespace
 }  // namespace arfm_vo

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <deque>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,15 +8,20 @@
 
 namespace arfm_vo {
 
-/// Spoils the pairs of a recording one after the other, as cameras and traffic do.
+/// Changes pair `index` in place, from 0 one after the other; its images are not shared with
+/// anyone. May keep what it needs of earlier pairs. An empty left image: the pair has not come.
+using PairChange = std::function<void(int index, StereoImages& images)>;
+
+/// Spoils the pairs of a recording as cameras, weather and traffic do. For one run: make a new one
+/// for each.
 struct Disturbance {
   std::string name;
-  /// Changes pair `index` in place; its images are not shared with anyone. Keeps what it needs of
-  /// earlier pairs, so make a new one for each run.
-  std::function<void(int index, StereoImages& images)> apply;
+  PairChange apply;
 };
 
-/// All that there are, each fresh.
+/// "none", and the sixteen that docs/stress.md shows.
 std::vector<Disturbance> MakeDisturbances();
+/// 44 others: the same in other strengths, and further kinds.
+std::vector<Disturbance> MakeMoreDisturbances();
 
 }  // namespace arfm_vo

@@ -20,10 +20,12 @@ struct Arguments {
   std::string sequence, config, states;
   std::vector<std::string> only;
   PairSelection selection{1, 60};
+  bool all = false;
 };
 
 /// What the odometry said of a disturbed drive.
 struct Drive {
+  std::vector<size_t> pairs;        ///< those that came
   std::vector<SessionUpdate> live;  ///< [pairs]
   std::vector<Rigid3> after;        ///< [pairs]
   std::vector<Rigid3> truth;        ///< [pairs], or none
@@ -34,10 +36,12 @@ Drive Run(const Arguments& arguments, const Disturbance& disturbance) {
   VisualOdometry odometry(sequence.camera(),
                           ReadYamlFileOrDefaults<OdometryOptions>(arguments.config));
   Drive drive;
-  while (const auto pair = sequence.Next()) {
+  for (size_t i = 0; const auto pair = sequence.Next(); ++i) {
     StereoImages images{pair->images.stamp_s, pair->images.left.clone(),
                         pair->images.right.clone()};
-    disturbance.apply(static_cast<int>(drive.live.size()), images);
+    disturbance.apply(static_cast<int>(i), images);
+    if (images.left.empty()) continue;
+    drive.pairs.push_back(i);
     drive.live.push_back(odometry.Process(images));
     if (pair->true_world_from_camera) drive.truth.push_back(*pair->true_world_from_camera);
   }
@@ -65,7 +69,7 @@ Errors Compare(const std::vector<Rigid3>& truth, const std::vector<Rigid3>& esti
 
 void Print(const Arguments& arguments, const Disturbance& disturbance, const Drive& clean) {
   const Drive drive = Run(arguments, disturbance);
-  std::vector<Rigid3> live, reference = clean.truth;
+  std::vector<Rigid3> live, reference = drive.truth;
   int num_tracked = 0, num_degraded = 0, num_wrong = 0;
   double worst = 0;
   std::ofstream states;
@@ -74,10 +78,10 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
     states << "pair,state,deviation_sigma,error_m,sigma_m,text\n";
   }
   for (size_t i = 0; i < drive.live.size(); ++i) {
-    const SessionUpdate& pose = drive.live[i];
+    const SessionUpdate &pose = drive.live[i], &clean_pose = clean.live[drive.pairs[i]];
     live.push_back(pose.odom_from_base);
-    if (clean.truth.empty()) reference.push_back(clean.live[i].odom_from_base);
-    const double deviation = Deviation(pose, clean.live[i]);
+    if (clean.truth.empty()) reference.push_back(clean_pose.odom_from_base);
+    const double deviation = Deviation(pose, clean_pose);
     if (pose.IsTracked()) {
       ++num_tracked;
       worst = std::max(worst, deviation);
@@ -86,8 +90,8 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
     num_degraded += pose.HasPose() && !pose.IsTracked();
     if (states) {
       const auto error =
-          (pose.odom_from_base.translation - clean.live[i].odom_from_base.translation).norm();
-      states << i << ','
+          (pose.odom_from_base.translation - clean_pose.odom_from_base.translation).norm();
+      states << drive.pairs[i] << ','
              << (pose.IsTracked() ? "tracked"
                  : pose.HasPose() ? "degraded"
                                   : "lost")
@@ -120,8 +124,8 @@ int main(int argc, char** argv) {
       "called\n"
       "tracked that are more than 3 standard deviations from the undisturbed drive, and the worst.";
   program.inputs = {{"SEQUENCE_DIR", &arguments.sequence}};
-  program.options.add_options()("config", po::value(&arguments.config)->value_name("FILE"),
-                                "options of the odometry, YAML")(
+  program.options.add_options()("all", po::bool_switch(&arguments.all), "60 disturbances, not 16")(
+      "config", po::value(&arguments.config)->value_name("FILE"), "options of the odometry, YAML")(
       "only", po::value(&arguments.only)->value_name("NAME")->composing(),
       "these disturbances only")("pairs",
                                  po::value(&arguments.selection.max_pairs)->value_name("N"),
@@ -134,6 +138,9 @@ int main(int argc, char** argv) {
         "disturbance,live_short_percent,live_ate_m,short_percent,ate_m,tracked,degraded,"
         "lost,wrong,worst_sigma\n");
     std::vector<Disturbance> disturbances = MakeDisturbances();
+    if (arguments.all || !arguments.only.empty()) {
+      for (auto& other : MakeMoreDisturbances()) disturbances.push_back(std::move(other));
+    }
     const Drive clean = Run(arguments, disturbances.front());
     for (const Disturbance& disturbance : disturbances) {
       const bool is_asked =
