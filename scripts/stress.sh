@@ -12,7 +12,7 @@ if [[ ${1-} == --all ]]; then all=(--all) page=stress_all; shift; fi
 . scripts/kitti_folders.sh stress "$@"
 walk=${ARFM_VO_SHARED:-../shared}/data/handheld/boofcv_backyard
 if [ $# -eq 0 ] && [ -d "$walk" ]; then folders+=("$walk"); fi
-scripts/build.sh stress_odometry render_sequence
+scripts/build.sh stress_odometry render_sequence relocalise
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -79,6 +79,20 @@ PLOT
     cat "$work/wrong"
     echo
     echo "It took $SECONDS s."
+  else
+    echo
+    echo "## Relocalisation"
+    echo
+    echo "A rendered turn in place through 98 degrees: the rover is driven to a random pair, sees nothing for ten pairs, and is"
+    echo "then shown another random pair that shares at least a part of the last view (test/synthetic/relocalise.cpp)."
+    echo
+    echo "| shared view at least | tries | found by the first pair | wrong |"
+    echo "|---|---|---|---|"
+    "$programs/render_sequence" "$work/turn" --path wide_turn > "$work/log" 2>&1
+    for share in 0.5 0.25 0.1; do
+      "$programs/relocalise" "$work/turn" --min-share $share |
+        awk -F': ' -v share=$share '{v[$1] = $2} END {printf "| %s | %d | %d | %d |\n", share, v["tries"], v["found"], v["wrong"]}'
+    done
   fi
 } > "$work/stress.md"
 mv "$work/stress.md" docs/$page.md
