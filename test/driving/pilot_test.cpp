@@ -599,6 +599,58 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
   EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
 }
 
+TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {
+  PilotOptions options = Options();
+  options.stop_look_go.is_on = true;
+  pilot_ = Pilot(options);
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  ASSERT_TRUE(pilot_.SetRoute({{4, 0, {}}}).is_accepted);
+  for (int i = 0; i < 25; ++i) EXPECT_LT(Run(kTick_s).chassis_motion.forward_mps, 0.098) << i;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
+  Run(0.2);
+  EXPECT_FALSE(pilot_.Status().is_tilt_near_limit);
+  pose_ = Rigid3(ExpSO3({22 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
+  Run(0.2);
+  EXPECT_TRUE(pilot_.Status().is_tilt_near_limit);
+}
+
+TEST(PilotOptions, EachPartIsChecked) {
+  const auto refuses = [](auto&& spoil) {
+    PilotOptions options;
+    options.Check();
+    spoil(options);
+    try {
+      options.Check();
+      return false;
+    } catch (const std::invalid_argument&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refuses([](auto& options) { options.kinematics.gauge_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.limits.max_turn_rate_radps = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal.position_tolerance_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.stop_look_go.step_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.slip.window_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.pose.max_tilt_deg = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.chassis.max_feedback_age_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.motion.jam_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.operator_watch.timeout_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal_limits.max_distance_m = kNaN; }));
+  for (double PilotOptions::*field :
+       {&PilotOptions::settle_s, &PilotOptions::resume_after_s, &PilotOptions::max_pause_s,
+        &PilotOptions::fresh_command_s, &PilotOptions::warning_s, &PilotOptions::max_tick_gap_s,
+        &PilotOptions::arming_timeout_s, &PilotOptions::max_stall_s,
+        &PilotOptions::velocity_timeout_s})
+    EXPECT_TRUE(refuses([&](auto& options) { options.*field = kNaN; }));
+}
+
 TEST_F(PilotTest, WrongOptionsAreNamed) {
   PilotOptions options;
   options.velocity_timeout_s = 1;
