@@ -93,6 +93,7 @@ TEST_F(MotionWatchTest, AMotorThatDrawsTooMuchForTooLongIsAFault) {
   EXPECT_FALSE(watch_.FindFault(11));
   watch_.ObserveCurrent(12.1, 80);
   EXPECT_EQ(watch_.FindFault(12.1)->reason, StopReason::kMotorFault);
+  EXPECT_EQ(watch_.FindFault(12.1)->detail, "80 A (allowed 60 A)");
   watch_.ObserveCurrent(12.2, 5);
   EXPECT_FALSE(watch_.FindFault(20));
   watch_.ObserveCurrent(21, 80);

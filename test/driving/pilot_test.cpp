@@ -163,10 +163,36 @@ TEST_F(PilotTest, StopWinsAndDropsTheGoal) {
 
 TEST_F(PilotTest, CancelStopsAtOnce) {
   StartDriving();
+  EXPECT_EQ(pilot_.Status().phase, DrivePhase::kDrive);
   pilot_.CancelRoute();
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(State(), DriveState::kReady);
-  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kCancelled);
+  const GoalResult result = pilot_.TakeResults().at(0);
+  EXPECT_EQ(result.outcome, GoalOutcome::kCancelled);
+  EXPECT_NEAR(result.position_error_m, 5, 1e-9);
+}
+
+TEST_F(PilotTest, WhatStoppedItIsNotSaidAnyLonger) {
+  StartDriving();
+  pilot_.SetEmergencyStop("joystick", true);
+  Run(kTick_s);
+  ASSERT_EQ(pilot_.Status().detail, "by joystick");
+  pilot_.Stop();
+  EXPECT_EQ(Reason(), StopReason::kStopped);
+  EXPECT_EQ(pilot_.Status().detail, "");
+  pilot_.SetEmergencyStop("joystick", false);
+  chassis_.authority = ChassisAuthority::kNobody;
+  Run(kTick_s);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_EQ(State(), DriveState::kArming);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  chassis_.authority = ChassisAuthority::kUs;
+  has_pose_ = false;
+  Run(1.2);
+  ASSERT_EQ(Reason(), StopReason::kPoseStale);
+  has_pose_ = true;
+  Run(2);
+  EXPECT_EQ(Reason(), StopReason::kNone);
 }
 
 TEST_F(PilotTest, EmergencyStopBlocksUntilReleasedAndStarted) {
@@ -433,7 +459,9 @@ TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
     pilot_.ObserveOperator(now_s_);
     pilot_.ObserveTracks(now_s_, 0, 0);
     pilot_.Tick(now_s_);
-    if (i == 23) EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+    if (i == 23) {
+      EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+    }
   }
   EXPECT_EQ(Reason(), StopReason::kNoFeedback);
 }

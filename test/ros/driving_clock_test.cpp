@@ -7,6 +7,7 @@ namespace {
 
 class SimulatedTime : public testing::Test {
  protected:
+  SimulatedTime() { ros::Time::init(); }
   ~SimulatedTime() override { ros::Time::init(); }  // the machine's time again
   static void Set(double now_s) { ros::Time::setNow(ros::Time(now_s)); }
 };
@@ -25,10 +26,12 @@ TEST_F(SimulatedTime, DrivingTimeGoesOnWithItAndNeverBack) {
 }
 
 TEST(DrivingClock, IsSteadyWhereTimeIsTheMachines) {
+  ros::Time::init();
   DrivingClock clock;
   const double before_s = ros::SteadyTime::now().toSec();
-  EXPECT_GE(clock.Now(), before_s);
-  EXPECT_LE(clock.Now(), ros::SteadyTime::now().toSec());
+  const double now_s = clock.Now();
+  EXPECT_GE(now_s, before_s);
+  EXPECT_LE(now_s, ros::SteadyTime::now().toSec());
 }
 
 }  // namespace
