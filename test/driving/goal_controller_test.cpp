@@ -53,6 +53,19 @@ TEST(GoalController, DrivesStraightToAGoalAhead) {
   EXPECT_LT(drive.time_s, 2 / 0.1 + 10);
 }
 
+TEST(GoalController, SlowsDownBeforeTheLastWaypointOnly) {
+  GoalControllerOptions options;
+  options.waypoint_tolerance_m = 0.05;
+  GoalController last(options, {{1, 0, {}}}), passing(options, {{1, 0, {}}, {3, 0, {}}});
+  EXPECT_NEAR(last.Update({0.9, 0, 0}, false).forward_mps, 0.5 * 0.1, 1e-9);
+  EXPECT_NEAR(passing.Update({0.9, 0, 0}, false).forward_mps, 0.1, 1e-9);
+}
+
+TEST(GoalController, BacksWhereThatSavesTheTurnToTheGoalsHeading) {
+  GoalController controller({}, {{0, 0.5, -M_PI / 2}});
+  EXPECT_LT(controller.Update({}, false).turn_radps, 0) << "away from the goal, to back to it";
+}
+
 TEST(GoalController, TurnsInPlaceFirstWhereTheGoalLiesBeside) {
   GoalController controller({}, {{0, 3, std::nullopt}});
   const PlanarMotion motion = controller.Update({}, false);

@@ -41,6 +41,19 @@ TEST(GoalLimits, AWayThatLeavesTheFenceIsRefused) {
   EXPECT_EQ(limits.FindFlaw({{0, 0, {}}, {0, 9, {}}}, {9, 0, 0}), "");
 }
 
+TEST(GoalLimits, EdgesOfAFenceMayRunAskew) {
+  GoalLimitsOptions options;
+  options.fence_m = {0, 0, 10, 10, 0, 20, 4, 10};  // an arrow head that points along +x
+  const GoalLimits limits(options);
+  const RoverPose below{2.5, 5, 0};
+  EXPECT_TRUE(limits.IsInsideFence(2.5, 5));
+  EXPECT_FALSE(limits.IsInsideFence(1.5, 5));
+  EXPECT_FALSE(limits.IsInsideFence(5.5, 5));
+  EXPECT_EQ(limits.FindFlaw({{6, 10, {}}}, below), "");
+  EXPECT_EQ(limits.FindFlaw({{6, 10, {}}, {2.5, 15, {}}}, below), "");
+  EXPECT_EQ(limits.FindFlaw({{2.5, 15, {}}}, below), "the way to it leaves the fence");
+}
+
 TEST(GoalLimits, WrongOptionsAreRefused) {
   GoalLimitsOptions options;
   options.fence_m = {0, 0, 1, 1};

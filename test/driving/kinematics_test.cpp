@@ -85,6 +85,17 @@ TEST_F(SpeedLimiterTest, NeitherTrackExceedsTheCapAndTheCurveStays) {
   EXPECT_NEAR(motion.turn_radps / motion.forward_mps, 2, 1e-9);
 }
 
+TEST_F(SpeedLimiterTest, NeitherTrackExceedsTheCapWhileOneMotionGivesWayToAnother) {
+  SpeedLimiterOptions options;
+  options.max_acceleration_mps2 = 0.01;
+  options.max_turn_acceleration_radps2 = 100;
+  SpeedLimiter limiter = Limiter(options);
+  limiter.Limit({0.1, 0}, 100);
+  const PlanarMotion motion = limiter.Limit({0.1, 0.2}, 0.02);
+  EXPECT_GT(motion.turn_radps, 0.05);
+  EXPECT_LE(motion.forward_mps + motion.turn_radps * 0.583 / 2, 0.1 + 1e-9);
+}
+
 TEST_F(SpeedLimiterTest, WhatIsNotFiniteIsStandingStill) {
   SpeedLimiter limiter = Limiter();
   limiter.Limit({0.1, 0}, 10);

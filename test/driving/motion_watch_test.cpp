@@ -47,6 +47,14 @@ TEST_F(MotionWatchTest, MovingAtCommandZeroIsARunaway) {
   EXPECT_EQ(Reason(), StopReason::kRunaway);
 }
 
+TEST_F(MotionWatchTest, AStartForgetsARunaway) {
+  Run(1, {0, 0}, 0, 0);
+  Run(0.5, {0, 0}, 0.1, 0.1);
+  ASSERT_EQ(Reason(), StopReason::kRunaway);
+  watch_.Reset();
+  EXPECT_EQ(Reason(), StopReason::kNone);
+}
+
 TEST_F(MotionWatchTest, GoingOnAfterTheStopIsARunawayOnceTheResponseTimeIsOver) {
   Run(3, {0.1, 0}, 0.1, 0.1);
   Run(0.5, {0, 0}, 0.1, 0.1);
@@ -85,8 +93,13 @@ TEST_F(MotionWatchTest, AMotorThatDrawsTooMuchForTooLongIsAFault) {
   EXPECT_FALSE(watch_.FindFault(11));
   watch_.ObserveCurrent(12.1, 80);
   EXPECT_EQ(watch_.FindFault(12.1)->reason, StopReason::kMotorFault);
+  EXPECT_EQ(watch_.FindFault(12.1)->detail, "80 A (allowed 60 A)");
   watch_.ObserveCurrent(12.2, 5);
   EXPECT_FALSE(watch_.FindFault(20));
+  watch_.ObserveCurrent(21, 80);
+  ASSERT_TRUE(watch_.FindFault(24));
+  watch_.Reset();
+  EXPECT_FALSE(watch_.FindFault(24)) << "as at a start";
 }
 
 TEST(MotionWatchOptions, WrongValuesAreNamed) {

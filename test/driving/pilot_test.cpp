@@ -163,10 +163,36 @@ TEST_F(PilotTest, StopWinsAndDropsTheGoal) {
 
 TEST_F(PilotTest, CancelStopsAtOnce) {
   StartDriving();
+  EXPECT_EQ(pilot_.Status().phase, DrivePhase::kDrive);
   pilot_.CancelRoute();
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(State(), DriveState::kReady);
-  EXPECT_EQ(pilot_.TakeResults().at(0).outcome, GoalOutcome::kCancelled);
+  const GoalResult result = pilot_.TakeResults().at(0);
+  EXPECT_EQ(result.outcome, GoalOutcome::kCancelled);
+  EXPECT_NEAR(result.position_error_m, 5, 1e-9);
+}
+
+TEST_F(PilotTest, WhatStoppedItIsNotSaidAnyLonger) {
+  StartDriving();
+  pilot_.SetEmergencyStop("joystick", true);
+  Run(kTick_s);
+  ASSERT_EQ(pilot_.Status().detail, "by joystick");
+  pilot_.Stop();
+  EXPECT_EQ(Reason(), StopReason::kStopped);
+  EXPECT_EQ(pilot_.Status().detail, "");
+  pilot_.SetEmergencyStop("joystick", false);
+  chassis_.authority = ChassisAuthority::kNobody;
+  Run(kTick_s);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_EQ(State(), DriveState::kArming);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+  chassis_.authority = ChassisAuthority::kUs;
+  has_pose_ = false;
+  Run(1.2);
+  ASSERT_EQ(Reason(), StopReason::kPoseStale);
+  has_pose_ = true;
+  Run(2);
+  EXPECT_EQ(Reason(), StopReason::kNone);
 }
 
 TEST_F(PilotTest, EmergencyStopBlocksUntilReleasedAndStarted) {
@@ -433,7 +459,9 @@ TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
     pilot_.ObserveOperator(now_s_);
     pilot_.ObserveTracks(now_s_, 0, 0);
     pilot_.Tick(now_s_);
-    if (i == 23) EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+    if (i == 23) {
+      EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+    }
   }
   EXPECT_EQ(Reason(), StopReason::kNoFeedback);
 }
@@ -597,6 +625,58 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
     way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;
   }
   EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
+}
+
+TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {
+  PilotOptions options = Options();
+  options.stop_look_go.is_on = true;
+  pilot_ = Pilot(options);
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  pilot_.Start(now_s_);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  ASSERT_TRUE(pilot_.SetRoute({{4, 0, {}}}).is_accepted);
+  for (int i = 0; i < 25; ++i) EXPECT_LT(Run(kTick_s).chassis_motion.forward_mps, 0.098) << i;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
+  Run(0.2);
+  EXPECT_FALSE(pilot_.Status().is_tilt_near_limit);
+  pose_ = Rigid3(ExpSO3({22 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
+  Run(0.2);
+  EXPECT_TRUE(pilot_.Status().is_tilt_near_limit);
+}
+
+TEST(PilotOptions, EachPartIsChecked) {
+  const auto refuses = [](auto&& spoil) {
+    PilotOptions options;
+    options.Check();
+    spoil(options);
+    try {
+      options.Check();
+      return false;
+    } catch (const std::invalid_argument&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refuses([](auto& options) { options.kinematics.gauge_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.limits.max_turn_rate_radps = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal.position_tolerance_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.stop_look_go.step_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.slip.window_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.pose.max_tilt_deg = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.chassis.max_feedback_age_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.motion.jam_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.operator_watch.timeout_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal_limits.max_distance_m = kNaN; }));
+  for (double PilotOptions::*field :
+       {&PilotOptions::settle_s, &PilotOptions::resume_after_s, &PilotOptions::max_pause_s,
+        &PilotOptions::fresh_command_s, &PilotOptions::warning_s, &PilotOptions::max_tick_gap_s,
+        &PilotOptions::arming_timeout_s, &PilotOptions::max_stall_s,
+        &PilotOptions::velocity_timeout_s})
+    EXPECT_TRUE(refuses([&](auto& options) { options.*field = kNaN; }));
 }
 
 TEST_F(PilotTest, WrongOptionsAreNamed) {

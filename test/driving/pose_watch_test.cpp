@@ -101,6 +101,17 @@ TEST_F(PoseWatchTest, SightingsFromBeforeANewEpochDoNotCount) {
   EXPECT_TRUE(watch_.HasPose());
 }
 
+TEST_F(PoseWatchTest, ADatumCountsInItsEpochOnly) {
+  Drive(10, 0);
+  See(10, At(0), 3);
+  ASSERT_TRUE(watch_.SetDatum());
+  EXPECT_FALSE(watch_.FindFault(10).value_or(StopReason::kPoseMissing) ==
+               StopReason::kPoseUncertain);
+  EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
+  See(11, At(0), 3);
+  EXPECT_EQ(watch_.FindFault(11), StopReason::kPoseUncertain);
+}
+
 TEST(PoseWatchOptions, WrongValuesAreNamed) {
   PoseWatchOptions options;
   options.consistency.max_map_step_m = std::numeric_limits<double>::infinity();

@@ -26,6 +26,7 @@ TEST_F(SimulatedTime, DrivingTimeGoesOnWithItAndNeverBack) {
 }
 
 TEST(DrivingClock, IsSteadyWhereTimeIsTheMachines) {
+  ros::Time::init();
   DrivingClock clock;
   const double before_s = ros::SteadyTime::now().toSec();
   const double now_s = clock.Now();

@@ -138,6 +138,28 @@ TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
 }
 
+TEST_F(WrongPoseTest, ASmallTurnOfTheMapIsDrivenOnAndALargeOneAsks) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.map_from_odom_ = PlaceAt(0, 0, 0.08);
+  drive_.Run(2);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+  at_fault_ = drive_.plant().Pose();
+  drive_.map_from_odom_ = PlaceAt(0, 0, 0.2);
+  drive_.Run(5);
+  ExpectBlocked(StopReason::kMapStep);
+}
+
+TEST_F(WrongPoseTest, AGoodPoseArrives) {
+  DriveTo({0.6, 0, 0.3}, 3);
+  drive_.Run(30);
+  const auto results = drive_.pilot().TakeResults();
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].outcome, GoalOutcome::kArrived);
+  EXPECT_NEAR(drive_.plant().Pose().x_m, 0.6, 0.05);
+  EXPECT_NEAR(drive_.plant().Pose().heading_rad, 0.3, 0.05);
+  EXPECT_LT(drive_.FastestTrack(), 1e-3);
+}
+
 TEST(Fence, ARoverThatTheMapPlacesOutsideItStops) {
   PilotOptions options;
   options.goal_limits.fence_m = {-1, -0.2, 7, -0.2, 7, 2, -1, 2};
