@@ -248,7 +248,7 @@ class Soak:
                     for index in recording.back_and_forth():
                         if self.count >= self.options.pairs or time.monotonic() - start > self.options.max_seconds:
                             return
-                        if index in (0, len(recording.pairs) - 1):
+                        if index in (0, len(recording.pairs) - 1) and self.worst == "nothing":
                             self.event("a turn round at full speed")
                         self.step(recording, index)
                         if self.count % SAMPLE_PAIRS == 0:
@@ -259,14 +259,16 @@ class Soak:
 
     def step(self, recording, index):
         self.count += 1
-        past_s, every = self.count - self.options.restart_from, self.options.restart_every
-        if past_s >= 0 and past_s % every == 0:
-            self.restart(past_s // every)
+        every = self.options.restart_every
+        if self.count >= self.options.restart_from and self.count % every == FAULT_PERIOD // 2:  # between two faults
+            self.restart(self.count // every)
         name, length, left, right = FAULTS[self.count // FAULT_PERIOD % len(FAULTS)]
         age = self.count % FAULT_PERIOD
         if self.count < FAULT_PERIOD or age >= length:
             left = right = same
-        elif age == length - 1:
+        elif age == 0:
+            self.event(name)
+        if self.count >= FAULT_PERIOD and age == length - 1:
             self.event(name)
             step_s = {"time 60 s back": -60, "time 60 s ahead": 60}.get(name, 0)
             if step_s:
