@@ -9,7 +9,8 @@ import os
 import statistics
 import sys
 
-BEGIN, END = "<!-- benchmark: begin, by scripts/benchmark.sh -->", "<!-- benchmark: end -->"
+from readme_section import replace_section
+
 SUFFIX = "/process_time/real_time"
 SURF = "SurfWhole/oriented/{}/{}/{}"  # points, threads, per cent of the image's side
 EXACT, EXACT_ALL = "ExactMatching/same_sign/{}", "ExactMatching/all/{}"
@@ -84,23 +85,16 @@ def main():
     flann = all_of[FLANN.format(1000)]["cpu_time"]
     load = os.getloadavg()[0]
     text = "\n".join(
-        [BEGIN, f"First pair of {sequence} at 1226x370, {os.cpu_count()} cores, load {load:.1f}; medians. "
+        [f"First pair of {sequence} at 1226x370, {os.cpu_count()} cores, load {load:.1f}; medians. "
          "`times` is CPU time over that of the bold line.", "",
          "| | points | ms | CPU ms | times | finds the true nearest |", "|---|---|---|---|---|---|"] +
         list_features(all_of) + list_matching(all_of) +
         ["", f"SURF takes 1/{dlib:.1f} of dlib's time; exact matching 1/"
          f"{flann / all_of[EXACT.format(1000)]['cpu_time']:.0f} of FLANN's (comparing all with all, which "
          f"finds every true nearest, 1/{flann / all_of[EXACT_ALL.format(1000)]['cpu_time']:.0f}).", "",
-         f"Whole pair on {sequence}, in process: {list_pair(lines, timing)}.", END])
+         f"Whole pair on {sequence}, in process: {list_pair(lines, timing)}."])
     print(text)
-    with open(readme) as stream:
-        content = stream.read()
-    if BEGIN not in content or END not in content:
-        sys.exit(f"benchmark: {readme} has no marks {BEGIN} .. {END}")
-    content = content[:content.index(BEGIN)] + text + content[content.index(END) + len(END):]
-    with open(readme + ".new", "w") as stream:
-        stream.write(content)
-    os.rename(readme + ".new", readme)
+    replace_section(readme, "benchmark", text)
 
 
 if __name__ == "__main__":

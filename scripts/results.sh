@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs kitti_odometry at every stride on KITTI folders, each as a first drive and as a second that remembers the first's
-# calibration, and writes docs/results.md. What peers reach stands in docs/peers.csv.
+# calibration, and writes docs/results.md and, of the default folders, the table in the README. What peers reach stands in docs/peers.csv.
 # Usage: scripts/results.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -42,5 +42,12 @@ peer() {  # SEQUENCE K PROGRAM
     done
   done
 } > "$work/results.md"
+{
+  echo "| sequence | pairs | **arfm_vo, live** | arfm_vo, after the drive | libviso2 | ORB-SLAM2 |"
+  echo "|---|---|---|---|---|---|"
+  awk -F' *[|] *' 'NF > 9 && ($3 == 1 || $3 == 5) {
+    printf "| %s | %s | %s | %s | %s | %s |\n", $2, $3 == 1 ? "all" : "every " $3 "th", $6, $8, $10, $11}' "$work/results.md"
+} > "$work/section"
 mv "$work/results.md" docs/results.md
+if [ $# -eq 0 ]; then scripts/readme_section.py README.md results < "$work/section"; fi
 cat docs/results.md
