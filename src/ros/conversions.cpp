@@ -93,6 +93,11 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
             name + "point_sigma[" + std::to_string(i) + "] is not positive");
     Require(std::abs(message.point_row_residual[i]) < message.camera.height,
             name + "point_row_residual[" + std::to_string(i) + "] is larger than the image");
+    const double* seen = &message.point_observation[3 * i];
+    const std::string place = name + "point_observation[" + std::to_string(3 * i);
+    RequireInImage(seen[0], seen[1], message.camera.width, message.camera.height, place + "]");
+    RequireInImage(seen[2], seen[1] + message.point_row_residual[i], message.camera.width,
+                   message.camera.height, place + " + 2]");
     points[i].keypoint = keypoint;
     points[i].observation = Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
     points[i].row_residual_px = message.point_row_residual[i];

@@ -23,6 +23,11 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
     observations[i].sigma_px = message.observation_sigma[i];
     Require(observations[i].sigma_px > 0,
             name + "observation_sigma[" + std::to_string(i) + "] is not positive");
+    const Eigen::Vector4d& seen = observations[i].pixels;
+    const auto [width, height] = std::pair(message.camera.width, message.camera.height);
+    const std::string place = name + "observation_pixels[" + std::to_string(4 * i);
+    RequireInImage(seen[0], seen[1], width, height, place + "]");
+    if (observations[i].has_right) RequireInImage(seen[2], seen[3], width, height, place + " + 2]");
   }
   return observations;
 }

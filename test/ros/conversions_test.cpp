@@ -180,6 +180,10 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.point_keypoint[1] = -1; });
   ExpectRefused(good, "point_position holds 5 values, 6 expected",
                 [](auto& message) { message.point_position.pop_back(); });
+  ExpectRefused(good, "point_observation[3] lies outside the image",
+                [](auto& message) { message.point_observation[4] = -2; });
+  ExpectRefused(good, "point_observation[3 + 2] lies outside the image",
+                [](auto& message) { message.point_observation[5] = 1e6; });
   ExpectRefused(good, "point_observation[2] is not a finite number",
                 [](auto& message) { message.point_observation[2] = 1 / 0.0; });
 }
@@ -208,6 +212,10 @@ TEST(Conversions, AMalformedKeyframeIsRefusedByName) {
   const KeyframeStamped good = ToMessage(MakeKeyframe());
   ExpectRefused(good, "observation_pixels holds 7 values, 8 expected",
                 [](auto& message) { message.observation_pixels.pop_back(); });
+  ExpectRefused(good, "observation_pixels[4] lies outside the image",
+                [](auto& message) { message.observation_pixels[5] = 1e6; });
+  ExpectRefused(good, "observation_pixels[0 + 2] lies outside the image",
+                [](auto& message) { message.observation_pixels[2] = -2; });
   ExpectRefused(good, "observation_landmark[1] does not rise",
                 [](auto& message) { message.observation_landmark[1] = 1; });
   ExpectRefused(good, "observation_sigma[0] is not positive",

@@ -31,4 +31,10 @@ void RequireAscending(const std::vector<Id>& field, const std::string& name) {
       Require(false, name + "[" + std::to_string(i) + "] does not rise");
 }
 
+/// Throws std::invalid_argument unless the pixel (u, v) lies in an image of that size, or within a
+/// pixel of its border.
+inline void RequireInImage(double u, double v, int width, int height, const std::string& name) {
+  Require(u >= -1 && u <= width && v >= -1 && v <= height, name + " lies outside the image");
+}
+
 }  // namespace arfm_vo
