@@ -40,7 +40,8 @@ struct RadialBasis {
   static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-    const double inverse = 2 / std::hypot(camera.width, camera.height);
+    const double width = camera.width, height = camera.height;
+    const double inverse = 2 / std::sqrt(width * width + height * height);
     const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
     const double r2 = p.squaredNorm();
     const auto gain = Gains(r2);
