@@ -131,7 +131,7 @@ class Campaign:
     def is_kept(self, fault, row):
         if row["arrived"]:
             return False
-        promises = fault.promise.split(" or ")
+        promises = [fault.promise] + fault.promise.split(" or ")
         if row["drives_on"]:
             return row["moves"] and not row["told"]
         is_told = "-" in promises or any(promise in row["told"] for promise in promises)
