@@ -20,6 +20,9 @@ constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,
 constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
 /// Of the radial coefficients, px in the corners.
 constexpr double kRadialSigmaPx = 3;
+/// The pixels above are of a camera with this focal length: what a calibration is off by are
+/// angles.
+constexpr double kFocalLengthPx = 700;
 
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
 
@@ -77,6 +80,7 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
   belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
                                                                           kRadialSigmaPx);
+  belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
   return belief;
 }
 
