@@ -1,7 +1,10 @@
 // Makes exact pairs of images whose stamps differ: what comes on left|right/image_rect and
 // camera_info of the namespace `stereo` goes out below `synchronized`, all with the stamp of the
 // left image.
+#include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
+#include <string>
 
 #include "arfm_vo/datasets/stamp_pairing.h"
 #include "arfm_vo/ros/node_main.h"
@@ -30,31 +33,17 @@ class StereoSyncNode {
 
   StereoSyncNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : options_(ReadParameters<StereoSyncOptions>(private_node)),
+        node_(node),
+        private_node_(private_node),
         topics_(ResolveStereoTopics(node)),
         pairing_(options_.max_skew_s),
         transport_(node) {
-    const ros::NodeHandle out(node, ros::names::clean(node.resolveName("synchronized")));
-    left_out_ = ros::NodeHandle(out).advertise<sensor_msgs::Image>("left/image_rect", kQueueSize);
-    right_out_ = ros::NodeHandle(out).advertise<sensor_msgs::Image>("right/image_rect", kQueueSize);
-    left_info_out_ =
-        ros::NodeHandle(out).advertise<sensor_msgs::CameraInfo>("left/camera_info", kQueueSize);
-    right_info_out_ =
-        ros::NodeHandle(out).advertise<sensor_msgs::CameraInfo>("right/camera_info", kQueueSize);
-    const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
-                                                private_node);
-    left_info_ = node.subscribe<sensor_msgs::CameraInfo>(
-        topics_.left_info, kQueueSize,
-        [this](const Info& info) { TakeInfo(info, newest_left_info_, counts_.left_info); });
-    right_info_ = node.subscribe<sensor_msgs::CameraInfo>(
-        topics_.right_info, kQueueSize,
-        [this](const Info& info) { TakeInfo(info, newest_right_info_, counts_.right_info); });
-    left_ = transport_.subscribe(
-        topics_.left_image, kQueueSize, [this](const Image& image) { TakeLeft(image); }, {}, hints);
-    right_ = transport_.subscribe(
-        topics_.right_image, kQueueSize, [this](const Image& image) { TakeRight(image); }, {},
-        hints);
+    left_out_ = Advertise<sensor_msgs::Image>("left/image_rect");
+    right_out_ = Advertise<sensor_msgs::Image>("right/image_rect");
+    left_info_out_ = Advertise<sensor_msgs::CameraInfo>("left/camera_info");
+    right_info_out_ = Advertise<sensor_msgs::CameraInfo>("right/camera_info");
     timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
-      watch_.Tell(counts_, topics_);
+      if (is_listening_) watch_.Tell(counts_, topics_);
     });
   }
   ~StereoSyncNode() {
@@ -63,9 +52,55 @@ class StereoSyncNode {
   }
 
  private:
+  template <class Message>
+  ros::Publisher Advertise(const std::string& name) {
+    const auto listen = [this](const ros::SingleSubscriberPublisher&) { ListenOnDemand(); };
+    return node_.advertise<Message>(
+        ros::names::clean(node_.resolveName("synchronized") + "/" + name), kQueueSize, listen,
+        listen);
+  }
+
+  /// Listens once all outputs are subscribed to, so that a recording whose player waits for
+  /// subscribers loses no pair; and until none is.
+  void ListenOnDemand() {
+    const auto has_subscribers = [](const ros::Publisher* out) {
+      return out->getNumSubscribers() > 0;
+    };
+    const std::array outputs{&left_out_, &right_out_, &left_info_out_, &right_info_out_};
+    if (!is_listening_ && std::all_of(outputs.begin(), outputs.end(), has_subscribers)) Listen();
+    if (is_listening_ && std::none_of(outputs.begin(), outputs.end(), has_subscribers)) Stop();
+  }
+  void Listen() {
+    is_listening_ = true;
+    const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
+                                                private_node_);
+    left_info_ = node_.subscribe<sensor_msgs::CameraInfo>(
+        topics_.left_info, kQueueSize,
+        [this](const Info& info) { TakeInfo(info, newest_left_info_, counts_.left_info); });
+    right_info_ = node_.subscribe<sensor_msgs::CameraInfo>(
+        topics_.right_info, kQueueSize,
+        [this](const Info& info) { TakeInfo(info, newest_right_info_, counts_.right_info); });
+    left_ = transport_.subscribe(
+        topics_.left_image, kQueueSize, [this](const Image& image) { TakeLeft(image); }, {}, hints);
+    right_ = transport_.subscribe(
+        topics_.right_image, kQueueSize, [this](const Image& image) { TakeRight(image); }, {},
+        hints);
+  }
+  void Stop() {
+    is_listening_ = false;
+    left_info_.shutdown();
+    right_info_.shutdown();
+    left_.shutdown();
+    right_.shutdown();
+    pairing_ = StampPairing<Image>(options_.max_skew_s);
+    left_stamp_ = right_stamp_ = {};
+    watch_.Reset();
+  }
+
   void TakeInfo(const Info& info, Info& newest, uint32_t& count) {
     newest = info;
     ++count;
+    PublishPairs();
   }
   void TakeLeft(const Image& image) {
     StartAnewAfterJump(image->header.stamp, left_stamp_);
@@ -87,8 +122,8 @@ class StereoSyncNode {
   }
 
   void PublishPairs() {
+    if (!newest_left_info_ || !newest_right_info_) return;
     while (const auto pair = pairing_.Take()) {
-      if (!newest_left_info_ || !newest_right_info_) continue;
       ++counts_.pairs;
       const ros::Time stamp = pair->first->header.stamp;
       left_info_out_.publish(WithStamp(*newest_left_info_, stamp));
@@ -106,7 +141,9 @@ class StereoSyncNode {
   }
 
   const StereoSyncOptions options_;
+  ros::NodeHandle node_, private_node_;
   const StereoTopics topics_;
+  bool is_listening_ = false;
   StampPairing<Image> pairing_;
   StereoInputCounts counts_;
   StereoInputWatch watch_;

@@ -46,14 +46,14 @@ PoseInformation FindPoseInformation(const BundleProblem& problem, const BundleRe
         weight * by_pose.transpose() * by_pose;
     PointShare& share = points[observation.point];
     share.block += weight * by_point.transpose() * by_point;
-    constexpr int kNumField = StereoCorrection::kNumField;
     const auto field = weight * term.right_by_field.transpose();
-    const Eigen::Matrix<double, 4, kNumPlacing - kNumField> radial = weight * term.by_radial;
+    const Eigen::Matrix<double, 4, StereoCorrection::kNumRadial> radial = weight * term.by_radial;
     auto pose_rows = information.by_correction.middleRows<6>(6 * observation.pose);
-    pose_rows.leftCols<kNumField>() += by_pose.row(2).transpose() * field;
-    pose_rows.rightCols<kNumPlacing - kNumField>() += by_pose.transpose() * radial;
-    share.by_correction.leftCols<kNumField>() += by_point.row(2).transpose() * field;
-    share.by_correction.rightCols<kNumPlacing - kNumField>() += by_point.transpose() * radial;
+    pose_rows.leftCols<StereoCorrection::kNumField>() += by_pose.row(2).transpose() * field;
+    pose_rows.rightCols<StereoCorrection::kNumRadial>() += by_pose.transpose() * radial;
+    share.by_correction.leftCols<StereoCorrection::kNumField>() +=
+        by_point.row(2).transpose() * field;
+    share.by_correction.rightCols<StereoCorrection::kNumRadial>() += by_point.transpose() * radial;
     share.by_pose.emplace_back(observation.pose, weight * by_pose.transpose() * by_point);
   }
   for (const PointShare& share : points) {

@@ -187,9 +187,8 @@ void BaNode::TellOfCalibration(const CorrectionBelief& learnt) {
   if (told_to_calibrate_ || learnt.mean.IsZero() || surely_off_px < kWarnPx) return;
   told_to_calibrate_ = true;
   ROS_WARN(
-      "both images are off radially by up to %.1f px (sigma %.1f), which is made up for: calibrate "
-      "the cameras anew, "
-      "with the board in the corners too",
+      "both images are off radially by up to %.1f px (sigma %.1f), which is made up for: "
+      "calibrate the cameras anew, with the board in the corners too",
       off_px, sigma_px);
 }
 

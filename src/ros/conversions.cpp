@@ -46,13 +46,15 @@ Features ImportFeatures(const StereoFrameStamped& message) {
   RequireFinite(message.keypoint_response, name + "keypoint_response");
   RequireFinite(message.descriptors, name + "descriptors");
 
+  const std::string keypoint_x = name + "keypoint_x", keypoint_y = name + "keypoint_y",
+                    keypoint_scale = name + "keypoint_scale";
   for (size_t i = 0; i < size; ++i) {
     const float x = message.keypoint_x[i], y = message.keypoint_y[i];
-    Require(x >= 0 && y >= 0 && x < message.camera.width && y < message.camera.height,
-            name + "keypoint " + std::to_string(i) + " lies outside the image");
-    Require(message.keypoint_scale[i] > 0 && message.keypoint_scale[i] < message.camera.width,
-            name + "keypoint_scale[" + std::to_string(i) +
-                "] must be positive and less than the image");
+    RequireElement(x >= 0 && x < message.camera.width, keypoint_x, i, "lies outside the image");
+    RequireElement(y >= 0 && y < message.camera.height, keypoint_y, i, "lies outside the image");
+    RequireElement(
+        message.keypoint_scale[i] > 0 && message.keypoint_scale[i] < message.camera.width,
+        keypoint_scale, i, "must be positive and less than the image");
   }
   Features features;
   features.keypoints.reserve(size);
@@ -81,26 +83,28 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
   RequireFinite(message.point_row_residual, name + "point_row_residual");
   RequireFinite(message.point_sigma, name + "point_sigma");
   RequireFinite(message.point_position, name + "point_position");
+  const std::string point_keypoint = name + "point_keypoint", point_sigma = name + "point_sigma",
+                    point_position = name + "point_position",
+                    point_row_residual = name + "point_row_residual",
+                    point_observation = name + "point_observation";
+  const auto [width, height] = std::pair(message.camera.width, message.camera.height);
   StereoPoints points(size);
   for (size_t i = 0; i < size; ++i) {
     const int keypoint = message.point_keypoint[i];
-    Require(keypoint >= 0 && static_cast<size_t>(keypoint) < message.keypoint_x.size(),
-            name + "point_keypoint[" + std::to_string(i) + "] is " + std::to_string(keypoint) +
-                ", there are " + std::to_string(message.keypoint_x.size()) + " keypoints");
-    Require(message.point_position[3 * i + 2] > 0,
-            name + "point_position[" + std::to_string(i) + "] is behind the camera");
-    Require(message.point_sigma[i] > 0,
-            name + "point_sigma[" + std::to_string(i) + "] is not positive");
-    Require(std::abs(message.point_row_residual[i]) < message.camera.height,
-            name + "point_row_residual[" + std::to_string(i) + "] is larger than the image");
+    const double row_residual_px = message.point_row_residual[i];
+    RequireElement(keypoint >= 0 && static_cast<size_t>(keypoint) < message.keypoint_x.size(),
+                   point_keypoint, i, "is the number of no keypoint");
+    RequireElement(message.point_position[3 * i + 2] > 0, point_position, 3 * i + 2,
+                   "is behind the camera");
+    RequireElement(message.point_sigma[i] > 0, point_sigma, i, "is not positive");
+    RequireElement(std::abs(row_residual_px) < height, point_row_residual, i,
+                   "is larger than the image");
     const double* seen = &message.point_observation[3 * i];
-    const std::string place = name + "point_observation[" + std::to_string(3 * i);
-    RequireInImage(seen[0], seen[1], message.camera.width, message.camera.height, place + "]");
-    RequireInImage(seen[2], seen[1] + message.point_row_residual[i], message.camera.width,
-                   message.camera.height, place + " + 2]");
+    RequireInImage(seen[0], seen[1], width, height, point_observation, 3 * i);
+    RequireInImage(seen[2], seen[1] + row_residual_px, width, height, point_observation, 3 * i + 2);
     points[i].keypoint = keypoint;
     points[i].observation = Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
-    points[i].row_residual_px = message.point_row_residual[i];
+    points[i].row_residual_px = row_residual_px;
     points[i].sigma_px = message.point_sigma[i];
     points[i].x_in_camera = Eigen::Map<const Eigen::Vector3d>(&message.point_position[3 * i]);
     points[i].disparity_gradient =

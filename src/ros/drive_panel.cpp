@@ -1,8 +1,6 @@
 #include "arfm_vo/ros/drive_panel.h"
 
 #include <std_srvs/Trigger.h>
-#include <visualization_msgs/InteractiveMarkerInit.h>
-#include <visualization_msgs/InteractiveMarkerUpdate.h>
 
 #include <cstdio>
 
@@ -12,14 +10,13 @@ namespace arfm_vo {
 namespace {
 
 using visualization_msgs::InteractiveMarkerControl;
+using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
 constexpr double kTextHeight_m = 0.14, kButton_m = 0.3, kRow_m = 0.45;
 /// chassis_node tells 5 times a second.
 const ros::WallDuration kMaxSilence(2);
-/// rviz takes a panel that is silent for longer for dead.
-const ros::WallDuration kKeepAlive(0.4);
-const char* const kServer = "drive_panel";
+const char* const kName = "drive_panel";
 
 Marker MakeMarker(int type, double y_m, double z_m, double size_m) {
   Marker marker;
@@ -69,14 +66,11 @@ DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<DrivePanelOptions>(private_node)),
       start_(node.serviceClient<std_srvs::Trigger>("chassis_node/start")),
       stop_(node.serviceClient<std_srvs::Trigger>("chassis_node/stop")),
-      whole_(node.advertise<visualization_msgs::InteractiveMarkerInit>("drive_panel/update_full", 1,
-                                                                       true)),
-      updates_(
-          node.advertise<visualization_msgs::InteractiveMarkerUpdate>("drive_panel/update", 10)) {
+      server_(kName) {
   status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
-  clicks_ = node.subscribe("drive_panel/feedback", 10, &DrivePanel::TakeClick, this);
   Show(state_);
-  timer_ = node.createWallTimer(kKeepAlive, [this](const ros::WallTimerEvent&) { KeepAlive(); });
+  timer_ = node.createWallTimer(ros::WallDuration(0.5),
+                                [this](const ros::WallTimerEvent&) { NoticeSilence(); });
 }
 
 void DrivePanel::TakeStatus(const DriveStatus& status) {
@@ -84,8 +78,7 @@ void DrivePanel::TakeStatus(const DriveStatus& status) {
   if (Describe(status) != state_) Show(Describe(status));
 }
 
-void DrivePanel::TakeClick(const visualization_msgs::InteractiveMarkerFeedback& feedback) {
-  if (feedback.event_type != visualization_msgs::InteractiveMarkerFeedback::BUTTON_CLICK) return;
+void DrivePanel::TakeClick(const InteractiveMarkerFeedback& feedback) {
   ros::ServiceClient& service = feedback.control_name == "stop" ? stop_ : start_;
   if (feedback.control_name != "stop" && feedback.control_name != "start") return;
   std_srvs::Trigger call;
@@ -99,7 +92,7 @@ void DrivePanel::TakeClick(const visualization_msgs::InteractiveMarkerFeedback& 
 visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
   visualization_msgs::InteractiveMarker panel;
   panel.header.frame_id = options_.base_frame;
-  panel.name = kServer;
+  panel.name = kName;
   panel.scale = 1;
   panel.pose.orientation.w = 1;
   const double z_m = options_.height_m;
@@ -115,29 +108,17 @@ visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
 
 void DrivePanel::Show(const std::string& state) {
   state_ = state;
-  visualization_msgs::InteractiveMarkerInit whole;
-  whole.server_id = kServer;
-  whole.seq_num = ++number_;
-  whole.markers = {MakePanel()};
-  whole_.publish(whole);
-  visualization_msgs::InteractiveMarkerUpdate update;
-  update.server_id = kServer;
-  update.seq_num = number_;
-  update.type = visualization_msgs::InteractiveMarkerUpdate::UPDATE;
-  update.markers = whole.markers;
-  updates_.publish(update);
+  const auto take = [this](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
+    TakeClick(*feedback);
+  };
+  server_.insert(MakePanel(), take, InteractiveMarkerFeedback::BUTTON_CLICK);
+  server_.applyChanges();
 }
 
-void DrivePanel::KeepAlive() {
-  if (!heard_.isZero() && ros::WallTime::now() - heard_ > kMaxSilence) {
-    heard_ = {};
-    Show("chassis_node is silent");
-  }
-  visualization_msgs::InteractiveMarkerUpdate update;
-  update.server_id = kServer;
-  update.seq_num = number_;
-  update.type = visualization_msgs::InteractiveMarkerUpdate::KEEP_ALIVE;
-  updates_.publish(update);
+void DrivePanel::NoticeSilence() {
+  if (heard_.isZero() || ros::WallTime::now() - heard_ < kMaxSilence) return;
+  heard_ = {};
+  Show("chassis_node is silent");
 }
 
 }  // namespace arfm_vo

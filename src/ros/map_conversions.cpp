@@ -15,19 +15,19 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   RequireFinite(message.observation_pixels, name + "observation_pixels");
   RequireFinite(message.observation_sigma, name + "observation_sigma");
   RequireAscending(message.observation_landmark, name + "observation_landmark");
+  const std::string pixels = name + "observation_pixels", sigma = name + "observation_sigma";
+  const auto [width, height] = std::pair(message.camera.width, message.camera.height);
   LandmarkObservations observations(size);
   for (size_t i = 0; i < size; ++i) {
     observations[i].landmark = message.observation_landmark[i];
     observations[i].pixels = Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]);
     observations[i].has_right = message.observation_has_right[i];
     observations[i].sigma_px = message.observation_sigma[i];
-    Require(observations[i].sigma_px > 0,
-            name + "observation_sigma[" + std::to_string(i) + "] is not positive");
+    RequireElement(observations[i].sigma_px > 0, sigma, i, "is not positive");
     const Eigen::Vector4d& seen = observations[i].pixels;
-    const auto [width, height] = std::pair(message.camera.width, message.camera.height);
-    const std::string place = name + "observation_pixels[" + std::to_string(4 * i);
-    RequireInImage(seen[0], seen[1], width, height, place + "]");
-    if (observations[i].has_right) RequireInImage(seen[2], seen[3], width, height, place + " + 2]");
+    RequireInImage(seen[0], seen[1], width, height, pixels, 4 * i);
+    if (observations[i].has_right)
+      RequireInImage(seen[2], seen[3], width, height, pixels, 4 * i + 2);
   }
   return observations;
 }

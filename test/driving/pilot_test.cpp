@@ -54,6 +54,16 @@ class PilotTest : public ::testing::Test {
     ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
   }
 
+  /// Started in the mode that stops after each step to look.
+  void StartStopLookGo() {
+    PilotOptions options = Options();
+    options.stop_look_go.is_on = true;
+    pilot_ = Pilot(options);
+    chassis_.authority = ChassisAuthority::kUs;
+    Run(0.1);
+    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  }
+
   DriveState State() const { return pilot_.Status().state; }
   StopReason Reason() const { return pilot_.Status().reason; }
 
@@ -608,12 +618,7 @@ TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
 }
 
 TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
-  PilotOptions options = Options();
-  options.stop_look_go.is_on = true;
-  pilot_ = Pilot(options);
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  StartStopLookGo();
   double way_m = 0;
   for (int i = 0; i < 500; ++i) {
     pilot_.SetVelocity(now_s_, {0.1, 0});
@@ -628,12 +633,7 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
 }
 
 TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {
-  PilotOptions options = Options();
-  options.stop_look_go.is_on = true;
-  pilot_ = Pilot(options);
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  StartStopLookGo();
   ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
   ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
   ASSERT_TRUE(pilot_.SetRoute({{4, 0, {}}}).is_accepted);

@@ -41,6 +41,20 @@ TWO_ROBOTS = """
 </launch>
 """
 
+# Whoever wants the synchronized pairs comes late.
+LATE_LISTENER = """
+<launch>
+  <node name="stereo_sync_node" pkg="arfm_vo" type="stereo_sync_node" output="screen"/>
+  <node name="player" pkg="rosbag" type="play" required="true"
+        launch-prefix="bash -c '&quot;$0&quot; &quot;$@&quot;; code=$?; sleep 3; exit $code'"
+        args="--quiet --wait-for-subscribers %(bag)s --topics /stereo/left/image_rect /stereo/right/image_rect
+              /stereo/left/camera_info /stereo/right/camera_info"/>
+  <node name="recorder" pkg="rosbag" type="record" launch-prefix="bash -c 'sleep 4; exec &quot;$0&quot; &quot;$@&quot;'"
+        args="-O %(folder)s/synchronized.bag /synchronized/left/image_rect /synchronized/right/image_rect
+              /synchronized/left/camera_info /synchronized/right/camera_info"/>
+</launch>
+"""
+
 
 def free_port():
     with socket.socket() as probe:
@@ -157,6 +171,17 @@ class ReplayTest(unittest.TestCase):
         self.assertIn("approx_sync:=true", console)
         self.assertIn("36 pairs: 36 with a pose",
                       self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
+
+    def test_no_pair_is_lost_before_somebody_listens_to_the_synchronized_ones(self):
+        launch = os.path.join(self.folder, "late.launch")
+        with open(launch, "w") as file:
+            file.write(LATE_LISTENER % {"folder": self.folder, "bag": FIXTURE})
+        code, console = self.launch_file(launch)
+        self.assertEqual(code, 0, console)
+        self.assertIn("36 pairs, 0 images without partner", console)
+        with rosbag.Bag(os.path.join(self.folder, "synchronized.bag")) as bag:
+            counts = {topic: info.message_count for topic, info in bag.get_type_and_topic_info().topics.items()}
+        self.assertEqual(list(counts.values()), [36] * 4, counts)
 
     def refuse(self, *arguments):
         """What roslaunch says where it refuses to start."""

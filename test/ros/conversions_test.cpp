@@ -162,19 +162,19 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.descriptors.pop_back(); });
   ExpectRefused(good, "keypoint_x[1] is not a finite number",
                 [](auto& message) { message.keypoint_x[1] = kNaN; });
-  ExpectRefused(good, "keypoint 1 lies outside the image",
+  ExpectRefused(good, "keypoint_x[1] lies outside the image",
                 [](auto& message) { message.keypoint_x[1] = -1e9f; });
-  ExpectRefused(good, "keypoint 2 lies outside the image",
+  ExpectRefused(good, "keypoint_y[2] lies outside the image",
                 [](auto& message) { message.keypoint_y[2] = 1e9f; });
   ExpectRefused(good, "keypoint_scale[0] must be positive",
                 [](auto& message) { message.keypoint_scale[0] = 0; });
-  ExpectRefused(good, "point_position[1] is behind the camera",
+  ExpectRefused(good, "point_position[5] is behind the camera",
                 [](auto& message) { message.point_position[5] = -1; });
   ExpectRefused(good, "point_sigma[0] is not positive",
                 [](auto& message) { message.point_sigma[0] = 0; });
   ExpectRefused(good, "descriptors[70] is not a finite number",
                 [](auto& message) { message.descriptors[70] = kNaN; });
-  ExpectRefused(good, "point_keypoint[0] is 3, there are 3 keypoints",
+  ExpectRefused(good, "point_keypoint[0] is the number of no keypoint",
                 [](auto& message) { message.point_keypoint[0] = 3; });
   ExpectRefused(good, "point_keypoint[1] is -1",
                 [](auto& message) { message.point_keypoint[1] = -1; });
@@ -182,7 +182,7 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.point_position.pop_back(); });
   ExpectRefused(good, "point_observation[3] lies outside the image",
                 [](auto& message) { message.point_observation[4] = -2; });
-  ExpectRefused(good, "point_observation[3 + 2] lies outside the image",
+  ExpectRefused(good, "point_observation[5] lies outside the image",
                 [](auto& message) { message.point_observation[5] = 1e6; });
   ExpectRefused(good, "point_observation[2] is not a finite number",
                 [](auto& message) { message.point_observation[2] = 1 / 0.0; });
@@ -214,7 +214,7 @@ TEST(Conversions, AMalformedKeyframeIsRefusedByName) {
                 [](auto& message) { message.observation_pixels.pop_back(); });
   ExpectRefused(good, "observation_pixels[4] lies outside the image",
                 [](auto& message) { message.observation_pixels[5] = 1e6; });
-  ExpectRefused(good, "observation_pixels[0 + 2] lies outside the image",
+  ExpectRefused(good, "observation_pixels[2] lies outside the image",
                 [](auto& message) { message.observation_pixels[2] = -2; });
   ExpectRefused(good, "observation_landmark[1] does not rise",
                 [](auto& message) { message.observation_landmark[1] = 1; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <arfm_vo/DriveStatus.h>
+#include <interactive_markers/interactive_marker_server.h>
 #include <ros/ros.h>
 #include <visualization_msgs/InteractiveMarker.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
@@ -40,16 +41,15 @@ class DrivePanel {
   void TakeStatus(const DriveStatus& status);
   void TakeClick(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void Show(const std::string& state);
-  void KeepAlive();
+  void NoticeSilence();
   visualization_msgs::InteractiveMarker MakePanel() const;
 
   const DrivePanelOptions options_;
   std::string state_ = "no drive_status", answer_;
-  uint64_t number_ = 0;  // of the updates
   ros::WallTime heard_;  // the last drive_status
   ros::ServiceClient start_, stop_;
-  ros::Publisher whole_, updates_;
-  ros::Subscriber status_, clicks_;
+  interactive_markers::InteractiveMarkerServer server_;
+  ros::Subscriber status_;
   ros::WallTimer timer_;
 };
 
