@@ -23,6 +23,8 @@ struct Request {
 struct Summary {
   int num_good = 0, num_arrived = 0, num_lost = 0, num_pairs = 0;
   long frames_before_start = 0;
+  int num_stops = 0;
+  double driving_s = 0;
   double worst_share = 0, worst_error_m = 0, worst_heading_deg = 0, fastest_mps = 0, driven_m = 0,
          steepest_deg = 0;
 
@@ -30,6 +32,8 @@ struct Summary {
     num_good += drive.IsGood();
     num_arrived += drive.has_arrived;
     num_lost += drive.num_lost;
+    num_stops += drive.num_stops;
+    driving_s += drive.duration_s;
     num_pairs += drive.num_pairs;
     frames_before_start += drive.num_frames_before_start;
     worst_share = std::max(worst_share, drive.final_error_m / drive.AllowedError());
@@ -42,17 +46,18 @@ struct Summary {
 };
 
 void PrintHeader() {
-  std::printf("%4s %7s %8s %7s %7s %8s %9s %6s %8s %6s %5s %5s %7s  %s\n", "seed", "goal_m",
+  std::printf("%4s %7s %8s %7s %7s %8s %9s %6s %8s %6s %5s %5s %7s %5s  %s\n", "seed", "goal_m",
               "driven_m", "error_m", "allowed", "head_deg", "slope_deg", "slip_%", "max_mps",
-              "before", "pairs", "lost", "drive_s", "outcome");
+              "before", "pairs", "lost", "drive_s", "stops", "outcome");
 }
 
 void PrintRow(int seed, const Drive& drive) {
-  std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f  %s\n", seed,
-              std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
+  std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f %5d  %s\n",
+              seed, std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
               drive.AllowedError(), drive.final_heading_error_deg, drive.steepest_deg,
               100 * drive.slip_ratio, drive.fastest_command_mps, drive.num_frames_before_start,
-              drive.num_pairs, drive.num_lost, drive.duration_s, drive.outcome.c_str());
+              drive.num_pairs, drive.num_lost, drive.duration_s, drive.num_stops,
+              drive.outcome.c_str());
   std::fflush(stdout);
 }
 
@@ -76,7 +81,8 @@ void PrintSummary(const Summary& summary, int num_goals, double wall_s) {
             << "\nframes_before_start: " << summary.frames_before_start
             << "\nsteepest_slope_deg: " << summary.steepest_deg
             << "\ndriven_m: " << summary.driven_m << "\npairs: " << summary.num_pairs
-            << "\nlost: " << summary.num_lost << "\nwall_s: " << wall_s << "\n";
+            << "\nlost: " << summary.num_lost << "\nstops: " << summary.num_stops
+            << "\ndriving_s: " << summary.driving_s << "\nwall_s: " << wall_s << "\n";
 }
 
 void DriveGoals(Request request) {

@@ -35,7 +35,7 @@ class BusTap:
         self.lock = threading.Lock()
         self.num_commands = 0
         self.moving_s = 0.0  # the last frame that moves
-        self.stops_s = []  # of each frame that stops it
+        self.stops_s, self.starts_s = [], []  # of each frame that stops it or sets it in motion
         self.is_moving = False
         self.ways_m = (0.0, 0.0)
         for source, sink, note in ((self.driver, self.chassis, self._note_command),
@@ -64,6 +64,8 @@ class BusTap:
             self.num_commands += 1
             if frame.id == MOTION_COMMAND:
                 is_moving = any(frame.bytes[:4])
+                if is_moving and not self.is_moving:
+                    self.starts_s.append(now)
                 if is_moving:
                     self.moving_s = now
                 elif self.is_moving:

@@ -57,6 +57,7 @@ class Stage {
       driver_.pilot().Start(Now());
     }
     if (now_ms_ % kDriverPeriod_ms == 0) driver_.Tick(Now());
+    CountStops();
     Listen();
     for (const GoalResult& result : driver_.pilot().TakeResults()) {
       drive_.outcome = ToString(result.outcome);
@@ -93,6 +94,13 @@ class Stage {
       pilot.ObservePose(Now(), {glimpse.taken_s, *glimpse.map_from_base, {}});
   }
 
+  void CountStops() {
+    const DriveState state = driver_.pilot().Status().state;
+    const bool has_stopped = state == DriveState::kPaused || state == DriveState::kBlocked;
+    drive_.num_stops += has_stopped && state_ == DriveState::kDriving;
+    state_ = state;
+  }
+
   void Listen() {
     while (const auto frame = listener_->Receive()) {
       const ChassisCommand command = DecodeCommand(*frame);
@@ -125,6 +133,7 @@ class Stage {
   ChassisDriver driver_;
   SimulatedSight sight_;
   std::deque<Glimpse> glimpses_;
+  DriveState state_ = DriveState::kStandby;
   long pair_period_ms_, now_ms_ = 0;
 };
 

@@ -47,6 +47,7 @@ TEST_P(ClosedLoopTest, ReachesTheGoalBySightAlone) {
   EXPECT_GT(drive.fastest_command_mps, 0.09);
   EXPECT_LE(drive.fastest_command_mps, 0.1);
   EXPECT_EQ(drive.num_frames_before_start, 0);
+  EXPECT_EQ(drive.num_stops, 0);
   EXPECT_GT(drive.num_frames, 1000);
   EXPECT_NEAR(drive.slip_ratio, loop.options.plant.forward_slip, 0.03);
 }
@@ -71,6 +72,12 @@ TEST(Rehearsal, ABlindRoverStaysWhereItIs) {
   EXPECT_FALSE(drive.has_arrived);
   EXPECT_EQ(drive.driven_m, 0);
   EXPECT_EQ(drive.fastest_command_mps, 0);
+}
+
+TEST(Rehearsal, StopsOnTheWayAreCounted) {
+  RehearsalOptions options = ShortDrive().options;
+  options.pilot.pose.max_pose_age_s = 0.9;  // a pair each 0.75 s is told 0.2 s late
+  EXPECT_GT(Rehearse(NearScene(), options).num_stops, 0);
 }
 
 TEST(GoalScene, KeepsDistanceAndSlopeWithinTheirLimits) {

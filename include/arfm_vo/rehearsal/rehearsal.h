@@ -49,6 +49,7 @@ struct Drive {
   double fastest_command_mps = 0;  ///< in any frame on the bus
   long num_frames = 0, num_frames_before_start = 0;
   int num_pairs = 0, num_lost = 0;
+  int num_stops = 0;        ///< on the way: pauses and blocks
   double steepest_deg = 0;  ///< under the rover
   double slip_ratio = 0;    ///< of the tracks over the whole way ahead, true
   std::vector<TrackPoint> track;
