@@ -1,6 +1,5 @@
 #include "corrected_frame.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "arfm_vo/base/median.h"
@@ -10,17 +9,13 @@ namespace arfm_vo {
 StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
                       const StereoCorrection& correction) {
   if (correction.IsZero()) return frame;
-  const auto is_too_far = [&](StereoPoint& point) {
+  for (StereoPoint& point : frame.points) {
     const Eigen::Vector3d& seen = point.observation;
     const Eigen::Vector3d nominal = NominalPixels(
         camera, correction, {seen.x(), seen.y(), seen.z(), seen.y() + point.row_residual_px});
-    const double disparity = nominal.x() - nominal.z();
-    if (!(disparity > point.sigma_px)) return true;
-    point.x_in_camera = camera.Triangulate(nominal.x(), nominal.y(), disparity);
-    return false;
-  };
-  StereoPoints& points = frame.points;
-  points.erase(std::remove_if(points.begin(), points.end(), is_too_far), points.end());
+    point.x_in_camera =
+        camera.TriangulateMeasured(nominal.x(), nominal.y(), nominal.x() - nominal.z());
+  }
   return frame;
 }
 

@@ -6,11 +6,13 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/odometry/base_covariance.h"
 #include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
+#include "known_depths.h"
 #include "step_by_correction.h"
 
 namespace arfm_vo {
@@ -116,6 +118,7 @@ class LocalOdometry::Implementation {
     map_.Clear();
     standstill_.Reset();
     drift_.Clear();
+    unknown_way_ = {};
     archive_.Clear();
     record_.reset();
   }
@@ -171,6 +174,12 @@ class LocalOdometry::Implementation {
       update.pose.status = PoseStatus::kDegraded;
       update.remark = right_fault + ", the left one alone tells";
     }
+    const bool are_depths_known = AreDepthsKnown(camera_, map_, tracked);
+    if (update.pose.IsTracked() && !are_depths_known) {
+      update.pose.status = PoseStatus::kDegraded;
+      update.remark = "most points are too far to tell how long the way is";
+    }
+    unknown_way_.Follow(update.pose.camera_from_world.Inverse().translation, are_depths_known);
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
     if (resting) {
       update.pose.camera_from_world = *resting;
@@ -224,12 +233,15 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     pose_drift_ = PoseDrift{place->covariance_from_start};
+    unknown_way_ = {};
+    unknown_way_.Follow(place->pose.camera_from_world.Inverse().translation, true);
     update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
 
   void Retire(const Keyframe& keyframe) {
-    archive_.Add(keyframe, map_, drift_.Covariance(keyframe.id));
+    archive_.Add(keyframe, map_,
+                 WithUnknownWay(drift_.Covariance(keyframe.id), keyframe.camera_from_world));
   }
 
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
@@ -273,7 +285,15 @@ class LocalOdometry::Implementation {
                                              options_.bundle.solver)};
     pose_drift_ = drift_.Beside(
         newest.id, update.pose.camera_from_world * newest.camera_from_world.Inverse(), own);
-    update.covariance_from_start = drift_.Covariance(pose_drift_);
+    update.covariance_from_start =
+        WithUnknownWay(drift_.Covariance(pose_drift_), update.pose.camera_from_world);
+  }
+
+  Matrix6 WithUnknownWay(Matrix6 covariance, const Rigid3& camera_from_world) const {
+    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
+    covariance.bottomRightCorner<3, 3>() +=
+        rotation * unknown_way_.Covariance() * rotation.transpose();
+    return covariance;
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
@@ -299,6 +319,7 @@ class LocalOdometry::Implementation {
   std::optional<KeyframeRecord> record_;
   DriftEstimator drift_;
   PoseDrift pose_drift_;  ///< of the last tracked frame
+  UnknownWay unknown_way_;
   std::future<AdjustedWindow> pending_;
 };
 

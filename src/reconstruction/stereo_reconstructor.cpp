@@ -32,7 +32,6 @@ void StereoReconstructionOptions::Check() const {
       "threshold.rule false_matches learns from searches over the whole image and is not offered "
       "here: fixed or variance");
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
-  Require(min_disparity_px > 0, "min_disparity_px must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
   Require(sigma_inflation > 0, "sigma_inflation must be positive");
   Require(keypoint_sigma_px > 0, "keypoint_sigma_px must be positive");
@@ -134,14 +133,14 @@ std::optional<StereoPoint> StereoReconstructor::Triangulate(const Keypoint& left
   const double u_right = sighting.right.x - x_per_y * deviation;
   const double variance = sighting.covariance[0] - x_per_y * sighting.covariance[1];
   const double disparity = left.x - u_right;
-  if (!(disparity >= options_.min_disparity_px)) return std::nullopt;
+  if (!(disparity >= options_.search.min_disparity_px)) return std::nullopt;
   StereoPoint point;
   point.keypoint = sighting.keypoint;
   point.observation = {left.x, left.y, u_right};
   point.row_residual_px = row_residual;
   point.sigma_px = std::sqrt(variance);
   point.disparity_gradient = {sighting.disparity_gradient[0], sighting.disparity_gradient[1]};
-  point.x_in_camera = camera_.Triangulate(left.x, left.y, disparity);
+  point.x_in_camera = camera_.TriangulateMeasured(left.x, left.y, disparity);
   return point;
 }
 

@@ -32,7 +32,8 @@ TEST(StereoNeighbours, AreOnNearRowsAtPossibleDisparitiesOfTheSameKind) {
   EXPECT_EQ(FindStereoMatchOf({90, 51.4f, 1.2f, 0, 1, 1}), 0);
   EXPECT_EQ(FindStereoMatchOf({90, 51.6f, 1.2f, 0, 1, 1}), -1) << "rows differ";
   EXPECT_EQ(FindStereoMatchOf({90, 52, 1.7f, 0, 1, 1}), 0) << "the band grows with the scale";
-  EXPECT_EQ(FindStereoMatchOf({101, 50, 1.2f, 0, 1, 1}), -1) << "negative disparity";
+  EXPECT_EQ(FindStereoMatchOf({101, 50, 1.2f, 0, 1, 1}), 0) << "the horizon";
+  EXPECT_EQ(FindStereoMatchOf({103, 50, 1.2f, 0, 1, 1}), -1) << "farther than the horizon";
   EXPECT_EQ(FindStereoMatchOf({90, 50, 2.4f, 0, 1, 1}), -1) << "other scale";
   EXPECT_EQ(FindStereoMatchOf({90, 50, 1.2f, 0, 1, -1}), -1) << "other sign";
   StereoSearchOptions near_only;

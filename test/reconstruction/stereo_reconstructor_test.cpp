@@ -20,10 +20,10 @@ struct Wall {
   StereoImages images;
   Features left, right;
 
-  explicit Wall(double noise = 1) {
+  explicit Wall(double noise = 1, double disparity_px = kDisparity) {
     const BlobTexture texture(kSize, 1.5, 1);
     images.left = texture.Render(0, 0, noise, 2);
-    images.right = texture.Render(-kDisparity, kRowOffset, noise, 3);
+    images.right = texture.Render(-disparity_px, kRowOffset, noise, 3);
     RandomEngine engine(4);
     for (int y = 30; y < kSize - 30; y += 12) {
       for (int x = 40; x < kSize - 40; x += 12) {
@@ -31,7 +31,7 @@ struct Wall {
         const float v = y + static_cast<float>(RandomUnit(engine));
         left.keypoints.push_back({u, v, 1.6f, 0, 1, 1});
         right.keypoints.push_back(left.keypoints.back());
-        right.keypoints.back().x += static_cast<float>(1.4 * RandomUnit(engine) - 0.7 - kDisparity);
+        right.keypoints.back().x += static_cast<float>(1.4 * RandomUnit(engine) - 0.7 - disparity_px);
         right.keypoints.back().y += static_cast<float>(1.4 * RandomUnit(engine) - 0.7 + kRowOffset);
       }
     }
@@ -111,8 +111,19 @@ TEST(StereoReconstructor, RejectsMatchesWhosePatchesLieOnOtherRows) {
 
 TEST(StereoReconstructor, PointsFartherThanTheLeastDisparityAreLeftOut) {
   StereoReconstructionOptions options;
-  options.min_disparity_px = kDisparity + 0.2;
+  options.search.min_disparity_px = kDisparity + 0.2;
   EXPECT_TRUE(Wall().Reconstruct(options).empty());
+}
+
+// A calibration that is off by 0.4 px makes the horizon's disparity negative.
+TEST(StereoReconstructor, PointsAtTheHorizonAreKeptAndFar) {
+  const Wall horizon(1, -0.4);
+  const StereoPoints points = horizon.Reconstruct({});
+  EXPECT_GT(points.size(), 0.9 * horizon.left.size());
+  for (const StereoPoint& point : points) {
+    EXPECT_NEAR(point.observation[0] - point.observation[2], -0.4, 0.2);
+    EXPECT_EQ(point.x_in_camera.z(), kCamera.Depth(StereoCamera::kFarthestDisparityPx));
+  }
 }
 
 TEST(StereoReconstructor, IsRepeatable) {

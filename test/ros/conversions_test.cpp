@@ -176,7 +176,7 @@ TEST(Conversions, AMalformedStereoFrameIsRefusedByName) {
                 [](auto& message) { message.descriptors[70] = kNaN; });
   ExpectRefused(good, "point_keypoint[0] is the number of no keypoint",
                 [](auto& message) { message.point_keypoint[0] = 3; });
-  ExpectRefused(good, "point_keypoint[1] is -1",
+  ExpectRefused(good, "point_keypoint[1] is the number of no keypoint",
                 [](auto& message) { message.point_keypoint[1] = -1; });
   ExpectRefused(good, "point_position holds 5 values, 6 expected",
                 [](auto& message) { message.point_position.pop_back(); });

@@ -35,7 +35,7 @@ struct Row {
   std::vector<double> nees;              ///< [frames]
 
   void Add(const SimulatedRun& run, double share) {
-    lost += share * run.num_lost;
+    lost += share * run.num_untracked;
     keyframes += share * run.num_keyframes;
     loops += share * run.num_loops;
     odometry_s += share * run.odometry_s;

@@ -6,7 +6,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kMinDisparity_px = 0.5;
+constexpr double kMinDisparity_px = -2;
 
 std::optional<StereoPoint> MakePoint(const StereoCamera& camera, const SimulatedObservation& seen,
                                      int keypoint, double sigma_px) {
@@ -17,7 +17,7 @@ std::optional<StereoPoint> MakePoint(const StereoCamera& camera, const Simulated
   point.observation = seen.pixels;
   point.row_residual_px = seen.v_right - seen.pixels.y();
   point.sigma_px = sigma_px;
-  point.x_in_camera = camera.Triangulate(seen.pixels.x(), seen.pixels.y(), disparity);
+  point.x_in_camera = camera.TriangulateMeasured(seen.pixels.x(), seen.pixels.y(), disparity);
   return point;
 }
 

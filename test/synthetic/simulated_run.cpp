@@ -30,7 +30,8 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
     const SessionUpdate pose = odometry.Process(frame, no_images);
     const OdometryUpdate& update = pose.update;
     run.odometry_s += 1e-3 * stopwatch.LapMs();
-    run.num_lost += !update.pose.IsTracked();
+    run.num_untracked += !update.pose.IsTracked();
+    run.num_lost += !update.pose.HasPose();
     run.epoch = pose.epoch;
     run.num_keyframes += update.is_keyframe;
     run.online.push_back(pose.odom_from_base);

@@ -34,14 +34,28 @@ TEST(SimulatedRun, WithoutNoiseThePathIsTheTruth) {
   options.simulator.noise_px = 0;
   options.simulator.outlier_fraction = 0;
   const SimulatedRun run = RunSimulated(kCamera, BentPath(40), options, OnlineOnly());
-  EXPECT_EQ(run.num_lost, 0);
+  EXPECT_EQ(run.num_untracked, 0);
   EXPECT_LT(run.OnlineError().ate_rmse_m, 1e-5);
 }
 
 TEST(SimulatedRun, NoFrameIsLostAndTheDriftIsSmallWithNoiseAndOutliers) {
   const SimulatedRun run = RunSimulated(kCamera, BentPath(60), {}, OnlineOnly());
-  EXPECT_EQ(run.num_lost, 0);
+  EXPECT_EQ(run.num_untracked, 0);
   EXPECT_LT(run.OnlineError().brief.translation_percent, 0.5);
+}
+
+TEST(SimulatedRun, WhereAllIsFarTheHeadingIsKnownAndThePlaceIsSaidNotToBe) {
+  StereoCamera close_eyes = kCamera;
+  close_eyes.baseline_m = 0.005;  // depths of 4..100 m are then 0.9..0.04 px
+  SimulatedRunOptions options;
+  options.simulator.noise_px = 0.3;
+  const SimulatedRun run = RunSimulated(close_eyes, BentPath(40), options, OnlineOnly());
+  EXPECT_EQ(run.num_untracked, run.online.size() - 1) << "the first begins the map";
+  EXPECT_EQ(run.num_lost, 0);
+  const Rigid3 error = run.online.back().Inverse() * run.truth.back();
+  EXPECT_LT(LogSO3(error.rotation).norm(), 0.002);
+  EXPECT_LT(error.translation.norm(),
+            3 * std::sqrt(run.covariances.back().diagonal().tail<3>().sum()));
 }
 
 /// The covariance that odom carries is honest: the errors of many drives, each counted in its own
@@ -84,7 +98,7 @@ TEST(SimulatedRun, NeesOfTheFirst20MetresIsWithinItsBoundsWithAWrongCalibration)
     displacement.coefficients_px = 0.3 * draw / std::sqrt(field.squaredNorm() / field.size());
     options.simulator.seed = 300 + run_number;
     const SimulatedRun run = RunSimulated(kCamera, BentPath(kFrames), options, {});
-    EXPECT_EQ(run.num_lost, 0);
+    EXPECT_EQ(run.num_untracked, 0);
     for (int frame = 1; frame < kFrames; ++frame) sum += ComputeNees(run, frame) / (kFrames - 1);
   }
   std::printf("  mean NEES %.2f\n", sum / kRuns);
@@ -104,7 +118,7 @@ SimulatedRun DriveAndBeCarriedBack(const OdometryOptions& options) {
 
 TEST(Recovery, FindsAPlaceAgainThatLeftTheLocalMap) {
   const SimulatedRun run = DriveAndBeCarriedBack({});
-  EXPECT_EQ(run.num_lost, 0);
+  EXPECT_EQ(run.num_untracked, 0);
   EXPECT_EQ(run.epoch, 1u);
   for (size_t i = 110; i < 130; ++i) {
     EXPECT_LT((run.online[i].translation - run.truth[i].translation).norm(), 0.1) << i;
@@ -117,7 +131,7 @@ TEST(Recovery, WithoutTheArchiveSuchAPlaceStaysUnknown) {
   OdometryOptions options;
   options.odometry.archive.max_keyframes = 0;
   const SimulatedRun run = DriveAndBeCarriedBack(options);
-  EXPECT_EQ(run.num_lost, 2);  // then a new map is begun, elsewhere
+  EXPECT_EQ(run.num_untracked, 2);  // then a new map is begun, elsewhere
   EXPECT_EQ(run.epoch, 2u);
   EXPECT_GT((run.online.back().translation - run.truth.back().translation).norm(), 10);
 }
@@ -128,7 +142,7 @@ TEST(Recovery, DoesNotRecogniseANewPlace) {
   const Rigid3 away(ExpSO3({0, M_PI, 0}), Eigen::Vector3d(500, 0, 0));
   for (int i = 0; i < 5; ++i) path.push_back(away * path[i]);
   const SimulatedRun run = RunSimulated(kCamera, path, {}, OnlineOnly());
-  EXPECT_EQ(run.num_lost, 2);  // then a new map is begun
+  EXPECT_EQ(run.num_untracked, 2);  // then a new map is begun
   EXPECT_EQ(run.epoch, 2u);
 }
 

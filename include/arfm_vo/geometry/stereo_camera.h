@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace arfm_vo {
 
@@ -37,6 +38,12 @@ struct StereoCamera {
     const double z = Depth(disparity_px);
     return {(u - cx) * z / fx, (v - cy) * z / fy, z};
   }
+  /// The same of a disparity as measured, which noise and calibration may make negative where the
+  /// point is far: it then stands where its disparity is kFarthestDisparityPx.
+  Eigen::Vector3d TriangulateMeasured(double u, double v, double disparity_px) const {
+    return Triangulate(u, v, std::max(disparity_px, kFarthestDisparityPx));
+  }
+  static constexpr double kFarthestDisparityPx = 0.1;
   bool Contains(const Eigen::Vector2d& uv, double border_px = 0) const {
     return uv.x() >= border_px && uv.y() >= border_px && uv.x() <= width - 1 - border_px &&
            uv.y() <= height - 1 - border_px;

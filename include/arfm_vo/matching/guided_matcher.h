@@ -11,7 +11,9 @@ namespace arfm_vo {
 struct StereoSearchOptions {
   /// Rows of left and right may differ by this times the larger scale over 1.2 (the smallest).
   double max_row_difference_px = 1.5;
-  double min_disparity_px = 0;    ///< u_left - u_right of a match, below max_disparity_px
+  /// u_left - u_right of a match; far points may have less than 0 by as much as the calibration is
+  /// off, and tell by how much.
+  double min_disparity_px = -2;
   double max_disparity_px = 256;  ///< nearer points are not matched
   double max_scale_ratio = 1.5;   ///< larger over smaller scale
 

@@ -34,7 +34,6 @@ struct StereoReconstructionOptions {
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
   RowSearchOptions row_search;
   double max_row_deviation = 3;    ///< from the expected row, in standard deviations
-  double min_disparity_px = 0.5;   ///< after refinement
   double sigma_floor_px = 0.07;    ///< no point is better than this
   double sigma_inflation = 2;      ///< times the alignment's prediction, as rows show
   double keypoint_sigma_px = 0.4;  ///< of a position at scale 1.2 without refinement
@@ -49,7 +48,6 @@ struct StereoReconstructionOptions {
     visit("refine_subpixel", refine_subpixel);
     visit("search_rows", search_rows);
     visit("max_row_deviation", max_row_deviation);
-    visit("min_disparity_px", min_disparity_px);
     visit("keypoint_sigma_px", keypoint_sigma_px);
   }
 };
