@@ -57,20 +57,24 @@ class LocalOdometry::Implementation {
                          const std::optional<PredictedPose>& predicted) {
     Stopwatch stopwatch;
     StereoFrame frame = Corrected(measured, camera_, correction_.mean);
-    const std::string right_fault = RightFault(frame);
+    const std::string left_fault = LeftFault(frame);
+    const std::string right_fault = left_fault.empty() ? RightFault(frame) : left_fault;
     if (!right_fault.empty()) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
-    update.can_start = !frame.left_is_repeated &&
-                       static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
+    update.can_start =
+        left_fault.empty() && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
     FinishBundle();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
       Start(frame, update);
+    } else if (!left_fault.empty()) {
+      update.pose.status = PoseStatus::kTooFewFeatures;
     } else {
       Continue(frame, images, predicted, right_fault, update);
     }
+    if (!left_fault.empty()) update.remark = left_fault;
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
       if (!right_fault.empty()) frame.points = PointsByMotion(frame, update);
@@ -149,11 +153,6 @@ class LocalOdometry::Implementation {
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, const std::string& right_fault,
                 OdometryUpdate& update) {
-    if (frame.left_is_repeated) {
-      update.pose.status = PoseStatus::kTooFewFeatures;
-      update.remark = "the left camera repeats its picture";
-      return;
-    }
     TrackedFrame tracked =
         tracker_.Track(frame, images, map_, predicted, right_fault.empty(), dispute_.IsWary());
     update.pose = tracked.pose;
@@ -200,6 +199,14 @@ class LocalOdometry::Implementation {
         std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
           return map_.landmarks().at(observation.landmark).num_agreed > 0;
         }));
+  }
+
+  /// Why the left image is not to be used; empty where it is.
+  std::string LeftFault(const StereoFrame& frame) const {
+    if (frame.left_is_repeated) return "the left camera repeats its picture";
+    // In a turn pictures of two moments look like swapped ones.
+    if (frame.eyes_are_swapped && !row_watch_.IsSkewed()) return "left and right are swapped";
+    return "";
   }
 
   /// Why the right image is not to be used; empty where it is.

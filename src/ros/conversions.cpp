@@ -208,6 +208,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
   message.num_right_keypoints = frame.num_right_keypoints;
   message.left_is_repeated = frame.left_is_repeated;
   message.right_is_repeated = frame.right_is_repeated;
+  message.eyes_are_swapped = frame.eyes_are_swapped;
   message.row_agreement = frame.row_agreement;
   message.grey_mean = frame.grey.mean;
   message.grey_variance = frame.grey.variance;
@@ -224,6 +225,7 @@ StereoFrame FromMessage(const StereoFrameStamped& message) {
   frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
   frame.left_is_repeated = message.left_is_repeated;
   frame.right_is_repeated = message.right_is_repeated;
+  frame.eyes_are_swapped = message.eyes_are_swapped;
   frame.row_agreement = message.row_agreement;
   frame.grey = {message.grey_mean, message.grey_variance};
   frame.ratio_threshold = message.ratio_threshold;

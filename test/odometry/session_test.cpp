@@ -138,6 +138,22 @@ TEST_F(SessionTest, ARepeatedPictureIsAFrozenCameraAndNotARest) {
   EXPECT_TRUE(Step(0.3).IsTracked());
 }
 
+TEST_F(SessionTest, SwappedEyesAreToldAndDoNotMoveThePose) {
+  Step(0);
+  Step(0.05);
+  for (int i = 2; i <= 4; ++i) {
+    const SessionUpdate swapped = Step(
+        0.05 * i, 0, false, [](StereoImages& images) { std::swap(images.left, images.right); });
+    EXPECT_EQ(swapped.update.pose.status, PoseStatus::kDegraded);
+    EXPECT_THAT(swapped.text, testing::HasSubstr("left and right are swapped"));
+    EXPECT_NEAR(swapped.odom_from_base.translation.x(), 0.05 * i, 0.02);
+    EXPECT_NEAR(swapped.odom_from_base.translation.y(), 0, 0.02);
+  }
+  const SessionUpdate good = Step(0.25);
+  EXPECT_TRUE(good.IsTracked()) << good.text;
+  EXPECT_NEAR(good.odom_from_base.translation.x(), 0.25, 0.01);
+}
+
 TEST_F(SessionTest, OneEyeTellsThePoseForAWhile) {
   Step(0);
   for (int i = 1; i <= 3; ++i) Step(0.2 * i);

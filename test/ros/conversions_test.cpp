@@ -29,6 +29,7 @@ StereoFrame MakeFrame() {
   frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}, {0, 0.5}});
   frame.num_right_keypoints = 7;
   frame.right_is_repeated = true;
+  frame.eyes_are_swapped = true;
   frame.grey = {101.5, 2500.25};
   frame.ratio_threshold = 0.8125;
   return frame;
@@ -92,6 +93,7 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
   EXPECT_EQ(back.num_right_keypoints, 7);
   EXPECT_FALSE(back.left_is_repeated);
   EXPECT_TRUE(back.right_is_repeated);
+  EXPECT_TRUE(back.eyes_are_swapped);
   EXPECT_EQ(back.grey.mean, 101.5);
   EXPECT_EQ(back.grey.variance, 2500.25);
   EXPECT_EQ(back.ratio_threshold, 0.8125);

@@ -1,7 +1,5 @@
 #include "synthetic/disturbances.h"
 
-#include <utility>
-
 #include "synthetic/pair_changes.h"
 
 namespace arfm_vo {
@@ -32,7 +30,8 @@ std::vector<Disturbance> MakeDisturbances() {
       {"right-frozen", Freeze(kRight, kOn)},
       {"right-late", DelayRight(1)},
       {"frozen-20-pairs", Both(Freeze(kLeft, For(20)), Freeze(kRight, For(20)))},
-      {"eyes-swapped", [](int, StereoImages& images) { std::swap(images.left, images.right); }},
+      {"eyes-swapped", SwapEyes(kAlways)},
+      {"eyes-swapped-10-pairs", SwapEyes(For(10))},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <utility>
 
 #include "arfm_vo/simulation/hash_noise.h"
 
@@ -90,6 +91,12 @@ PairChange Freeze(cv::Mat StereoImages::*eye, const PairRange& pairs) {
 PairChange Blacken(cv::Mat StereoImages::*eye, const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
     if (pairs.Has(index)) (images.*eye).setTo(0);
+  };
+}
+
+PairChange SwapEyes(const PairRange& pairs) {
+  return [=](int index, StereoImages& images) {
+    if (pairs.Has(index)) std::swap(images.left, images.right);
   };
 }
 

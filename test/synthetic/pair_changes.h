@@ -33,6 +33,7 @@ ImageChange DrawRain(int num_streaks);      ///< others in each image
 // Of the pairs.
 PairChange Freeze(cv::Mat StereoImages::*eye, const PairRange& pairs);
 PairChange Blacken(cv::Mat StereoImages::*eye, const PairRange& pairs);
+PairChange SwapEyes(const PairRange& pairs);
 PairChange DelayRight(int num_pairs);
 PairChange ShiftRows(int rows, const PairRange& pairs);  ///< of the right image, down
 PairChange AlternateExposure(double even, double odd);

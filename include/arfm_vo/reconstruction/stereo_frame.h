@@ -20,6 +20,7 @@ struct StereoFrame {
   int num_right_keypoints = 0;
   bool left_is_repeated = false;   ///< bit by bit the picture of the pair before: a frozen camera
   bool right_is_repeated = false;  ///< the same; then there are no `points`
+  bool eyes_are_swapped = false;   ///< left and right fit better in exchange
   double row_agreement = 1;        ///< share of what both eyes saw that lies on the rows it should
   GreyStatistics grey;             ///< of the left image, eqs 4, 5
   double ratio_threshold = 0;      ///< nearest / second-nearest distance that was allowed

@@ -75,6 +75,9 @@ class StereoReconstructor {
   const RowModel& row_model() const { return row_model_; }
   /// Share of what was found in both images of the last pair that lies on the rows it should.
   double row_agreement() const { return row_agreement_; }
+  /// Whether left and right of the last pair fit better in exchange. Looked for among matches near
+  /// rows (`guided`) only, where few are found.
+  bool eyes_are_swapped() const { return eyes_are_swapped_; }
 
  private:
   /// A left keypoint found in the right image.
@@ -87,6 +90,8 @@ class StereoReconstructor {
   using Sightings = std::vector<Sighting>;
 
   Matches MatchKeypoints(const Features& left, const Features& right, double max_ratio) const;
+  bool FitBetterInExchange(const Features& left, const Features& right, size_t num_matches,
+                           double max_ratio) const;
   Sightings Refine(const Features& left, std::vector<std::optional<cv::Point2f>> guesses,
                    const StereoImages& images);
   Sightings TakeKeypoints(const Features& left, const Features& right,
@@ -106,6 +111,7 @@ class StereoReconstructor {
   RowModel row_model_;
   RowSearch row_search_;
   double row_agreement_ = 1;
+  bool eyes_are_swapped_ = false;
   int num_disagreeing_ = 0;  ///< pairs in a row whose rows do not agree
 };
 
