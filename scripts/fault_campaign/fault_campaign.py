@@ -24,7 +24,7 @@ import tf2_ros  # noqa: E402
 from camera_faults import camera_faults  # noqa: E402
 from fault import Fault, NotPermitted  # noqa: E402
 from machine_faults import last_faults, machine_faults  # noqa: E402
-from arfm_vo.msg import GoalReport, OdometryStatus  # noqa: E402
+from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
 from rover import Launch, Rover, find_bus_port, pid_of, start_again  # noqa: E402
@@ -33,7 +33,6 @@ from std_msgs.msg import Bool  # noqa: E402
 
 MAX_STOP_S = 0.3  # after the fault, or after its limit
 MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included
-WARNING_S = 2.0  # before it moves on by itself
 WATCH_S = 3.0
 # A row in which the campaign itself did not run for so long says nothing of the rover: it is measured anew.
 MAX_HELD_UP_S = 0.3
@@ -96,10 +95,12 @@ class Campaign:
         told = [self.rover.status.reason]
         end_s = injected_s + fault.limit_s + WATCH_S
         looked_s, held_up_s = time.monotonic(), 0.0
-        ways_m = [way_m]
+        ways_m, has_warned = [way_m], False
         while looked_s < end_s:
             told.append(self.rover.status.reason)
-            if not self.moves_on_warned(fault, injected_s):
+            has_warned |= self.rover.status.state == DriveStatus.WARNING
+            moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
+            if not (moves_on and fault.promise == BRIEFLY_UNCERTAIN):
                 ways_m.append(self.tap.way_m())
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
@@ -131,13 +132,6 @@ class Campaign:
             if not is_disturbed or fault.ends_graph or fault.is_load or attempt == MAX_TRIES:
                 return row
             print("%s: held up for %.2f s by the machine, measured anew" % (fault.name, row["held_up_s"]), flush=True)
-
-    def moves_on_warned(self, fault, injected_s):
-        """It stopped, may move on by itself, and has done so after it stood and warned."""
-        starts_s, stops_s = ([time_s for time_s in times_s if time_s >= injected_s]
-                             for times_s in (self.tap.starts_s, self.tap.stops_s))
-        return (fault.promise == BRIEFLY_UNCERTAIN and bool(starts_s and stops_s) and
-                starts_s[0] - stops_s[0] > 0.9 * WARNING_S)
 
     def is_kept(self, fault, row):
         if row["arrived"]:
@@ -419,7 +413,7 @@ def table(rows):
              "Made by `scripts/fault_campaign.sh`: `simulation.launch` as a user starts it, in real time, with an operator",
              "heartbeat; the bus runs through a tap that notes every command by the steady clock. The rover drives at",
              "0.1 m/s when the fault comes. *Stop* is from the fault to the last frame that moves; the way is that of the",
-             "tracks, their own inertia included, until it moves on by good poses (after %g s of warning at least) or until" % WARNING_S,
+             "tracks, their own inertia included, until it moves on by good poses, with a warning, or until",
              "%g s after the limit. Limits are in simulated time, which rendering holds back; they stand here in wall time." % WATCH_S,
              "",
              "| | |", "|---|---|",

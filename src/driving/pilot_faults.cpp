@@ -73,6 +73,7 @@ void Pilot::Distrust(const Fault& fault) {
 
 void Pilot::Pause(double now_s, StopReason reason) {
   if (state_ != DriveState::kPaused) pause_start_s_ = now_s;
+  commanded_s_ = kNeverCommanded_s;  // whoever commanded it has seen it stop
   state_ = DriveState::kPaused;
   reason_ = reason;
   flawed_s_ = now_s;

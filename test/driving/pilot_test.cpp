@@ -229,6 +229,20 @@ TEST_F(PilotTest, AnEmergencyStopIsClearedByNobodyButItsSourceOrAPerson) {
   EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
 }
 
+TEST_F(PilotTest, HoweverFreshTheGoalAMotionAfterAPauseIsWarnedOf) {
+  StartDriving();
+  pilot_.SetRoute({{5, 0, {}}});
+  Run(0.1);
+  sigma_m_ = 100;
+  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero());
+  ASSERT_EQ(State(), DriveState::kPaused);
+  sigma_m_ = 0.01;
+  Run(Options().resume_after_s + 0.1);
+  EXPECT_EQ(State(), DriveState::kWarning);
+  EXPECT_TRUE(Run(Options().warning_s - 0.2).chassis_motion.IsZero());
+  EXPECT_FALSE(Run(0.5).chassis_motion.IsZero());
+}
+
 TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumesAfterAWarning) {
   StartDriving();
   has_pose_ = false;
