@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/right_shift.h"
 
 namespace arfm_vo {
 namespace {
@@ -71,6 +72,12 @@ std::optional<cv::Matx22f> LandmarkAligner::FindWarp(const Landmark& landmark,
   return warp;
 }
 
+cv::Point2f LandmarkAligner::ShiftOfLateRight(const Eigen::Vector3d& x_in_camera) const {
+  if (later_from_now_.IsIdentity()) return {0, 0};
+  const Eigen::Vector2f shift = ShiftOfRight(camera_, later_from_now_, x_in_camera).cast<float>();
+  return {shift.x(), shift.y()};
+}
+
 std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
                                                           const Keyframe& reference,
                                                           const StereoImages& images,
@@ -82,8 +89,9 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   const auto patch = Patch::Sample(reference.left, place, *warp);
   if (!patch) return std::nullopt;
 
-  const Eigen::Vector4d predicted =
-      ProjectStereo4(camera_, correction_, camera_from_world * landmark.x_in_world);
+  const Eigen::Vector3d x_in_camera = camera_from_world * landmark.x_in_world;
+  const Eigen::Vector4d predicted = ProjectStereo4(camera_, correction_, x_in_camera);
+  const cv::Point2f shift = ShiftOfLateRight(x_in_camera);
   const PatchAlignment left = aligner_.Align(
       *patch, images.left, {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
   if (!left.IsAligned()) return std::nullopt;
@@ -91,7 +99,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   LandmarkObservation observation;
   observation.landmark = landmark.id;
   float variance = left.covariance[0] + left.covariance[2];
-  const cv::Point2f guess(static_cast<float>(predicted.z() + left.position.x - predicted.x()),
+  const cv::Point2f guess =
+      shift + cv::Point2f(static_cast<float>(predicted.z() + left.position.x - predicted.x()),
                           static_cast<float>(predicted.w() + left.position.y - predicted.y()));
   PatchAlignment right;
   const Rigid3 right_from_world(
@@ -111,6 +120,7 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   if (observation.has_right) {
     variance = 0.5f * (variance + right.covariance[0] + right.covariance[2]);
   }
+  right.position -= shift;
   observation.pixels << left.position.x, left.position.y, right.position.x, right.position.y;
   observation.sigma_px = std::max(options_.min_sigma_px, std::sqrt(0.5 * variance));
   return observation;

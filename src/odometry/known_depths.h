@@ -21,6 +21,8 @@ class UnknownWay {
     }
     newest_ = centre;
   }
+  /// Where the camera is may be wrong by this besides, in any direction.
+  void AddDoubt(double sigma_m) { closed_ += sigma_m * sigma_m * Eigen::Matrix3d::Identity(); }
   /// Of the place, m^2, axes of the world.
   Eigen::Matrix3d Covariance() const {
     return closed_ + (newest_ - start_) * (newest_ - start_).transpose();

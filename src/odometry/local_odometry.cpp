@@ -4,11 +4,14 @@
 #include <future>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/odometry/base_covariance.h"
 #include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/odometry/eye_skew.h"
 #include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
@@ -35,6 +38,11 @@ namespace {
 /// An eye with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
 
+/// Share of the way by which the pose may be off for a skew that was not known on it.
+constexpr double kDoubtBySkew = 0.1;
+/// Known skew that moves what is seen by more than this is not made up for well enough to trust.
+constexpr double kMaxShiftPx = 1;
+
 }  // namespace
 
 class LocalOdometry::Implementation {
@@ -47,7 +55,8 @@ class LocalOdometry::Implementation {
         tracker_(camera, options.tracker),
         map_(camera, options.map),
         standstill_(options.standstill),
-        archive_(camera, options.archive) {
+        archive_(camera, options.archive),
+        skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);
     drift_.SetCorrection(correction);
@@ -56,7 +65,10 @@ class LocalOdometry::Implementation {
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images,
                          const std::optional<PredictedPose>& predicted) {
     Stopwatch stopwatch;
-    StereoFrame frame = Corrected(measured, camera_, correction_.mean);
+    later_from_now_ = skew_.MotionBetweenEyes(
+        measured.stamp_s, predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
+    tracker_.SetMotionBetweenEyes(later_from_now_);
+    StereoFrame frame = Corrected(measured, camera_, correction_.mean, later_from_now_);
     const std::string left_fault = LeftFault(frame);
     const std::string right_fault = left_fault.empty() ? RightFault(frame) : left_fault;
     if (!right_fault.empty()) frame.points.clear();
@@ -121,6 +133,7 @@ class LocalOdometry::Implementation {
     if (!map_.keyframes().empty()) dispute_.BeWary();
     map_.Clear();
     standstill_.Reset();
+    skew_.Interrupt();
     drift_.Clear();
     unknown_way_ = {};
     archive_.Clear();
@@ -158,6 +171,7 @@ class LocalOdometry::Implementation {
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
+      skew_.Interrupt();
       Recover(frame, update);
       return;
     }
@@ -190,7 +204,31 @@ class LocalOdometry::Implementation {
                                   tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
+    LearnSkew(update);
     AddDrift(update);
+  }
+
+  void LearnSkew(OdometryUpdate& update) {
+    const Rigid3& camera_from_world = update.pose.camera_from_world;
+    const bool was_known = skew_.Find().has_value();
+    skew_.Add(map_, update.observations, update.stamp_s, camera_from_world);
+    update.skew = skew_.Find();
+    if (update.skew && !was_known)
+      unknown_way_.AddDoubt(kDoubtBySkew * camera_from_world.Inverse().translation.norm());
+    if (!update.pose.IsTracked() || MedianShift(update) < kMaxShiftPx) return;
+    update.pose.status = PoseStatus::kDegraded;
+    update.remark = "the right picture is taken far from the left one's time";
+  }
+  /// How far the skew moves what the right eye sees, px.
+  double MedianShift(const OdometryUpdate& update) const {
+    if (later_from_now_.IsIdentity()) return 0;
+    std::vector<double> shifts_px;
+    for (const LandmarkObservation& observation : update.observations) {
+      const Eigen::Vector3d& x = map_.landmarks().at(observation.landmark).x_in_world;
+      shifts_px.push_back(
+          ShiftOfRight(camera_, later_from_now_, update.pose.camera_from_world * x).norm());
+    }
+    return Median(std::move(shifts_px));
   }
 
   /// Those that agreed with an earlier pose.
@@ -327,6 +365,8 @@ class LocalOdometry::Implementation {
   DriftEstimator drift_;
   PoseDrift pose_drift_;  ///< of the last tracked frame
   UnknownWay unknown_way_;
+  EyeSkewEstimator skew_;
+  Rigid3 later_from_now_;  ///< the camera's motion between the two pictures of the last frame
   std::future<AdjustedWindow> pending_;
 };
 

@@ -4,10 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+namespace {
+
+/// Empty where there is none.
+std::string Describe(const std::optional<EyeSkew>& skew) {
+  if (!skew) return "";
+  char text[100];
+  std::snprintf(text, sizeof text,
+                "the right picture is taken %.1f ms %s the left one (sigma %.1f)",
+                1e3 * std::abs(skew->s), skew->s > 0 ? "after" : "before", 1e3 * skew->sigma_s);
+  return text;
+}
+
+}  // namespace
 
 using diagnostic_msgs::DiagnosticStatus;
 
@@ -91,9 +105,14 @@ void OdometryHealth::ReportCalibration(Status& status) {
         "the rows of left and right differ by %.2f px: the images are not rectified "
         "(rectify:=true), or the calibration is wrong (calibrate_stereo)",
         residual_px);
+  const std::string skew = Describe(last_.update.skew);
+  if (skew_watch_.IsDue(skew, ros::WallTime::now().toSec()))
+    ROS_WARN("%s: made up for as far as can be; trigger both cameras together", skew.c_str());
   if (is_wrong)
     status.summaryf(DiagnosticStatus::ERROR, "rows differ by %.2f px: calibrate the cameras",
                     residual_px);
+  else if (!skew.empty())
+    status.summary(DiagnosticStatus::WARN, skew);
   else if (residual_px >= options_.row_residual_warn_px)
     status.summaryf(DiagnosticStatus::WARN, "rows differ by %.2f px", residual_px);
   else if (row_residual_px_.size() == 0)

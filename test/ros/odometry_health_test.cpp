@@ -45,6 +45,17 @@ TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {
   EXPECT_EQ(LevelOfRows(1.1), DiagnosticStatus::ERROR);
 }
 
+TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
+  OdometryHealth health{OdometryHealthOptions()};
+  SessionUpdate pose = kTracked;
+  pose.update.skew = EyeSkew{-0.0101, 0.0002};
+  health.Count(FrameWithRows(0.3), pose, 1);
+  Wrapper status;
+  health.ReportCalibration(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "the right picture is taken 10.1 ms before the left one (sigma 0.2)");
+}
+
 TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
   OdometryHealth health{OdometryHealthOptions()};
   for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/right_shift.h"
 
 namespace arfm_vo {
 namespace {
@@ -53,6 +54,10 @@ std::optional<SimulatedFrame> ObservationSimulator::Next() {
   if (frame_ == size()) return std::nullopt;
   world_from_camera_ = path_[frame_];
   camera_from_world_ = world_from_camera_.Inverse();
+  if (frame_ + 1 < size()) {
+    const Rigid3 next_from_now = path_[frame_ + 1].Inverse() * world_from_camera_;
+    later_from_now_ = Interpolate({}, next_from_now, options_.right_delay);
+  }
   SimulatedFrame frame;
   frame.world_from_camera = world_from_camera_;
   const auto is_full = [&] {
@@ -152,7 +157,10 @@ std::optional<SimulatedObservation> ObservationSimulator::Observe(int id) {
     return std::nullopt;
   }
   place.last_seen = frame_;
-  return SimulatedObservation{id, place.track_id, *pixels, pixels->y(), false};
+  const Eigen::Vector2d shift =
+      ShiftOfRight(camera_, later_from_now_, camera_from_world_ * place.x_in_world);
+  const Eigen::Vector3d seen = *pixels + Eigen::Vector3d(0, 0, shift.x());
+  return SimulatedObservation{id, place.track_id, seen, pixels->y() + shift.y(), false};
 }
 
 /// Adds noise, or makes an outlier of it: half of them a wrong partner in the right image only,

@@ -22,6 +22,7 @@ struct ObservationSimulatorOptions {
   double noise_px = 0.5;          ///< standard deviation of each coordinate
   double outlier_fraction = 0.2;
   StereoCorrection displacement;  ///< of the images, as calibration would leave it
+  double right_delay = 0;         ///< of the right picture, as a share of the frames' interval
   double mean_track_frames = 12;  ///< a track ends by chance, with equal probability in each frame
   int rest_frames = 50;           ///< after its track a landmark is not seen for so long
   double max_view_change_deg = 40;  ///< how far round a landmark can be seen from
@@ -87,6 +88,7 @@ class ObservationSimulator {
   RandomEngine engine_;
   int frame_ = 0, num_tracks_ = 0;
   Rigid3 world_from_camera_, camera_from_world_;  ///< of the current frame
+  Rigid3 later_from_now_;  ///< the camera's motion from the left picture to the right one
   std::vector<Place> landmarks_;
   std::unordered_map<int64_t, std::vector<int>> cells_;  ///< landmark ids by place
 };

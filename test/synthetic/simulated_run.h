@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "arfm_vo/odometry/trajectory_error.h"
@@ -21,6 +22,7 @@ struct SimulatedRun {
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;  ///< of `online`, as OdometryUpdate has it
   int num_untracked = 0, num_lost = 0;                   ///< of them without any pose
   int num_keyframes = 0, num_loops = 0;
+  std::optional<EyeSkew> skew;          ///< as the last frame had it
   uint32_t epoch = 0;                   ///< of the last frame; the first is 1
   double odometry_s = 0, finish_s = 0;  ///< wall time; without the simulation
 

@@ -44,6 +44,20 @@ TEST(SimulatedRun, NoFrameIsLostAndTheDriftIsSmallWithNoiseAndOutliers) {
   EXPECT_LT(run.OnlineError().brief.translation_percent, 0.5);
 }
 
+TEST(SimulatedRun, ASkewBetweenTheEyesIsFoundAndMadeUpFor) {
+  SimulatedRunOptions options;
+  EXPECT_FALSE(RunSimulated(kCamera, BentPath(40), options, OnlineOnly()).skew);
+  for (const double skew_s : {0.004, -0.01}) {
+    options.simulator.right_delay = skew_s * options.rate_hz;
+    const SimulatedRun run = RunSimulated(kCamera, BentPath(40), options, OnlineOnly());
+    ASSERT_TRUE(run.skew) << skew_s;
+    EXPECT_NEAR(run.skew->s, skew_s, 0.0005);
+    EXPECT_LT(run.skew->sigma_s, 0.0005);
+    EXPECT_EQ(run.num_lost, 0);
+    EXPECT_LT(run.OnlineError().brief.translation_percent, 2) << skew_s;
+  }
+}
+
 TEST(SimulatedRun, WhereAllIsFarTheHeadingIsKnownAndThePlaceIsSaidNotToBe) {
   StereoCamera close_eyes = kCamera;
   close_eyes.baseline_m = 0.005;  // depths of 4..100 m are then 0.9..0.04 px

@@ -30,6 +30,7 @@ struct Rigid3 {
   }
   /// Angle of the rotation in [0, pi] rad.
   double Angle() const { return 2 * std::atan2(rotation.vec().norm(), std::abs(rotation.w())); }
+  bool IsIdentity() const { return rotation.vec().isZero(0) && translation.isZero(0); }
   bool IsFinite() const { return rotation.coeffs().allFinite() && translation.allFinite(); }
 };
 

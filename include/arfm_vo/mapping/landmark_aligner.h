@@ -34,14 +34,19 @@ class LandmarkAligner {
                                            bool use_right = true) const;
   /// What is known of the right image's displacement: tells where to look there.
   void SetCorrection(const StereoCorrection& correction) { correction_ = correction; }
+  /// How the camera moves from the left picture to a right one that is late or early: right pixels
+  /// are measured there and moved to where they would be without.
+  void SetMotionBetweenEyes(const Rigid3& later_from_now) { later_from_now_ = later_from_now; }
 
  private:
   /// SourceFromTarget for an eye at `eye_from_world`, where it does not change the size too much.
   std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
                                       const Rigid3& eye_from_world) const;
+  cv::Point2f ShiftOfLateRight(const Eigen::Vector3d& x_in_camera) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;
+  Rigid3 later_from_now_;
   LandmarkAlignerOptions options_;
   PatchAligner aligner_;
 };

@@ -60,6 +60,10 @@ class FrameTracker {
                      bool is_wary = false) const;
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
+  /// See LandmarkAligner.
+  void SetMotionBetweenEyes(const Rigid3& later_from_now) {
+    aligner_.SetMotionBetweenEyes(later_from_now);
+  }
 
  private:
   struct Correspondences;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "arfm_vo/mapping/landmark.h"
+#include "arfm_vo/odometry/eye_skew.h"
 #include "arfm_vo/pose/pose_estimate.h"
 
 namespace arfm_vo {
@@ -24,6 +26,7 @@ struct OdometryUpdate {
   bool is_relocalised = false;        ///< found among keyframes that had left the local map
   bool is_disputed = false;           ///< no pose: two groups of points moved differently
   LandmarkObservations observations;  ///< of the map's landmarks that agree with the pose
+  std::optional<EyeSkew> skew;        ///< where the right picture is late or early, and made up for
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
 };

@@ -54,7 +54,7 @@ class OdometryHealth {
  private:
   OdometryHealthOptions options_;
   OdometryConsole console_;
-  ConsoleWatch calibration_watch_;
+  ConsoleWatch calibration_watch_, skew_watch_;
   RunningMedian row_residual_px_;
   ScaleCheck scale_;
   WallRate rate_;

@@ -1,0 +1,84 @@
+#include "arfm_vo/odometry/eye_skew.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/geometry/stereo_correction.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kFieldSigmaPx = 1, kSkewSigma_s = 0.05;  // before anything is known
+constexpr double kMinRowSigmaPx = 0.1;
+/// Rows that are off by more are not those of one point.
+constexpr double kMaxRowPx = 3;
+/// A smaller skew may as well be what the model leaves out: recordings with one trigger for both
+/// cameras give up to 0.6 ms.
+constexpr double kMinSkew_s = 0.001, kSignificance = 5;
+constexpr double kMinDepth_m = 0.1;
+
+}  // namespace
+
+EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera) {
+  information_.setZero();
+  information_.diagonal().setConstant(1 / (kFieldSigmaPx * kFieldSigmaPx));
+  information_(kSize - 1, kSize - 1) = 1 / (kSkewSigma_s * kSkewSigma_s);
+}
+
+void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& observations,
+                           double stamp_s, const Rigid3& camera_from_world) {
+  if (!last_) {
+    last_ = Last{stamp_s, camera_from_world, {}, 0};
+    return;
+  }
+  const double interval_s = stamp_s - last_->stamp_s;
+  for (const LandmarkObservation& observation : observations) {
+    if (!observation.has_right) continue;
+    const Eigen::Vector3d& x = map.landmarks().at(observation.landmark).x_in_world;
+    const Eigen::Vector3d now = camera_from_world * x, before = last_->camera_from_world * x;
+    if (std::min(now.z(), before.z()) < kMinDepth_m) continue;
+    const double row_step_px = (camera_.Project(now) - camera_.Project(before)).y();
+    AddRow(observation.pixels, row_step_px / interval_s, observation.sigma_px);
+  }
+  solution_ = information_.ldlt().solve(right_side_);
+  last_ = Last{stamp_s, camera_from_world, camera_from_world * last_->camera_from_world.Inverse(),
+               interval_s};
+  const auto skew = Find();
+  compensated_s_ = skew ? skew->s : 0;
+}
+
+void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s,
+                              double sigma_px) {
+  Vector row;
+  row << ImageBasis(camera_, pixels.tail<2>()).values, row_speed_px_s;
+  const double residual_px = pixels.w() - pixels.y() + compensated_s_ * row_speed_px_s;
+  const double off_px = residual_px - row.dot(solution_);
+  if (std::abs(off_px) > kMaxRowPx) return;
+  // Left and right row err alike; Cauchy's weight with a scale of two standard deviations.
+  const double sigma = std::max(kMinRowSigmaPx, std::sqrt(2.) * sigma_px);
+  const double weight = 1 / (sigma * sigma + off_px * off_px / 4);
+  information_ += weight * row * row.transpose();
+  right_side_ += weight * residual_px * row;
+}
+
+std::optional<EyeSkew> EyeSkewEstimator::Find() const {
+  const Vector unit = Vector::Unit(kSize - 1);
+  const double variance = unit.dot(information_.ldlt().solve(unit));
+  const EyeSkew skew{solution_[kSize - 1], std::sqrt(variance)};
+  if (std::abs(skew.s) < kMinSkew_s + kSignificance * skew.sigma_s) return std::nullopt;
+  return skew;
+}
+
+Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
+                                           const std::optional<Rigid3>& predicted) const {
+  if (compensated_s_ == 0 || !last_) return {};
+  if (predicted) {
+    const Rigid3 now_from_last = *predicted * last_->camera_from_world.Inverse();
+    return Interpolate({}, now_from_last, compensated_s_ / (stamp_s - last_->stamp_s));
+  }
+  if (last_->interval_s == 0) return {};
+  return Interpolate({}, last_->now_from_before, compensated_s_ / last_->interval_s);
+}
+
+}  // namespace arfm_vo
