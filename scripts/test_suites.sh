@@ -49,6 +49,7 @@ make_chroot() {
 enter() {
   local spaces=(--mount --pid --fork --kill-child)
   [ "$1" = offline ] && spaces+=(--net)
+  # shellcheck disable=SC2016  # for the shell inside
   unshare "${spaces[@]}" bash -c '
     root=$1; shift
     mount -t proc proc "$root/proc"; mount --rbind /dev "$root/dev"; mount --rbind /sys "$root/sys"
@@ -69,12 +70,13 @@ report() {
   python3 - "$@" << 'PYTHON'
 import glob, sys, xml.etree.ElementTree as xml
 suite, build = sys.argv[1:]
-tests = failed = 0
+tests = failed = skipped = 0
 for path in glob.glob(build + '/test_results/**/*.xml', recursive=True):
     root = xml.parse(path).getroot()
     tests += int(root.get('tests', 0))
     failed += int(root.get('failures', 0)) + int(root.get('errors', 0))
-print(f'{suite}: {tests} gtest and rostest cases, {failed} failed')
+    skipped += sum(case.get('result') == 'skipped' for case in root.iter('testcase'))
+print(f'{suite}: {tests - skipped - failed} gtest and rostest cases passed, {skipped} skipped, {failed} failed')
 PYTHON
 }
 
