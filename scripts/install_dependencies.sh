@@ -2,6 +2,7 @@
 # Installs everything that arfm_vo needs to build, test and run, from Debian's own packages (reference: Debian 12).
 # Usage: scripts/install_dependencies.sh [--checks]      as root, or as a user who may use sudo
 #        --checks   also what scripts/static_checks.sh needs
+#        --list GROUP ...   installs nothing, prints the packages of build, ros, libraries, tests, runtime, hardware
 set -euo pipefail
 
 build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin ccache)
@@ -28,6 +29,14 @@ runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice py
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2 nftables)
 checks=(shellcheck pyflakes3 cppcheck)
+
+if [[ ${1-} == --list ]]; then
+  for group in "${@:2}"; do
+    declare -n listed=$group
+    printf '%s\n' "${listed[@]}"
+  done
+  exit
+fi
 
 as_root() { if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi; }
 

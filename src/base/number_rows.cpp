@@ -1,6 +1,5 @@
 #include "arfm_vo/base/number_rows.h"
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -13,11 +12,8 @@ std::vector<double> ParseNumbers(const std::string& text, const std::string& pla
   std::vector<double> values;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    const char* begin = word.data() + (word[0] == '+');
     double value = 0;
-    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
-    Require(error == std::errc() && end == word.data() + word.size(),
-            place + ": '" + word + "' is not a number");
+    Require(ParseNumber(word, value), place + ": '" + word + "' is not a number");
     Require(std::isfinite(value), place + ": '" + word + "' is not finite");
     values.push_back(value);
   }
@@ -38,14 +34,6 @@ std::vector<NumberRow> ReadNumberRows(const std::string& path, int num_columns) 
                 " numbers instead of " + std::to_string(num_columns));
   }
   return rows;
-}
-
-std::string FormatNumber(double value, bool fixed) {
-  char text[400];  // a fixed double has up to 309 digits before its point
-  const auto result =
-      fixed ? std::to_chars(text, text + sizeof(text), value, std::chars_format::fixed)
-            : std::to_chars(text, text + sizeof(text), value);
-  return std::string(text, result.ptr);
 }
 
 }  // namespace arfm_vo

@@ -141,11 +141,7 @@ class CeresBundle {
       double* const pose = poses_[i].data();
       if (!ceres_problem_.HasParameterBlock(pose)) continue;
       if (selection_.pose_is_free[i]) {
-#if CERES_VERSION_MAJOR > 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR >= 1)
-        ceres_problem_.SetManifold(pose, new PoseManifold);
-#else
-        ceres_problem_.SetParameterization(pose, new PoseManifold);
-#endif
+        SetPoseManifold(ceres_problem_, pose);
         ordering_->AddElementToGroup(pose, 1);
       } else {
         ceres_problem_.SetParameterBlockConstant(pose);

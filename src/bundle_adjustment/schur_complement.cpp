@@ -12,6 +12,11 @@ double DampedDiagonal(double value, double damping) {
   return value + damping * std::clamp(value, 1e-6, 1e32);
 }
 
+template <class Block>
+void DampDiagonal(double damping, Block& block) {
+  for (int i = 0; i < block.rows(); ++i) block(i, i) = DampedDiagonal(block(i, i), damping);
+}
+
 }  // namespace
 
 void NormalEquations::ForEachPiece(const std::function<void(Piece&)>& work) {
@@ -44,11 +49,9 @@ bool NormalEquations::Solve(double damping, BundleStep& step) {
 
 void NormalEquations::Damp(double damping) {
   for (int i = 0; i < structure_.num_free_poses(); ++i) {
-    for (double& value : reduced_.blocks[structure_.row_begin[i]].diagonal()) {
-      value = DampedDiagonal(value, damping);
-    }
+    DampDiagonal(damping, reduced_.blocks[structure_.row_begin[i]]);
   }
-  for (double& value : reduced_.corner.diagonal()) value = DampedDiagonal(value, damping);
+  DampDiagonal(damping, reduced_.corner);
 }
 
 void NormalEquations::EliminatePiece(double damping, Piece& piece) {
@@ -58,7 +61,7 @@ void NormalEquations::EliminatePiece(double damping, Piece& piece) {
   for (int track = piece.first_track; track < piece.last_track; ++track) {
     pacer.Pause();
     Eigen::Matrix3d damped = point_blocks_[track];
-    for (double& value : damped.diagonal()) value = DampedDiagonal(value, damping);
+    DampDiagonal(damping, damped);
     const Eigen::Matrix3d inverse = damped.inverse();
     point_inverses_[track] = inverse;
     const Eigen::Vector3d inverse_right = inverse * point_rights_[track];

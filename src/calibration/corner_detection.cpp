@@ -137,6 +137,9 @@ BoardCorners MirrorCorners(const BoardCorners& corners, cv::Size size, int image
   return mirrored;
 }
 
+#if CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 3  // no CALIB_CB_LARGER
+std::optional<cv::Size> GuessBoardSize(const cv::Mat&) { return std::nullopt; }
+#else
 std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey) {
   cv::Mat small, grid;
   ShrinkForSearch(grey, small);
@@ -146,5 +149,6 @@ std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey) {
     return std::nullopt;
   return cv::Size(std::max(grid.cols, grid.rows), std::min(grid.cols, grid.rows));
 }
+#endif
 
 }  // namespace arfm_vo

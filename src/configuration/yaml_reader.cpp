@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/whole_file.h"
 
 namespace arfm_vo {
@@ -35,8 +36,7 @@ std::string GetPlainScalar(const YamlValue& value, const std::string& expected) 
   return text;
 }
 
-template <class Number>
-bool ParseWhole(const std::string& text, Number& number) {
+bool ParseInteger(const std::string& text, int64_t& number) {
   const char* end = text.data() + text.size();
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-');
   const auto result = std::from_chars(begin, end, number);
@@ -105,7 +105,7 @@ void ReadYamlValue(const YamlValue& value, double& field) {
   const std::string text = GetPlainScalar(value, "a number");
   if (text == ".inf" || text == "-.inf") {
     field = text[0] == '-' ? -HUGE_VAL : HUGE_VAL;
-  } else if (!ParseWhole(text, field) || !std::isfinite(field)) {
+  } else if (!ParseNumber(text, field) || !std::isfinite(field)) {
     value.Fail("must be a number, is " + text);
   }
 }
@@ -117,7 +117,7 @@ void ReadYamlValue(const YamlValue& value, std::string& field) {
 int64_t ReadYamlInteger(const YamlValue& value, int64_t min, int64_t max) {
   const std::string text = GetPlainScalar(value, "an integer");
   int64_t number = 0;
-  if (!ParseWhole(text, number)) value.Fail("must be an integer, is " + text);
+  if (!ParseInteger(text, number)) value.Fail("must be an integer, is " + text);
   if (number < min || number > max) {
     value.Fail("must be an integer in " + std::to_string(min) + ".." + std::to_string(max) +
                ", is " + text);

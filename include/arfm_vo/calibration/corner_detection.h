@@ -26,7 +26,8 @@ BoardCorners AlignOrder(const BoardCorners& left, const BoardCorners& right, cv:
 /// As a mirror (u -> width - 1 - u) would show the corners, in the order of BoardCorners.
 BoardCorners MirrorCorners(const BoardCorners& corners, cv::Size size, int image_width);
 
-/// Inner corners of the largest chessboard in the image, for messages; nothing where there is none.
+/// Inner corners of the largest chessboard in the image, for messages; nothing where there is none,
+/// or where OpenCV cannot tell (before 4.3).
 std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey);
 
 }  // namespace arfm_vo

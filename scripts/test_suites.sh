@@ -1,0 +1,190 @@
+#!/usr/bin/env bash
+# Builds the package and runs its tests on other systems, each in a chroot of its own (debootstrap), as root.
+# Usage: scripts/test_suites.sh [--core] [SUITE ...]      default: all but focal
+#   bullseye, bookworm, trixie   Debian 11, 12, 13
+#   bullseye-gcc9                Debian 11 by g++ 9
+#   focal                        Ubuntu 20.04, which Noetic is made for; needs UBUNTU_MIRROR=URL, UBUNTU_KEYRING=FILE
+#   arm64                        this machine's release for arm64: the layers below ros, cross-built, their tests in qemu-user
+#   --core                       only the layers below ros and their tests, which need no ROS master
+# Each ends with a line "SUITE: ... tests". The chroots (4 GB each) stay in ARFM_VO_SUITES (default: ~/.cache/arfm_vo/suites);
+# the packages come from where this machine's apt has them.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+suites=${ARFM_VO_SUITES:-${XDG_CACHE_HOME:-$HOME/.cache}/arfm_vo/suites}
+mkdir -p "$suites"
+suites=$(cd "$suites" && pwd)
+fail() { echo "test_suites: $*" >&2; exit 1; }
+[ "$(id -u)" -eq 0 ] || fail "a chroot can be made by root only"
+is_core=
+if [[ ${1-} == --core ]]; then is_core=1; shift; fi
+core=(base geometry image features matching reconstruction pose mapping bundle_adjustment odometry configuration calibration
+      datasets evaluation driving hardware simulation rehearsal)
+
+need() { command -v "$1" > /dev/null || fail "$1 is missing (package $2)"; }
+
+debian_mirror() {
+  # shellcheck disable=SC2016  # apt's own
+  apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' | sed -n 1p | grep . ||
+    fail "this machine's apt knows no mirror of Debian"
+}
+
+# make_chroot NAME: the bare system.
+make_chroot() {
+  [ -d "$suites/$1" ] && return
+  need debootstrap debootstrap
+  local mirror options=()
+  if [ "$1" = focal ]; then
+    mirror=${UBUNTU_MIRROR:?focal needs the address of a mirror of Ubuntu}
+    options=("--components=main,universe" --keyring="${UBUNTU_KEYRING:?focal needs the file ubuntu-archive-keyring.gpg}")
+  else
+    mirror=$(debian_mirror)
+  fi
+  rm -rf "$suites/$1.new"
+  debootstrap --variant=minbase "${options[@]}" "$1" "$suites/$1.new" "$mirror" > "$suites/$1.log" 2>&1 ||
+    fail "debootstrap failed: $suites/$1.log"
+  mv "$suites/$1.new" "$suites/$1"
+}
+
+# enter NETWORK CHROOT COMMAND...: NETWORK is the host's (online) or one of its own (offline), where ports are free.
+enter() {
+  local spaces=(--mount --pid --fork --kill-child)
+  [ "$1" = offline ] && spaces+=(--net)
+  # shellcheck disable=SC2016  # for the shell inside
+  unshare "${spaces[@]}" bash -c '
+    root=$1; shift
+    mount -t proc proc "$root/proc"; mount --rbind /dev "$root/dev"; mount --rbind /sys "$root/sys"
+    mkdir -p "$root/root/.ccache" "${CCACHE_DIR:=$HOME/.ccache}"; mount --bind "$CCACHE_DIR" "$root/root/.ccache"
+    ip link set lo up
+    exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 "$@"' -- "${@:2}"
+}
+
+# put_sources FOLDER: the files of this package, without what was built; older ones go, but for a build folder's.
+put_sources() {
+  mkdir -p "$1"
+  find "$1" -mindepth 1 -maxdepth 1 ! -name '_*' -exec rm -rf {} +
+  git ls-files -z --cached --others --exclude-standard | tar -c --null -T - --ignore-failed-read | tar -x -C "$1"
+}
+
+# report SUITE BUILD: the numbers of tests that ran, from their results.
+report() {
+  python3 - "$@" << 'PYTHON'
+import glob, sys, xml.etree.ElementTree as xml
+suite, build = sys.argv[1:]
+tests = failed = skipped = 0
+for path in glob.glob(build + '/test_results/**/*.xml', recursive=True):
+    root = xml.parse(path).getroot()
+    tests += int(root.get('tests', 0))
+    failed += int(root.get('failures', 0)) + int(root.get('errors', 0))
+    skipped += sum(case.get('result') == 'skipped' for case in root.iter('testcase'))
+print(f'{suite}: {tests - skipped - failed} gtest and rostest cases passed, {skipped} skipped, {failed} failed')
+PYTHON
+}
+
+# What Ubuntu 20.04 has of ROS itself; diagnostic_updater, which only Noetic's packages have there, is declared, not there.
+install_on_focal() {
+  local root=$suites/focal folder
+  mapfile -t packages < <(scripts/install_dependencies.sh --list build ros libraries tests | grep -vx libdiagnostic-updater-dev)
+  enter online "$root" apt-get update -qq
+  enter online "$root" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    "${packages[@]}" python3-roslaunch python3-rostest
+  folder=$root/usr/share/diagnostic_updater/cmake
+  mkdir -p "$folder"
+  echo 'set(diagnostic_updater_FOUND_CATKIN_PROJECT TRUE)' > "$folder/diagnostic_updaterConfig.cmake"
+}
+
+# test_chroot SUITE: in the chroot of its release, in a folder of its own.
+test_chroot() {
+  local release=${1%-gcc9} status=0 compiler=()
+  local root=$suites/$release folder=root/arfm_vo${1#"${1%-gcc9}"}
+  make_chroot "$release"
+  cp /etc/resolv.conf "$root/etc/"
+  put_sources "$root/$folder"
+  if [ "$1" = focal ]; then
+    install_on_focal
+  else
+    enter online "$root" "/$folder/scripts/install_dependencies.sh"
+  fi
+  if [ "$1" != "$release" ]; then
+    enter online "$root" apt-get install -y -qq --no-install-recommends g++-9
+    compiler=(CXX=g++-9)
+  fi
+  rm -rf "$root/$folder/_b/test_results"
+  if [[ $is_core || $1 = focal ]]; then
+    enter offline "$root" "${compiler[@]}" "/$folder/scripts/build.sh" "${core[@]/#/test_}"
+    enter offline "$root" bash -c "cd /$folder/_b && ctest --output-on-failure -R '_gtest_test_($(IFS='|'; echo "${core[*]}"))\$'" || status=1
+  else
+    enter offline "$root" "${compiler[@]}" "/$folder/scripts/test.sh" || status=1
+  fi
+  report "$1" "$root/$folder/_b"
+  return $status
+}
+
+# make_sysroot: the packages for arm64, unpacked only. None of their scripts runs, so that the kernel need not know arm64.
+make_sysroot() {
+  local root=$suites/arm64 lib=usr/lib/aarch64-linux-gnu packages file link
+  [ -d "$root" ] && return
+  need mmdebstrap mmdebstrap
+  mapfile -t packages < <(scripts/install_dependencies.sh --list ros libraries tests)
+  packages+=(libc6-dev "libstdc++-$(aarch64-linux-gnu-g++ -dumpversion)-dev")
+  rm -rf "$root.new"
+  mmdebstrap --variant=extract --arch=arm64 --include="$(IFS=,; echo "${packages[*]}")" \
+    "$(. /etc/os-release; echo "$VERSION_CODENAME")" "$root.new" "$(debian_mirror)" > "$root.log" 2>&1 ||
+    fail "mmdebstrap failed: $root.log"
+  # Then what their scripts would do, and absolute paths as they are seen from outside.
+  for file in "$root.new/$lib"/{atlas,blas,lapack}/*; do
+    [ ! -e "$file" ] || [ -e "$root.new/$lib/${file##*/}" ] || ln -s "${file#"$root.new/$lib/"}" "$root.new/$lib/"
+  done
+  find "$root.new/usr" -type l -lname '/*' | while read -r link; do
+    ln -snf "$(realpath -ms --relative-to="$(dirname "$link")" "$root.new$(readlink "$link")")" "$link"
+  done
+  sed -i "s,\([;\"]\)/$lib,\1$root/$lib,g" "$root.new/$lib/cmake/Ceres/CeresTargets.cmake"
+  mv "$root.new" "$root"
+}
+
+test_arm64() {
+  need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
+  need qemu-aarch64-static qemu-user-static
+  local root=$suites/arm64 source=$suites/arm64_build/arfm_vo layer status=0
+  make_sysroot
+  put_sources "$source"
+  cat > "$root.cmake" << CMAKE
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_SYSROOT $root)
+set(CMAKE_FIND_ROOT_PATH $root)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE BOTH)  # files of the build folder too
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(roslaunch_DIR /usr/share/roslaunch/cmake)
+CMAKE
+  rm -rf "$source/_b/test_results"
+  CMAKE_TOOLCHAIN_FILE=$root.cmake CMAKE_PREFIX_PATH=/usr PKG_CONFIG_SYSROOT_DIR=$root \
+    PKG_CONFIG_LIBDIR=$root/usr/lib/aarch64-linux-gnu/pkgconfig:$root/usr/share/pkgconfig \
+    "$source/scripts/build.sh" "${core[@]/#/test_}"
+  for layer in "${core[@]}"; do
+    qemu-aarch64-static -L "$root" "$source/_b/devel/lib/arfm_vo/test_$layer" \
+      --gtest_brief=1 --gtest_output="xml:$source/_b/test_results/test_$layer.xml" || status=1
+  done
+  report arm64 "$source/_b"
+  return $status
+}
+
+chosen=("$@")
+[ $# -gt 0 ] || chosen=(bullseye bullseye-gcc9 bookworm trixie arm64)
+case ${#chosen[@]}-${chosen[0]} in
+  1-arm64) test_arm64 ;;
+  1-bullseye | 1-bullseye-gcc9 | 1-bookworm | 1-trixie | 1-focal) test_chroot "${chosen[0]}" ;;
+  1-*) fail "'${chosen[0]}' is none of bullseye bullseye-gcc9 bookworm trixie focal arm64" ;;
+  *)
+    result=0
+    for suite in "${chosen[@]}"; do
+      echo "== $suite"
+      scripts/test_suites.sh ${is_core:+--core} "$suite" || result=1
+    done
+    exit $result
+    ;;
+esac
