@@ -118,7 +118,7 @@ class StereoSyncNode {
   void StartAnewAfterJump(const ros::Time& stamp, ros::Time& stamp_before) {
     if (stamp < stamp_before) pairing_ = StampPairing<Image>(options_.max_skew_s);
     stamp_before = stamp;
-    counts_.stamp_difference_s = (left_stamp_ - right_stamp_).toSec();
+    counts_.stamp_difference_s = left_stamp_.toSec() - right_stamp_.toSec();
   }
 
   void PublishPairs() {

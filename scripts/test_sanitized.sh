@@ -54,7 +54,7 @@ for name in "${names[@]}"; do
     LD_PRELOAD=$(gcc -print-file-name="lib${kind:0:1}san.so") ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 \
       ctest --output-on-failure -R "$name$" || status=1
   else
-    ctest --output-on-failure -R "$name$" || status=1
+    ctest --timeout 7200 --output-on-failure -R "$name$" || status=1
   fi
 done
 if compgen -G "$reports/*" > /dev/null; then cat "$reports"/*; status=1; fi

@@ -27,7 +27,7 @@ from machine_faults import last_faults, machine_faults  # noqa: E402
 from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
-from rover import Launch, Rover, find_bus_port, pid_of, start_again  # noqa: E402
+from rover import Launch, Rover, find_bus_port, pid_of, program_of, start_again  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
 from std_msgs.msg import Bool  # noqa: E402
 
@@ -298,8 +298,8 @@ def node_faults():
         Fault("chassis_node hangs (SIGSTOP)", sent("chassis_node", stop), "-",
               lambda c: (sent("chassis_node", go_on)(c), time.sleep(1))),
         Fault("a second chassis_node is started",
-              lambda c: c.command("timeout 5 rosrun arfm_vo chassis_node __name:=second "
-                                  "_can:=$(rosparam get /chassis_node/can)"),
+              lambda c: c.command("timeout 5 %s __name:=second _can:=$(rosparam get /chassis_node/can)" %
+                                  program_of("chassis_node")),
               "drives on"),
     ]
     return rows

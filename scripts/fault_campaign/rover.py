@@ -9,6 +9,7 @@ import threading
 import time
 
 import rosgraph
+import roslib.packages
 import rosnode
 import rospy
 import rosservice
@@ -184,10 +185,15 @@ def pid_of(node):
     return xmlrpc.client.ServerProxy(uri).getPid("/fault_campaign")[2]
 
 
+def program_of(node):
+    """Its path in the build tree that this shell has; rosrun asks which one where the package holds two trees."""
+    return roslib.packages.find_node("arfm_vo", node)[0]
+
+
 def start_again(node):
     """The node with the parameters that it had."""
     remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
-    return subprocess.Popen(["rosrun", "arfm_vo", node, "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
+    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
                             stderr=subprocess.DEVNULL)
 
 

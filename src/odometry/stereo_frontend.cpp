@@ -1,7 +1,5 @@
 #include "arfm_vo/odometry/stereo_frontend.h"
 
-#include <future>
-
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 
@@ -28,10 +26,12 @@ StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stag
   frame.stamp_s = images.stamp_s;
   frame.left_is_repeated = left_repeated_.Look(images.left);
   frame.right_is_repeated = right_repeated_.Look(images.right);
-  auto right = std::async(std::launch::async, [&] { return right_surf_.Extract(images.right); });
+  Features right_features;
+  TaskThread::Task right =
+      right_thread_.Start([&] { right_features = right_surf_.Extract(images.right); });
   frame.features = left_mask_.WithoutHidden(left_surf_.Extract(images.left));
   frame.grey = ComputeGreyStatistics(images.left);
-  const Features right_features = right.get();
+  right.Get();
   frame.num_right_keypoints = right_features.size();
   const double features_ms = stopwatch.LapMs();
   frame.ratio_threshold = reconstructor_.RatioThreshold(frame.grey);

@@ -1,7 +1,5 @@
 #include "arfm_vo/ros/pose_node.h"
 
-#include <boost/bind/bind.hpp>
-
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/image_conversion.h"
@@ -44,7 +42,9 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
                 ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
               }),
       transport_(node),
-      synchronizer_(Policy(kQueueSize)) {
+      pairing_(kQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
+        worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
+      }) {
   if (options_.max_held_pairs > 0) worker_.Hold(options_.max_held_pairs);
   Offer(node, private_node);
   Subscribe(node, private_node);
@@ -77,13 +77,6 @@ void PoseNode::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
 
 void PoseNode::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node) {
   transforms_ = std::make_unique<TransformInput>(node, buffer_);
-  synchronizer_.connectInput(frames_, left_, right_);
-  using namespace boost::placeholders;
-  synchronizer_.registerCallback(boost::bind<void>(
-      [this](const auto& frame, const auto& left, const auto& right) {
-        worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
-      },
-      _1, _2, _3));
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
   updates_ = node.subscribe<MapUpdateStamped>(
@@ -100,9 +93,14 @@ void PoseNode::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_no
           health_.scale().AddTrack(stamp_s, position);
         });
       });
-  left_.subscribe(transport_, StereoTopic(node, "left/image_rect"), kQueueSize, hints);
-  right_.subscribe(transport_, StereoTopic(node, "right/image_rect"), kQueueSize, hints);
-  frames_.subscribe(node, "features", kQueueSize, no_delay);
+  left_ = transport_.subscribe(
+      StereoTopic(node, "left/image_rect"), kQueueSize,
+      [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<1>(image); }, {}, hints);
+  right_ = transport_.subscribe(
+      StereoTopic(node, "right/image_rect"), kQueueSize,
+      [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<2>(image); }, {}, hints);
+  frames_ = node.subscribe<Frame>(
+      "features", kQueueSize, [this](const auto& frame) { pairing_.Add<0>(frame); }, {}, no_delay);
 }
 
 void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& left,
@@ -131,7 +129,7 @@ void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& l
 bool PoseNode::AcceptStamp(const ros::Time& stamp) {
   if (stamp == last_stamp_) return false;  // the same pair again
   if (stamp < last_stamp_) {
-    ROS_WARN("time jumped back by %.3f s: starting anew", (last_stamp_ - stamp).toSec());
+    ROS_WARN("time jumped back by %.3f s: starting anew", last_stamp_.toSec() - stamp.toSec());
     if (trajectory_output_.is_enabled())
       ROS_INFO("%s", trajectory_output_.Save(MakeTrajectory()).c_str());
     trajectory_output_.StartRun();

@@ -2,7 +2,7 @@
 
 #include <ros/names.h>
 
-#include <boost/bind/bind.hpp>
+#include <utility>
 
 namespace arfm_vo {
 namespace {
@@ -33,38 +33,49 @@ void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
 
 StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
                          Callback callback)
-    : callback_(std::move(callback)),
-      topics_(ResolveStereoTopics(node)),
+    : topics_(ResolveStereoTopics(node)),
       transport_(node),
-      synchronizer_(Policy(kQueueSize)) {
-  synchronizer_.connectInput(left_, right_, left_info_, right_info_);
-  using namespace boost::placeholders;
-  synchronizer_.registerCallback(boost::bind<void>(
-      [this](const auto& left, const auto& right, const auto& left_info, const auto& right_info) {
+      pairing_(kQueueSize, [this, callback = std::move(callback)](
+                               const auto& left, const auto& right, const auto& left_info,
+                               const auto& right_info) {
         ++counts_.pairs;
-        callback_({left, right, left_info, right_info});
-      },
-      _1, _2, _3, _4));
-  const auto count_image = [this](uint32_t& count, ros::Time& stamp) {
-    return [this, &count, &stamp](const sensor_msgs::ImageConstPtr& image) {
-      ++count;
-      stamp = image->header.stamp;
-      counts_.stamp_difference_s = (left_stamp_ - right_stamp_).toSec();
-    };
+        callback({left, right, left_info, right_info});
+      }) {
+  const auto note_image = [this](const Image& image, uint32_t& count, ros::Time& stamp) {
+    ++count;
+    stamp = image.header.stamp;
+    counts_.stamp_difference_s = left_stamp_.toSec() - right_stamp_.toSec();
   };
-  using ImageCallback = boost::function<void(const sensor_msgs::ImageConstPtr&)>;
-  using InfoCallback = boost::function<void(const sensor_msgs::CameraInfoConstPtr&)>;
-  left_.registerCallback(ImageCallback(count_image(counts_.left, left_stamp_)));
-  right_.registerCallback(ImageCallback(count_image(counts_.right, right_stamp_)));
-  left_info_.registerCallback(InfoCallback([this](const auto&) { ++counts_.left_info; }));
-  right_info_.registerCallback(InfoCallback([this](const auto&) { ++counts_.right_info; }));
-
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
-  left_.subscribe(transport_, topics_.left_image, kQueueSize, hints);
-  right_.subscribe(transport_, topics_.right_image, kQueueSize, hints);
-  left_info_.subscribe(node, topics_.left_info, kQueueSize, no_delay);
-  right_info_.subscribe(node, topics_.right_info, kQueueSize, no_delay);
+  left_ = transport_.subscribe(
+      topics_.left_image, kQueueSize,
+      [this, note_image](const sensor_msgs::ImageConstPtr& image) {
+        note_image(*image, counts_.left, left_stamp_);
+        pairing_.Add<0>(image);
+      },
+      {}, hints);
+  right_ = transport_.subscribe(
+      topics_.right_image, kQueueSize,
+      [this, note_image](const sensor_msgs::ImageConstPtr& image) {
+        note_image(*image, counts_.right, right_stamp_);
+        pairing_.Add<1>(image);
+      },
+      {}, hints);
+  left_info_ = node.subscribe<Info>(
+      topics_.left_info, kQueueSize,
+      [this](const sensor_msgs::CameraInfoConstPtr& info) {
+        ++counts_.left_info;
+        pairing_.Add<2>(info);
+      },
+      {}, no_delay);
+  right_info_ = node.subscribe<Info>(
+      topics_.right_info, kQueueSize,
+      [this](const sensor_msgs::CameraInfoConstPtr& info) {
+        ++counts_.right_info;
+        pairing_.Add<3>(info);
+      },
+      {}, no_delay);
 }
 
 }  // namespace arfm_vo

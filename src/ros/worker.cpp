@@ -1,5 +1,7 @@
 #include "arfm_vo/ros/worker.h"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <future>
 #include <memory>
@@ -26,6 +28,10 @@ void Worker::Add(Job job, bool is_lossy) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_stopping_) return;
+    if (!is_lossy && queue_.size() >= kMaxJobs) {
+      ROS_ERROR_THROTTLE(5, "%zu messages wait to be worked on: the newest is dropped", kMaxJobs);
+      return;
+    }
     if (is_lossy && num_lossy_waiting_ == limit_) DropOldest();
     if (is_lossy) ++num_lossy_waiting_;
     queue_.push_back({std::move(job), is_lossy});

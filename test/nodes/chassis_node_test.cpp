@@ -303,7 +303,11 @@ TEST_F(ChassisNodeTest, RefusesGoalsThatAreNone) {
 TEST_F(ChassisNodeTest, ASecondNodeOnTheBusIsRefused) {
   std::string can;
   ASSERT_TRUE(ros::param::get("/chassis_node/can", can));
-  EXPECT_NE(std::system(("rosrun arfm_vo chassis_node __name:=second _can:=" + can).c_str()), 0);
+  int status = 0;
+  const std::string second = ARFM_VO_PROGRAM_DIR "/chassis_node __name:=second _can:=" + can;
+  const std::string said = Finish(popen((second + " 2>&1").c_str(), "r"), status);
+  EXPECT_NE(status, 0);
+  EXPECT_NE(said.find("another driver has it"), std::string::npos) << said;
   world_->Run(1);  // chassis and operator were silent meanwhile
 }
 

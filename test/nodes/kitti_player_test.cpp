@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <sys/wait.h>
 
 #include <cstdio>
 #include <map>
@@ -9,22 +8,16 @@
 #include "arfm_vo/ros/stereo_messages.h"
 #include "datasets/sequence_folder.h"
 #include "nodes/inbox.h"
+#include "nodes/node_process.h"
 
 namespace arfm_vo {
 namespace {
 
 /// Starts the player in namespace /stereo. Its parameters stay after it under its `name`.
 FILE* StartPlayer(const std::string& name, const std::string& parameters) {
-  const std::string program = "rosrun arfm_vo kitti_player_node __ns:=/stereo __name:=" + name;
+  const std::string program =
+      ARFM_VO_PROGRAM_DIR "/kitti_player_node __ns:=/stereo __name:=" + name;
   return popen((program + " " + parameters + " 2>&1").c_str(), "r");
-}
-
-/// What it printed; fills its exit status.
-std::string Finish(FILE* player, int& status) {
-  std::string text;
-  for (char buffer[500]; std::fgets(buffer, sizeof(buffer), player);) text += buffer;
-  status = WEXITSTATUS(pclose(player));
-  return text;
 }
 
 TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {

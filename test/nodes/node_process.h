@@ -4,9 +4,11 @@
 #include <ros/network.h>
 #include <ros/ros.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <xmlrpcpp/XmlRpc.h>
 
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -27,6 +29,14 @@ inline pid_t PidOf(const std::string& node) {
   caller[0] = ros::this_node::getName();
   EXPECT_TRUE(client.execute("getPid", caller, answer));
   return static_cast<int>(answer[2]);
+}
+
+/// What a program prints until it ends; fills its exit status.
+inline std::string Finish(FILE* program, int& status) {
+  std::string text;
+  for (char buffer[500]; std::fgets(buffer, sizeof(buffer), program);) text += buffer;
+  status = WEXITSTATUS(pclose(program));
+  return text;
 }
 
 /// Processor time of a process so far, s.

@@ -7,6 +7,7 @@ import sys
 import time
 import unittest
 
+import roslib.packages
 import rosservice
 import rospy
 import rostest
@@ -113,15 +114,20 @@ class SimulationTest(unittest.TestCase):
         self.assertLess(max(ways), 0.03)
         self.assertLess(math.degrees(max(turns)), 1)
 
+    @staticmethod
+    def chassis_node():
+        """Of this build tree; rosrun asks which one where the package holds two."""
+        return roslib.packages.find_node("arfm_vo", "chassis_node")[0]
+
     def test_simulated_time_is_refused_on_a_real_bus(self):
-        answer = subprocess.run(["rosrun", "arfm_vo", "chassis_node", "__name:=real", "_can:=can0"],
+        answer = subprocess.run([self.chassis_node(), "__name:=real", "_can:=can0"],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=PATIENCE_S)
         self.assertNotEqual(answer.returncode, 0)
         self.assertIn("'can0' is a real bus", answer.stdout)
 
     def test_before_the_first_clock_the_chassis_takes_no_start(self):
         node = subprocess.Popen(
-            ["rosrun", "arfm_vo", "chassis_node", "__name:=early", "/clock:=/early/clock", "_can:=udp:14901:14902"],
+            [self.chassis_node(), "__name:=early", "/clock:=/early/clock", "_can:=udp:14901:14902"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.addCleanup(node.wait)
         self.addCleanup(node.terminate)

@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ros/time.h>
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace arfm_vo {
@@ -41,6 +44,24 @@ TEST(Worker, DropsTheOldestLossyJobsWhileBusyAndNoOthers) {
   worker.RunAndWait([] {});
   EXPECT_THAT(ran, ElementsAre(100, 3, 4));
   EXPECT_EQ(worker.num_dropped(), 3u);
+}
+
+TEST(Worker, AFloodOfJobsIsBounded) {
+  ros::Time::init();  // the console tells of it
+  std::atomic<size_t> num_ran{0};
+  std::promise<void> is_busy, may_go;
+  Worker worker(1, FailOnError);
+  worker.Post([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+  });
+  is_busy.get_future().wait();
+  for (size_t i = 0; i < Worker::kMaxJobs + 50; ++i) worker.Post([&num_ran] { ++num_ran; });
+  EXPECT_THROW(worker.RunAndWait([] {}), std::future_error);
+  may_go.set_value();
+  while (num_ran < Worker::kMaxJobs) std::this_thread::yield();
+  worker.RunAndWait([] {});
+  EXPECT_EQ(num_ran, Worker::kMaxJobs);
 }
 
 TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {

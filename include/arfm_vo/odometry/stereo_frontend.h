@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "arfm_vo/base/task_thread.h"
 #include "arfm_vo/features/keypoint_mask.h"
 #include "arfm_vo/features/surf.h"
 #include "arfm_vo/geometry/stereo_camera.h"
@@ -62,6 +63,7 @@ class StereoFrontend {
   Surf left_surf_, right_surf_;
   RepeatedImage left_repeated_, right_repeated_;
   StereoReconstructor reconstructor_;
+  TaskThread right_thread_;
 };
 
 }  // namespace arfm_vo

@@ -3,10 +3,7 @@
 #include <arfm_vo/MapUpdateStamped.h>
 #include <arfm_vo/StereoFrameStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <image_transport/subscriber_filter.h>
-#include <message_filters/subscriber.h>
-#include <message_filters/sync_policies/exact_time.h>
-#include <message_filters/synchronizer.h>
+#include <image_transport/image_transport.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <tf2/buffer_core.h>
@@ -16,6 +13,7 @@
 
 #include "arfm_vo/image/grey_window.h"
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/exact_pairing.h"
 #include "arfm_vo/ros/learned_calibration.h"
 #include "arfm_vo/ros/mount_log.h"
 #include "arfm_vo/ros/odometry_health.h"
@@ -65,7 +63,6 @@ class PoseNode {
  private:
   using Frame = StereoFrameStamped;
   using Image = sensor_msgs::Image;
-  using Policy = message_filters::sync_policies::ExactTime<Frame, Image, Image>;
 
   void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node);
   void Offer(ros::NodeHandle node, ros::NodeHandle private_node);
@@ -94,11 +91,10 @@ class PoseNode {
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;
   image_transport::ImageTransport transport_;
-  message_filters::Subscriber<Frame> frames_;
-  image_transport::SubscriberFilter left_, right_;
-  message_filters::Synchronizer<Policy> synchronizer_;  ///< goes before what it listens to
-  std::unique_ptr<TransformInput> transforms_;          ///< of buffer_
-  ros::Subscriber updates_, tracks_;
+  ExactPairing<Frame, Image, Image> pairing_;
+  std::unique_ptr<TransformInput> transforms_;  ///< of buffer_
+  image_transport::Subscriber left_, right_;
+  ros::Subscriber frames_, updates_, tracks_;
   ros::ServiceServer reset_, save_;
   ros::WallTimer timer_;
 };

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <image_transport/subscriber_filter.h>
-#include <message_filters/subscriber.h>
-#include <message_filters/sync_policies/exact_time.h>
-#include <message_filters/synchronizer.h>
+#include <image_transport/image_transport.h>
+#include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
@@ -12,6 +10,7 @@
 #include <string>
 
 #include "arfm_vo/ros/console_watch.h"
+#include "arfm_vo/ros/exact_pairing.h"
 #include "arfm_vo/ros/stereo_messages.h"
 
 namespace arfm_vo {
@@ -80,16 +79,14 @@ class StereoInput {
  private:
   using Image = sensor_msgs::Image;
   using Info = sensor_msgs::CameraInfo;
-  using Policy = message_filters::sync_policies::ExactTime<Image, Image, Info, Info>;
 
-  Callback callback_;
   const StereoTopics topics_;
   StereoInputCounts counts_;
   ros::Time left_stamp_, right_stamp_;
   image_transport::ImageTransport transport_;
-  image_transport::SubscriberFilter left_, right_;
-  message_filters::Subscriber<Info> left_info_, right_info_;
-  message_filters::Synchronizer<Policy> synchronizer_;  ///< goes before what it listens to
+  ExactPairing<Image, Image, Info, Info> pairing_;
+  image_transport::Subscriber left_, right_;
+  ros::Subscriber left_info_, right_info_;
 };
 
 }  // namespace arfm_vo

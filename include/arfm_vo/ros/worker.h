@@ -23,11 +23,15 @@ class Worker {
   /// Finishes the running job and forgets those that wait.
   ~Worker();
 
+  /// Where kMaxJobs wait, the job is dropped, and the console told: memory has its bound whatever
+  /// comes.
+  static constexpr size_t kMaxJobs = 1000;
   void Post(Job job) { Add(std::move(job), false); }
   /// Posts a job that may be dropped: where more than `max_waiting` such jobs wait, the oldest
   /// goes.
   void PostLossy(Job job) { Add(std::move(job), true); }
-  /// Posts a job and waits until it has run; rethrows what it throws. Not from a job.
+  /// Posts a job and waits until it has run; rethrows what it throws, or std::future_error where it
+  /// was dropped. Not from a job.
   void RunAndWait(const Job& job);
 
   /// Up to `max_held` lossy jobs may wait until Release; then those that wait are still run, and

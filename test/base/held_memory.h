@@ -1,0 +1,22 @@
+#pragma once
+
+#ifdef __SANITIZE_ADDRESS__
+#include <cstddef>
+extern "C" size_t __sanitizer_get_current_allocated_bytes();  // GCC ships no header that has it
+#else
+#include <malloc.h>
+#endif
+
+namespace arfm_vo {
+
+/// Memory that is allocated and not freed, MB (10^6 bytes).
+inline double HeldMemoryMb() {
+#ifdef __SANITIZE_ADDRESS__
+  return static_cast<double>(__sanitizer_get_current_allocated_bytes()) / 1e6;
+#else
+  const struct mallinfo2 memory = mallinfo2();
+  return static_cast<double>(memory.uordblks + memory.hblkhd) / 1e6;
+#endif
+}
+
+}  // namespace arfm_vo

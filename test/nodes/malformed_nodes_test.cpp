@@ -1,0 +1,213 @@
+// Each node's class in the test's own process, and malformed messages on every topic that it
+// subscribes to: each is taken in before the next is sent. Nothing crashes, chassis_node, which is
+// not started, says nothing on the bus, and memory does not grow. The number of messages a topic is
+// the environment's ARFM_VO_MALFORMED_MESSAGES, else 500.
+#include <arfm_vo/DriveStatus.h>
+#include <arfm_vo/GoalReport.h>
+#include <arfm_vo/OdometryStatus.h>
+#include <console_bridge/console.h>
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <ros/console.h>
+#include <visualization_msgs/InteractiveMarkerFeedback.h>
+
+#include <memory>
+
+#include "arfm_vo/ros/arfm_node.h"
+#include "arfm_vo/ros/ba_node.h"
+#include "arfm_vo/ros/chassis_node.h"
+#include "arfm_vo/ros/drive_panel.h"
+#include "arfm_vo/ros/pan_tilt_node.h"
+#include "arfm_vo/ros/pose_node.h"
+#include "arfm_vo/ros/simulator_node.h"
+#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/simulation/simulated_chassis.h"
+#include "nodes/spoilt_topic.h"
+#include "ros/valid_messages.h"
+
+// These nodes' classes stand in their programs.
+#define main RunStereoSync
+#include "../../nodes/stereo_sync_node.cpp"
+#undef main
+#define main RunCameraMount
+#include "../../nodes/camera_mount_node.cpp"
+#undef main
+#define main RunTruthPath
+#include "../../nodes/truth_path_node.cpp"
+#undef main
+
+namespace arfm_vo {
+namespace {
+
+int NumMessages() { return NumMalformedMessages(500); }
+
+class MalformedNodes : public testing::Test {
+ protected:
+  static ros::NodeHandle Private(const std::string& name) { return ros::NodeHandle("~" + name); }
+
+  /// Sends each topic's messages side by side, so that those belong together that nodes pair.
+  /// `settle` waits until what was sent so far is worked on.
+  template <class... Topics>
+  void Flood(const std::function<void()>& settle, Topics&&... topics) {
+    constexpr int kBurst = 100;
+    const long commands_before = num_commands_;
+    double before_mb = 0;
+    for (int i = 0; i < NumMessages(); ++i) {
+      const ros::Time now = ros::Time::now();
+      (topics.Send(i, now), ...);
+      ros::spinOnce();
+      Listen();
+      if (i % kBurst == kBurst - 1) settle();
+      if (i == NumMessages() / 5) before_mb = HeldMemoryMb();
+    }
+    settle();
+    const double growth_mb = HeldMemoryMb() - before_mb;
+    char figures[80];
+    std::snprintf(figures, sizeof(figures), " | %d | %ld | %+.1f |", NumMessages(),
+                  num_commands_ - commands_before, growth_mb);
+    (TellRow("| " + topics.name() + figures), ...);
+    EXPECT_EQ(num_commands_, 0);
+    EXPECT_LT(growth_mb, kMaxGrowth_mb);
+  }
+  template <class... Topics>
+  void FloodEach(Topics&&... topics) {
+    (Flood([] {}, topics), ...);
+  }
+
+  virtual void Listen() {}
+  long num_commands_ = 0;
+};
+
+/// The bus with the chassis' other end.
+class MalformedDriving : public MalformedNodes {
+ protected:
+  void Listen() override {
+    while (const auto frame = bus_->Receive()) num_commands_ += DecodeCommand(*frame).index() != 0;
+  }
+  static std::string BusAddress() {
+    std::string address;
+    if (!ros::param::get("~bus", address)) throw std::runtime_error("no parameter ~bus");
+    return address;
+  }
+
+ private:
+  const std::unique_ptr<CanBus> bus_ = OpenCanBus(BusAddress());
+};
+
+TEST_F(MalformedDriving, Chassis) {
+  const ros::NodeHandle node("chassis");
+  const ros::Time now = ros::Time::now();
+  const ChassisNode chassis(node, Private("chassis"));
+  geometry_msgs::Twist velocity;
+  velocity.linear.x = 0.05;
+  FloodEach(SpoiltTopic(node, "/tf", ValidTransforms(now)),
+            SpoiltTopic(node, "/tf_static", ValidTransforms(now)),
+            SpoiltTopic(node, "odom", ValidOdometry(now)),
+            SpoiltTopic(node, "status", OdometryStatus()),
+            SpoiltTopic(node, "operator_heartbeat", std_msgs::Empty()),
+            SpoiltTopic(node, "goal", ValidGoal(now)),
+            SpoiltTopic(node, "waypoints", ValidPath(now)), SpoiltTopic(node, "cmd_vel", velocity),
+            SpoiltTopic(node, "emergency_stop", std_msgs::Bool()));
+}
+
+TEST_F(MalformedNodes, Arfm) {
+  const ros::NodeHandle node("arfm"), stereo(node, "stereo");
+  const ArfmNode arfm(node, Private("arfm"));
+  const Answers<StereoFrameStamped> features("arfm/features");
+  SpoiltTopic left(stereo, "left/image_rect", ValidImage());
+  SpoiltTopic right(stereo, "right/image_rect", ValidImage());
+  SpoiltTopic left_info(stereo, "left/camera_info", ValidCameraInfo(false));
+  SpoiltTopic right_info(stereo, "right/camera_info", ValidCameraInfo(true));
+  Flood([&] { features.Await(left, right, left_info, right_info); }, left, right, left_info,
+        right_info);
+}
+
+TEST_F(MalformedNodes, Pose) {
+  const ros::NodeHandle node("pose"), stereo(node, "stereo");
+  const PoseNode pose(node, Private("pose"));
+  const Answers<OdometryStatus> status("pose/status");
+  SpoiltTopic features(node, "features", ValidFrame());
+  SpoiltTopic left(stereo, "left/image_rect", ValidImage());
+  SpoiltTopic right(stereo, "right/image_rect", ValidImage());
+  SpoiltTopic updates(node, "map_update", ValidUpdate());
+  SpoiltTopic tracks(node, "track_odometry", ValidOdometry(ros::Time()));
+  SpoiltTopic moving(node, "/tf", ValidTransforms(ros::Time()));
+  const auto settle = [&] { status.Await(features, left, right); };
+  Flood(settle, features, left, right);
+  Flood(settle, updates);
+  Flood(settle, tracks);
+  Flood(settle, moving);
+}
+
+TEST_F(MalformedNodes, Ba) {
+  const ros::NodeHandle node("ba");
+  const BaNode ba(node, Private("ba"));
+  SpoiltTopic keyframes(node, "keyframe", ValidKeyframe());
+  SpoiltTopic odometry(node, "odom", ValidOdometry(ros::Time()));
+  SpoiltTopic stated(node, "initialpose", ValidStatedPose());
+  keyframes.SendValid(ros::Time::now());  // the map is told with the stamp of its newest keyframe
+  const Answers<nav_msgs::Path> path("ba/path_optimized");
+  const auto settle = [&] { path.Await(keyframes, odometry, stated); };
+  Flood(settle, keyframes);
+  Flood(settle, odometry);
+  Flood(settle, stated);
+}
+
+TEST_F(MalformedNodes, HeadCameraAndPanel) {
+  const ros::NodeHandle node("head");
+  const SimulatedPtuPort unit(Private("head").param<std::string>("port", ""));
+  const PanTiltNode head(node, Private("head"));
+  const StereoCameraNode camera(node, Private("camera"));
+  const DrivePanel panel(node, Private("panel"));
+  visualization_msgs::InteractiveMarkerFeedback click;
+  click.control_name = "stop";
+  FloodEach(SpoiltTopic(node, "cmd", ValidHeadGoal()),
+            SpoiltTopic(node, "drive_status", DriveStatus()),
+            SpoiltTopic(ros::NodeHandle(), "drive_panel/feedback", click));
+}
+
+TEST_F(MalformedNodes, StereoSync) {
+  const ros::NodeHandle node("sync"), stereo(node, "stereo");
+  const StereoSyncNode sync(node, Private("sync"));
+  // Until all of its outputs have one, the node does not listen.
+  const std::string out = "sync/synchronized/";
+  const Answers<sensor_msgs::Image> left(out + "left/image_rect"), right(out + "right/image_rect");
+  const Answers<sensor_msgs::CameraInfo> left_info(out + "left/camera_info"),
+      right_info(out + "right/camera_info");
+  Flood([] {}, SpoiltTopic(stereo, "left/image_rect", ValidImage()),
+        SpoiltTopic(stereo, "right/image_rect", ValidImage()),
+        SpoiltTopic(stereo, "left/camera_info", ValidCameraInfo(false)),
+        SpoiltTopic(stereo, "right/camera_info", ValidCameraInfo(true)));
+}
+
+TEST_F(MalformedNodes, TruthAndMount) {
+  const ros::NodeHandle node("truth"), stereo(node, "stereo");
+  const TruthPathNode truth(node, Private("truth"));
+  const CameraMountNode mount(node, Private("mount"));
+  FloodEach(SpoiltTopic(stereo, "ground_truth", ValidGoal(ros::Time())),
+            SpoiltTopic(stereo, "left/camera_info", ValidCameraInfo(false)),
+            SpoiltTopic(node, "/tf", ValidTransforms(ros::Time())),
+            SpoiltTopic(node, "/tf_static", ValidTransforms(ros::Time())));
+}
+
+TEST_F(MalformedNodes, Simulator) {
+  const ros::NodeHandle node("simulator");
+  const SimulatorNode simulator(node, Private("simulator"));
+  FloodEach(SpoiltTopic(node, "status", OdometryStatus()),
+            SpoiltTopic(node, "odom", ValidOdometry(ros::Time())),
+            SpoiltTopic(node, "goal_report", GoalReport()));
+}
+
+}  // namespace
+}  // namespace arfm_vo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "malformed_nodes");
+  ros::NodeHandle keeps_node_alive;
+  // Each refusal is told; the console has no use for a hundred thousand.
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+  ros::console::notifyLoggerLevelsChanged();
+  console_bridge::noOutputHandler();  // tf2's
+  return RUN_ALL_TESTS();
+}
