@@ -144,9 +144,9 @@ make_sysroot() {
 test_arm64() {
   need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
   need qemu-aarch64-static qemu-user-static
-  local root=$suites/arm64 source=$suites/arm64_build/arfm_vo layer status=0
+  local root=$suites/arm64 source=$suites/build_arm64/arfm_vo layer status=0
   make_sysroot
-  put_sources "$source"
+  put_sources "$source"  # (not below a name that begins with $root: CMake takes that off run paths)
   cat > "$root.cmake" << CMAKE
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
