@@ -13,7 +13,7 @@ ros=(libroscpp-dev ros-message-generation ros-message-runtime
      libnav-msgs-dev ros-nav-msgs libgeometry-msgs-dev ros-geometry-msgs
      libdiagnostic-msgs-dev ros-diagnostic-msgs libvisualization-msgs-dev ros-visualization-msgs
      libinteractive-markers-dev
-     libimage-transport-dev libcamera-info-manager-dev libcv-bridge-dev libmessage-filters-dev
+     libimage-transport-dev libcamera-info-manager-dev libcv-bridge-dev
      libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-eigen-dev
      libnodelet-dev libnodeletlib-dev pluginlib-dev
      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
