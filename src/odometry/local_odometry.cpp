@@ -12,9 +12,9 @@
 #include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/eye_skew.h"
-#include "arfm_vo/odometry/row_watch.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
+#include "eye_faults.h"
 #include "known_depths.h"
 #include "step_by_correction.h"
 
@@ -34,9 +34,6 @@ void LocalOdometryOptions::Check() const {
 }
 
 namespace {
-
-/// An eye with fewer keypoints, against the other's, is dark or covered.
-constexpr double kBlindShare = 0.1;
 
 /// Share of the way by which the pose may be off for a skew that was not known on it.
 constexpr double kDoubtBySkew = 0.1;
@@ -69,27 +66,28 @@ class LocalOdometry::Implementation {
         measured.stamp_s, predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
     tracker_.SetMotionBetweenEyes(later_from_now_);
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, later_from_now_);
-    const std::string left_fault = LeftFault(frame);
-    const std::string right_fault = left_fault.empty() ? RightFault(frame) : left_fault;
-    if (!right_fault.empty()) frame.points.clear();
+    eye_faults_.Look(frame);
+    const bool is_left_good = eye_faults_.of_left().empty();
+    const bool is_right_good = eye_faults_.of_right().empty();
+    if (!is_right_good) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
     update.can_start =
-        left_fault.empty() && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
+        is_left_good && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
     FinishBundle();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
       Start(frame, update);
-    } else if (!left_fault.empty()) {
+    } else if (!is_left_good) {
       update.pose.status = PoseStatus::kTooFewFeatures;
     } else {
-      Continue(frame, images, predicted, right_fault, update);
+      Continue(frame, images, predicted, update);
     }
-    if (!left_fault.empty()) update.remark = left_fault;
+    if (!is_left_good) update.remark = eye_faults_.of_left();
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
-      if (!right_fault.empty()) frame.points = PointsByMotion(frame, update);
+      if (!is_right_good) frame.points = PointsByMotion(frame, update);
       AddKeyframe(frame, images, update);
       newest_features_ = frame.features;
     }
@@ -164,8 +162,8 @@ class LocalOdometry::Implementation {
   }
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
-                const std::optional<PredictedPose>& predicted, const std::string& right_fault,
-                OdometryUpdate& update) {
+                const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
+    const std::string& right_fault = eye_faults_.of_right();
     TrackedFrame tracked =
         tracker_.Track(frame, images, map_, predicted, right_fault.empty(), dispute_.IsWary());
     update.pose = tracked.pose;
@@ -210,11 +208,12 @@ class LocalOdometry::Implementation {
 
   void LearnSkew(OdometryUpdate& update) {
     const Rigid3& camera_from_world = update.pose.camera_from_world;
-    const bool was_known = skew_.Find().has_value();
     skew_.Add(map_, update.observations, update.stamp_s, camera_from_world);
     update.skew = skew_.Find();
-    if (update.skew && !was_known)
+    if (update.skew && !has_found_skew_) {
+      has_found_skew_ = true;
       unknown_way_.AddDoubt(kDoubtBySkew * camera_from_world.Inverse().translation.norm());
+    }
     if (!update.pose.IsTracked() || MedianShift(update) < kMaxShiftPx) return;
     update.pose.status = PoseStatus::kDegraded;
     update.remark = "the right picture is taken far from the left one's time";
@@ -237,27 +236,6 @@ class LocalOdometry::Implementation {
         std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
           return map_.landmarks().at(observation.landmark).num_agreed > 0;
         }));
-  }
-
-  /// Why the left image is not to be used; empty where it is.
-  std::string LeftFault(const StereoFrame& frame) const {
-    if (frame.left_is_repeated) return "the left camera repeats its picture";
-    // In a turn pictures of two moments look like swapped ones.
-    if (frame.eyes_are_swapped && !row_watch_.IsSkewed()) return "left and right are swapped";
-    return "";
-  }
-
-  /// Why the right image is not to be used; empty where it is.
-  std::string RightFault(const StereoFrame& frame) {
-    row_watch_.Look(frame.row_agreement);
-    if (frame.right_is_repeated) return "the right camera repeats its picture";
-    if (frame.num_right_keypoints < kBlindShare * frame.features.size()) {
-      return "the right camera sees nothing";
-    }
-    if (row_watch_.IsSkewed()) {
-      return "the rows of the two pictures do not agree (one late, or a camera moved?)";
-    }
-    return "";
   }
 
   /// New points without a right image.
@@ -358,7 +336,7 @@ class LocalOdometry::Implementation {
   StandstillLock standstill_;
   KeyframeArchive archive_;
   Dispute dispute_;
-  RowWatch row_watch_;
+  EyeFaults eye_faults_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   std::optional<KeyframeRecord> record_;
@@ -366,6 +344,7 @@ class LocalOdometry::Implementation {
   PoseDrift pose_drift_;  ///< of the last tracked frame
   UnknownWay unknown_way_;
   EyeSkewEstimator skew_;
+  bool has_found_skew_ = false;
   Rigid3 later_from_now_;  ///< the camera's motion between the two pictures of the last frame
   std::future<AdjustedWindow> pending_;
 };
