@@ -41,7 +41,7 @@ struct FrontendOptions {
 };
 
 /// ARFM: from a stereo pair to the left image's features and the points that both eyes see
-/// (floors image to reconstruction). What arfm_node runs. Both eyes are worked on in parallel.
+/// (layers image to reconstruction). What arfm_node runs. Both eyes are worked on in parallel.
 class StereoFrontend {
  public:
   /// Throws std::invalid_argument where the camera, an option or the mask's file is wrong.

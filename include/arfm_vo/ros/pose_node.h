@@ -52,7 +52,7 @@ struct PoseNodeOptions {
   }
 };
 
-/// `features` and the images they are from in, the rover's pose out: floors pose to odometry.
+/// `features` and the images they are from in, the rover's pose out: layers pose to odometry.
 class PoseNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter.
