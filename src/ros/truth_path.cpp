@@ -2,6 +2,8 @@
 
 #include <tf2/exceptions.h>
 
+#include <stdexcept>
+
 #include "arfm_vo/ros/conversions.h"
 
 namespace arfm_vo {
@@ -25,6 +27,8 @@ std::optional<Rigid3> TruthAlignment::Align(const ros::Time& stamp,
       reference_from_truth_ = look_up(reference_frame_) * truth_from_camera.Inverse();
     return *reference_from_truth_ * truth_from_camera * base_from_camera.Inverse();
   } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {  // a transform that is not one
     return std::nullopt;
   }
 }

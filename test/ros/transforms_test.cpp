@@ -5,6 +5,7 @@
 
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/truth_path.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {
@@ -127,6 +128,22 @@ TEST(BaseMotion, ANewWorldContinuesWhereTheBaseStands) {
   EXPECT_LT((before.Inverse() * after).translation.norm(), 1e-12);
   EXPECT_LT((before.Inverse() * after).Angle(), 1e-12);
   EXPECT_LT((motion.odom_from_world().translation - (before * turned).translation).norm(), 1e-12);
+}
+
+// tf2 takes each of the two; their product is not finite.
+TEST(TruthAlignment, ATransformThatIsNotOneGivesNoPlace) {
+  tf2::BufferCore buffer;
+  geometry_msgs::TransformStamped far;
+  far.header.frame_id = "base_link";
+  far.child_frame_id = "mast";
+  far.transform.translation.x = 1e308;
+  far.transform.rotation.w = 1;
+  buffer.setTransform(far, "test", true);
+  far.header.frame_id = "mast";
+  far.child_frame_id = "camera";
+  buffer.setTransform(far, "test", true);
+  TruthAlignment alignment(buffer, "base_link", "base_link", "camera");
+  EXPECT_FALSE(alignment.Align(ros::Time(1), Rigid3()));
 }
 
 }  // namespace
