@@ -95,13 +95,13 @@ class Campaign:
         told = [self.rover.status.reason]
         end_s = injected_s + fault.limit_s + WATCH_S
         looked_s, held_up_s = time.monotonic(), 0.0
-        ways_m, has_warned = [way_m], False
+        end_way_m, has_warned = way_m, False
         while looked_s < end_s:
             told.append(self.rover.status.reason)
             has_warned |= self.rover.status.state == DriveStatus.WARNING
             moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
             if not (moves_on and fault.promise == BRIEFLY_UNCERTAIN):
-                ways_m.append(self.tap.way_m())
+                end_way_m = self.tap.way_m()
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s))
@@ -113,7 +113,7 @@ class Campaign:
         row["pose_off_m"] = self.rover.sight.error_m()
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
-        row["way_m"] = ways_m[-1] - way_m
+        row["way_m"] = end_way_m - way_m
         row["told"] = list(dict.fromkeys(reason for reason in told if reason != "none"))
         row["drives_on"] = fault.promise == "drives on" or (
             "drives on" in fault.promise and row["moves"] and not row["told"])

@@ -72,12 +72,6 @@ std::optional<cv::Matx22f> LandmarkAligner::FindWarp(const Landmark& landmark,
   return warp;
 }
 
-cv::Point2f LandmarkAligner::ShiftOfLateRight(const Eigen::Vector3d& x_in_camera) const {
-  if (later_from_now_.IsIdentity()) return {0, 0};
-  const Eigen::Vector2f shift = ShiftOfRight(camera_, later_from_now_, x_in_camera).cast<float>();
-  return {shift.x(), shift.y()};
-}
-
 std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landmark,
                                                           const Keyframe& reference,
                                                           const StereoImages& images,
@@ -91,7 +85,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
 
   const Eigen::Vector3d x_in_camera = camera_from_world * landmark.x_in_world;
   const Eigen::Vector4d predicted = ProjectStereo4(camera_, correction_, x_in_camera);
-  const cv::Point2f shift = ShiftOfLateRight(x_in_camera);
+  const Eigen::Vector2d late = ShiftOfRight(camera_, later_from_now_, x_in_camera);
+  const cv::Point2f shift(static_cast<float>(late.x()), static_cast<float>(late.y()));
   const PatchAlignment left = aligner_.Align(
       *patch, images.left, {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
   if (!left.IsAligned()) return std::nullopt;

@@ -41,18 +41,17 @@ void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& obse
     const double row_step_px = (camera_.Project(now) - camera_.Project(before)).y();
     AddRow(observation.pixels, row_step_px / interval_s, observation.sigma_px);
   }
-  solution_ = information_.ldlt().solve(right_side_);
+  Solve();
   last_ = Last{stamp_s, camera_from_world, camera_from_world * last_->camera_from_world.Inverse(),
                interval_s};
-  const auto skew = Find();
-  compensated_s_ = skew ? skew->s : 0;
 }
 
 void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s,
                               double sigma_px) {
   Vector row;
   row << ImageBasis(camera_, pixels.tail<2>()).values, row_speed_px_s;
-  const double residual_px = pixels.w() - pixels.y() + compensated_s_ * row_speed_px_s;
+  const double made_up_s = found_ ? found_->s : 0;
+  const double residual_px = pixels.w() - pixels.y() + made_up_s * row_speed_px_s;
   const double off_px = residual_px - row.dot(solution_);
   if (std::abs(off_px) > kMaxRowPx) return;
   // Left and right row err alike; Cauchy's weight with a scale of two standard deviations.
@@ -62,23 +61,24 @@ void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px
   right_side_ += weight * residual_px * row;
 }
 
-std::optional<EyeSkew> EyeSkewEstimator::Find() const {
+void EyeSkewEstimator::Solve() {
+  const auto decomposed = information_.ldlt();
   const Vector unit = Vector::Unit(kSize - 1);
-  const double variance = unit.dot(information_.ldlt().solve(unit));
-  const EyeSkew skew{solution_[kSize - 1], std::sqrt(variance)};
-  if (std::abs(skew.s) < kMinSkew_s + kSignificance * skew.sigma_s) return std::nullopt;
-  return skew;
+  solution_ = decomposed.solve(right_side_);
+  const EyeSkew skew{solution_[kSize - 1], std::sqrt(unit.dot(decomposed.solve(unit)))};
+  const bool is_significant = std::abs(skew.s) >= kMinSkew_s + kSignificance * skew.sigma_s;
+  found_ = is_significant ? std::optional(skew) : std::nullopt;
 }
 
 Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
                                            const std::optional<Rigid3>& predicted) const {
-  if (compensated_s_ == 0 || !last_) return {};
+  if (!found_ || !last_) return {};
   if (predicted) {
     const Rigid3 now_from_last = *predicted * last_->camera_from_world.Inverse();
-    return Interpolate({}, now_from_last, compensated_s_ / (stamp_s - last_->stamp_s));
+    return Interpolate({}, now_from_last, found_->s / (stamp_s - last_->stamp_s));
   }
   if (last_->interval_s == 0) return {};
-  return Interpolate({}, last_->now_from_before, compensated_s_ / last_->interval_s);
+  return Interpolate({}, last_->now_from_before, found_->s / last_->interval_s);
 }
 
 }  // namespace arfm_vo

@@ -15,11 +15,11 @@ constexpr double kUnknownRowsPx = 2;
 /// After so many pairs in a row whose rows do not agree they are learnt anew.
 constexpr int kMaxDisagreeing = 50;
 
-/// Of the left keypoints more than this are matched where the eyes are in place: 0.47 and more in
-/// the recordings of docs/stress.md, 0.17..0.44 where they are swapped.
+/// Where a smaller share of the left keypoints is matched it is worth a look: 0.17..0.44 where the
+/// eyes are swapped, 0.47 and more where they are in place, in the recordings of docs/stress.md.
 constexpr double kMatchedShare = 0.5;
-/// In exchange there are then so many more: 1.35 and more times, 0.22..0.73 where they are in
-/// place.
+/// In exchange there are so many times more where they are swapped: 1.35 and more times, 0.22..0.73
+/// where they are in place.
 constexpr double kSwappedGain = 1.2;
 constexpr size_t kMinSwappedMatches = 50;
 

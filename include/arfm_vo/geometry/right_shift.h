@@ -11,6 +11,7 @@ namespace arfm_vo {
 /// the left camera frame elsewhere: (du, dv), px. The point must lie before the camera both times.
 inline Eigen::Vector2d ShiftOfRight(const StereoCamera& camera, const Rigid3& later_from_now,
                                     const Eigen::Vector3d& x_in_left) {
+  if (later_from_now.IsIdentity()) return {0, 0};
   const Eigen::Vector3d now = camera.ProjectStereo(x_in_left);
   const Eigen::Vector3d later = camera.ProjectStereo(later_from_now * x_in_left);
   return {later.z() - now.z(), later.y() - now.y()};

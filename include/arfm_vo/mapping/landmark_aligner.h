@@ -42,7 +42,6 @@ class LandmarkAligner {
   /// SourceFromTarget for an eye at `eye_from_world`, where it does not change the size too much.
   std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
                                       const Rigid3& eye_from_world) const;
-  cv::Point2f ShiftOfLateRight(const Eigen::Vector3d& x_in_camera) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;

@@ -26,7 +26,7 @@ class EyeSkewEstimator {
   void Add(const LocalMap& map, const LandmarkObservations& observations, double stamp_s,
            const Rigid3& camera_from_world);
   /// Nothing where it may well be none: that is no more than a millisecond, give or take.
-  std::optional<EyeSkew> Find() const;
+  const std::optional<EyeSkew>& Find() const { return found_; }
   /// The camera's motion (later_from_now) from a left picture to its right one, at the speed of the
   /// way to `predicted`, or of the last way; none where there is no skew to be found.
   Rigid3 MotionBetweenEyes(double stamp_s, const std::optional<Rigid3>& predicted) const;
@@ -43,11 +43,12 @@ class EyeSkewEstimator {
     double interval_s;  ///< of that motion; 0: none is known
   };
   void AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s, double sigma_px);
+  void Solve();
 
   StereoCamera camera_;
   Eigen::Matrix<double, kSize, kSize> information_;
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
-  double compensated_s_ = 0;  ///< the skew without which the observations are
+  std::optional<EyeSkew> found_;  ///< where it is significant
   std::optional<Last> last_;
 };
 
