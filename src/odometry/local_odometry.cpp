@@ -173,13 +173,18 @@ class LocalOdometry::Implementation {
       Recover(frame, update);
       return;
     }
-    const bool is_believed = dispute_.Judge(tracked.pose, CountProven(tracked.observations));
+    const bool is_believed =
+        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.continuity);
     const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
     if (is_contested || !is_believed) update.remark = "two groups of points move differently";
     if (!is_believed) {
       update.pose.status = PoseStatus::kNoConsensus;
       update.is_disputed = dispute_.IsWary();
       return;
+    }
+    if (update.pose.IsTracked() && dispute_.IsDoubtful()) {
+      update.pose.status = PoseStatus::kDegraded;
+      update.remark = "two groups of points moved differently a moment ago";
     }
     if (!is_contested && !right_fault.empty()) {
       update.pose.status = PoseStatus::kDegraded;
@@ -198,8 +203,9 @@ class LocalOdometry::Implementation {
       map_.CountSightings(tracked.expected, tracked.observations);
     }
     update.is_keyframe =
-        !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
-                                  tracked.observations, options_.keyframes);
+        !resting && !dispute_.IsDoubtful() &&
+        NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
+                      tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     LearnSkew(update);

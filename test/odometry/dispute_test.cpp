@@ -49,6 +49,27 @@ TEST(Dispute, IsWaryForAWhile) {
   EXPECT_TRUE(dispute.Judge(Pose(0.3), 3));
 }
 
+TEST(Dispute, DoesNotBelieveAPoseThatKnownPointsContradictAndNewOnesDoNot) {
+  Dispute dispute;
+  EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.5));
+  EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3)) << "though some of the known ones are far away";
+  EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.7)) << "no better than the one before, by and large";
+  EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.9));
+}
+
+TEST(Dispute, LeavesDoubtForAWhile) {
+  Dispute dispute;
+  dispute.Judge(Pose(0.8), 40);
+  EXPECT_FALSE(dispute.IsDoubtful()) << "contested, but believed";
+  dispute.Judge(Pose(0.8), 3);
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_TRUE(dispute.Judge(Pose(0), 40));
+    EXPECT_TRUE(dispute.IsDoubtful());
+  }
+  dispute.Judge(Pose(0), 40);
+  EXPECT_FALSE(dispute.IsDoubtful());
+}
+
 TEST(Dispute, ResetForgets) {
   Dispute dispute;
   dispute.Judge(Pose(0.8), 3);

@@ -56,6 +56,33 @@ TEST_F(FrameTrackerTest, IsNotMisledByAWrongPrediction) {
   ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
 }
 
+TEST_F(FrameTrackerTest, TellsWhereKnownPointsContradictThePoseOfNewOnes) {
+  constexpr int kKnownPx =
+      250;  // on the left of the picture landmarks have agreed with poses before
+  LandmarkObservations seen;
+  std::vector<LandmarkId> expected;
+  for (const auto& [id, landmark] : map_.landmarks()) {
+    if (landmark.keypoint.x >= kKnownPx || id % 3 != 0) continue;
+    LandmarkObservation observation;
+    observation.landmark = id;
+    seen.push_back(observation);
+    expected.push_back(id);
+  }
+  map_.CountSightings(expected, seen);
+  EXPECT_GT(Track(truth_, truth_).continuity, 0.8);
+
+  const StereoImages moved = wall_.Render(1, truth_);
+  StereoImages images = wall_.Render(1, truth_.Inverse());
+  const cv::Rect rest(kKnownPx, 0, camera_.width - kKnownPx, camera_.height);
+  moved.left(rest).copyTo(images.left(rest));
+  moved.right(rest).copyTo(images.right(rest));
+  const TrackedFrame tracked =
+      FrameTracker(camera_, {}).Track(frontend_.Process(images), images, map_, truth_);
+  ASSERT_TRUE(tracked.pose.HasPose());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
+  EXPECT_LT(tracked.continuity, 0.6);
+}
+
 TEST_F(FrameTrackerTest, KeypointsAloneDoToo) {
   FrameTrackerOptions options;
   options.align_patches = false;
@@ -68,7 +95,7 @@ TEST_F(FrameTrackerTest, SaysThatItIsLostInTheDarkAndElsewhere) {
   const StereoImages dark = wall_.RenderDark(1);
   const FrameTracker tracker(camera_, {});
   EXPECT_FALSE(tracker.Track(frontend_.Process(dark), dark, map_, Rigid3()).pose.IsTracked());
-  const StereoImages elsewhere = TexturedWall(2).Render(1, Rigid3());
+  const StereoImages elsewhere = TexturedWall(2).Render(1, truth_.Inverse());
   EXPECT_FALSE(
       tracker.Track(frontend_.Process(elsewhere), elsewhere, map_, Rigid3()).pose.IsTracked());
 }

@@ -44,6 +44,9 @@ struct TrackedFrame {
   LandmarkObservations observations;   ///< those that agree with the pose, sorted by landmark
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
+  /// Share of the landmarks that agreed with earlier poses which agree with this one, over that of
+  /// the new ones: well below 1 where something new moves on its own and takes the pose along.
+  double continuity = 1;
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or

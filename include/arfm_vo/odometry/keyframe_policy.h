@@ -9,8 +9,8 @@
 namespace arfm_vo {
 
 struct KeyframePolicyOptions {
-  double min_parallax_px = 20;       ///< median over the shared points, rotation taken out
-  double min_shared_fraction = 0.6;  ///< of the newest keyframe's points still tracked
+  double min_parallax_px = 30;       ///< median over the shared points, rotation taken out
+  double min_shared_fraction = 0.5;  ///< of the newest keyframe's points still tracked
   int min_tracked_points = 150;      ///< fewer, and fewer than the newest has, call for one
 
   void Check() const {
