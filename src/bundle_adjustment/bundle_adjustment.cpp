@@ -11,7 +11,7 @@ namespace arfm_vo {
 
 void BundleOptions::Check() const {
   Require(solver == BundleSolver::kCeres || strategy == StepStrategy::kLevenbergMarquardt,
-          "bundle.strategy dogleg needs bundle.solver ceres");
+          "bundle.strategy gauss_newton needs bundle.solver ceres");
   Require(loss_threshold_sigma > 0, "bundle.loss_threshold_sigma must be positive");
   Require(max_iterations >= 1, "bundle.max_iterations must be at least 1");
   Require(function_tolerance >= 0, "bundle.function_tolerance must not be negative");

@@ -9,6 +9,9 @@ namespace {
 
 using namespace ceres_terms;
 
+/// Levenberg's damping goes with the inverse of it: none, until a step fails.
+constexpr double kBoundlessRadius = 1e16;
+
 class CeresLoss : public ceres::LossFunction {
  public:
   explicit CeresLoss(const RobustLoss& loss) : loss_(loss) {}
@@ -76,8 +79,10 @@ class CeresBundle {
         options.preconditioner_type = ceres::SCHUR_JACOBI;
         break;
     }
-    options.trust_region_strategy_type =
-        options_.strategy == StepStrategy::kDogleg ? ceres::DOGLEG : ceres::LEVENBERG_MARQUARDT;
+    if (options_.strategy == StepStrategy::kGaussNewton) {
+      options.initial_trust_region_radius = kBoundlessRadius;
+      options.max_trust_region_radius = kBoundlessRadius;
+    }
     options.max_num_iterations = options_.max_iterations;
     options.function_tolerance = options_.function_tolerance;
     options.max_solver_time_in_seconds = options_.max_time_s;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/pixel_scale.h"
 #include "arfm_vo/features/box_hessian.h"
 #include "arfm_vo/features/keypoint_budget.h"
 #include "arfm_vo/features/scale_space_maximum.h"
@@ -91,9 +92,10 @@ std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral, const Scale
                                       const std::vector<ScaleSpaceMaximum>& maxima,
                                       const SurfDetectorOptions& options) {
   const size_t target = options.target_keypoints > 0 ? options.target_keypoints : maxima.size();
+  const auto cell_px = static_cast<int>(options.bucket_px * PixelScale(integral.cols()));
   std::vector<std::pair<ScaleSpaceMaximum, Keypoint>> selected;
   for (const ScaleSpaceMaximum& maximum :
-       RankSpread(maxima, integral.rows(), integral.cols(), options.bucket_px)) {
+       RankSpread(maxima, integral.rows(), integral.cols(), cell_px)) {
     if (selected.size() == target) break;
     if (options.merge_octaves && RepeatsFinerOctave(space, maximum)) continue;
     auto keypoint = InterpolateMaximum(space, maximum);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/pixel_scale.h"
 #include "occupancy_grid.h"
 
 namespace arfm_vo {
@@ -70,14 +71,13 @@ const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& l
 
 void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservations& contradicting,
                                Keyframe& keyframe) {
-  OccupancyGrid grid(camera_.width, camera_.height, options_.grid_cell_px,
-                     options_.min_separation_px);
+  const auto cell_px = static_cast<int>(options_.grid_cell_px * PixelScale(camera_.width));
+  OccupancyGrid grid(camera_.width, camera_.height, cell_px, options_.min_separation_px);
   for (const LandmarkObservation& known : keyframe.observations) {
     grid.Add(known.pixels.x(), known.pixels.y());
   }
   const OccupancyGrid agreeing = grid;
-  OccupancyGrid moving(camera_.width, camera_.height, options_.grid_cell_px,
-                       options_.min_separation_px);
+  OccupancyGrid moving(camera_.width, camera_.height, cell_px, options_.min_separation_px);
   for (const LandmarkObservation& other : contradicting) {
     moving.Add(other.pixels.x(), other.pixels.y());
   }

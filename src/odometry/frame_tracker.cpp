@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/pixel_scale.h"
 #include "arfm_vo/matching/exact_matcher.h"
 #include "arfm_vo/matching/guided_matcher.h"
 
@@ -99,7 +100,10 @@ void FrameTrackerOptions::Check() const {
 }
 
 FrameTracker::FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options)
-    : camera_(camera), options_(options), aligner_(camera, options.alignment) {
+    : camera_(camera),
+      options_(options),
+      aligner_(camera, options.alignment),
+      image_matcher_(FeatureMatcherOptions()) {
   options.Check();
 }
 
@@ -127,8 +131,11 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
                                  bool use_right, bool is_wary) const {
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
-  if (predicted)
+  if (!options_.guided) {
+    tracked = Localise(MatchAsImages(frame, map), predicted, is_wary);
+  } else if (predicted) {
     tracked = Localise(MatchNear(frame, map, predicted->camera_from_world), predicted, is_wary);
+  }
   if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
     const TrackedFrame found = Localise(MatchAll(frame, map), predicted, is_wary);
     const bool is_better =
@@ -153,7 +160,7 @@ FrameTracker::Correspondences FrameTracker::MatchNear(const StereoFrame& frame, 
     Prediction prediction;
     prediction.x = static_cast<float>(uv.x());
     prediction.y = static_cast<float>(uv.y());
-    prediction.radius = static_cast<float>(options_.search_radius_px);
+    prediction.radius = static_cast<float>(options_.search_radius_px * PixelScale(camera_.width));
     prediction.scale = static_cast<float>(landmark->keypoint.scale * reference_depth / x.z());
     prediction.laplacian_sign = landmark->keypoint.laplacian_sign;
     predictions.push_back(prediction);
@@ -176,6 +183,24 @@ FrameTracker::Correspondences FrameTracker::MatchAll(const StereoFrame& frame,
   const TwoWayNeighbours neighbours = FindNeighboursExactly(known, frame.features);
   return Correspond(frame, landmarks,
                     SelectMatches(neighbours, options_.unguided_ratio, MatchSelectionOptions{}));
+}
+
+/// The landmarks as the newest keyframe would show them are one image, the frame is the other.
+FrameTracker::Correspondences FrameTracker::MatchAsImages(const StereoFrame& frame,
+                                                          const LocalMap& map) const {
+  const Rigid3& newest_from_world = map.keyframes().back().camera_from_world;
+  const auto landmarks = map.LandmarksInView(newest_from_world, 0);
+  Features known;
+  for (const Landmark* landmark : landmarks) {
+    const Eigen::Vector2f uv =
+        camera_.Project(newest_from_world * landmark->x_in_world).cast<float>();
+    known.keypoints.push_back(landmark->keypoint);
+    known.keypoints.back().x = uv.x();
+    known.keypoints.back().y = uv.y();
+  }
+  known.descriptors = StackDescriptors(landmarks);
+  return Correspond(frame, landmarks,
+                    image_matcher_.MatchFeatures(known, frame.features, frame.ratio_threshold));
 }
 
 FrameTracker::Correspondences FrameTracker::Correspond(

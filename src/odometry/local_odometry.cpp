@@ -81,6 +81,7 @@ class LocalOdometry::Implementation {
       Start(frame, update);
     } else if (!is_left_good) {
       update.pose.status = PoseStatus::kTooFewFeatures;
+      dispute_.Interrupt();
     } else {
       Continue(frame, images, predicted, update);
     }
@@ -170,6 +171,7 @@ class LocalOdometry::Implementation {
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
       skew_.Interrupt();
+      dispute_.Interrupt();
       Recover(frame, update);
       return;
     }
@@ -179,7 +181,7 @@ class LocalOdometry::Implementation {
     if (is_contested || !is_believed) update.remark = "two groups of points move differently";
     if (!is_believed) {
       update.pose.status = PoseStatus::kNoConsensus;
-      update.is_disputed = dispute_.IsWary();
+      update.is_disputed = dispute_.MayEnd();
       return;
     }
     if (update.pose.IsTracked() && dispute_.IsDoubtful()) {

@@ -4,12 +4,12 @@
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/pixel_scale.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
 namespace {
 
-constexpr float kSmallestScale = 1.2f;
 /// Before the rows are learnt they may be off by this much more.
 constexpr double kUnknownRowsPx = 2;
 /// After so many pairs in a row whose rows do not agree they are learnt anew.
@@ -42,7 +42,7 @@ void StereoReconstructionOptions::Check() const {
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
   Require(sigma_inflation > 0, "sigma_inflation must be positive");
-  Require(keypoint_sigma_px > 0, "keypoint_sigma_px must be positive");
+  Require(keypoint_sigma > 0, "keypoint_sigma must be positive");
 }
 
 StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
@@ -56,6 +56,7 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
       row_search_(options.row_search) {
   camera.Check();
   options.Check();
+  options_.search.max_disparity_px *= PixelScale(camera.width);
 }
 
 Matches StereoReconstructor::MatchKeypoints(const Features& left, const Features& right,
@@ -86,8 +87,8 @@ StereoReconstructor::Sightings StereoReconstructor::TakeKeypoints(const Features
                                                                   const Matches& matches) const {
   Sightings sightings;
   for (const Match& match : matches) {
-    const float scale = std::max(left.keypoints[match.first].scale, kSmallestScale);
-    const auto sigma = static_cast<float>(options_.keypoint_sigma_px * scale / kSmallestScale);
+    const auto sigma =
+        static_cast<float>(options_.keypoint_sigma * left.keypoints[match.first].scale);
     sightings.push_back(
         {match.first, Position(right.keypoints[match.second]), {sigma * sigma, 0, sigma * sigma}});
   }

@@ -60,12 +60,12 @@ TEST(BundleAdjustment, ReturnsToTheTruthWithoutNoise) {
   }
 }
 
-TEST(BundleAdjustment, DoglegReturnsToTheTruthToo) {
+TEST(BundleAdjustment, GaussNewtonReturnsToTheTruthToo) {
   CorridorOptions corridor;
   corridor.noise_px = 0;
   const CorridorScene scene = MakeCorridor(corridor);
   BundleOptions options = ExactOptions(BundleSolver::kCeres);
-  options.strategy = StepStrategy::kDogleg;
+  options.strategy = StepStrategy::kGaussNewton;
   EXPECT_LT(WorstPoseError(scene, AdjustBundle(scene.problem, options)), 1e-6);
   options.solver = BundleSolver::kOwn;
   EXPECT_THROW(AdjustBundle(scene.problem, options), std::invalid_argument);

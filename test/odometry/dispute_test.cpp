@@ -49,25 +49,49 @@ TEST(Dispute, IsWaryForAWhile) {
   EXPECT_TRUE(dispute.Judge(Pose(0.3), 3));
 }
 
-TEST(Dispute, DoesNotBelieveAPoseThatKnownPointsContradictAndNewOnesDoNot) {
+/// One that has followed the way for a while.
+Dispute OnTheWay() {
   Dispute dispute;
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.3));
+  return dispute;
+}
+
+TEST(Dispute, DoesNotBelieveAPoseThatKnownPointsContradictAndNewOnesDoNot) {
+  Dispute dispute = OnTheWay();
   EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.5));
   EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3)) << "though some of the known ones are far away";
   EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.7)) << "no better than the one before, by and large";
   EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.9));
 }
 
+TEST(Dispute, KnownPointsMayLookOtherwiseAfterAGap) {
+  Dispute dispute = OnTheWay();
+  dispute.Interrupt();
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(dispute.Judge(Pose(0), 59, 0.3));
+  EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3));
+}
+
 TEST(Dispute, LeavesDoubtForAWhile) {
-  Dispute dispute;
-  dispute.Judge(Pose(0.8), 40);
-  EXPECT_FALSE(dispute.IsDoubtful()) << "contested, but believed";
+  Dispute dispute = OnTheWay();
   dispute.Judge(Pose(0.8), 3);
+  EXPECT_FALSE(dispute.IsDoubtful()) << "contested, but by known points";
+  dispute.Judge(Pose(0), 59, 0.3);
   for (int i = 0; i < 9; ++i) {
     EXPECT_TRUE(dispute.Judge(Pose(0), 40));
     EXPECT_TRUE(dispute.IsDoubtful());
   }
   dispute.Judge(Pose(0), 40);
   EXPECT_FALSE(dispute.IsDoubtful());
+}
+
+TEST(Dispute, IsGivenUpInTheEnd) {
+  Dispute dispute = OnTheWay();
+  for (int i = 0; i < 29; ++i) {
+    EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3));
+    EXPECT_TRUE(dispute.MayEnd());
+  }
+  EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3));
+  EXPECT_FALSE(dispute.MayEnd()) << "a new map is better than none";
 }
 
 TEST(Dispute, ResetForgets) {

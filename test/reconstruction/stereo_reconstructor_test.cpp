@@ -31,7 +31,8 @@ struct Wall {
         const float v = y + static_cast<float>(RandomUnit(engine));
         left.keypoints.push_back({u, v, 1.6f, 0, 1, 1});
         right.keypoints.push_back(left.keypoints.back());
-        right.keypoints.back().x += static_cast<float>(1.4 * RandomUnit(engine) - 0.7 - disparity_px);
+        right.keypoints.back().x +=
+            static_cast<float>(1.4 * RandomUnit(engine) - 0.7 - disparity_px);
         right.keypoints.back().y += static_cast<float>(1.4 * RandomUnit(engine) - 0.7 + kRowOffset);
       }
     }
@@ -124,6 +125,22 @@ TEST(StereoReconstructor, PointsAtTheHorizonAreKeptAndFar) {
     EXPECT_NEAR(point.observation[0] - point.observation[2], -0.4, 0.2);
     EXPECT_EQ(point.x_in_camera.z(), kCamera.Depth(StereoCamera::kFarthestDisparityPx));
   }
+}
+
+TEST(StereoReconstructor, WidePicturesHaveLargerDisparities) {
+  const StereoCamera camera{2000, 2000, 1280, 40, 0.5, 2560, 80};
+  constexpr float kNearPx = 400;
+  Features left;
+  for (float x = 500; x < 2500; x += 40) left.keypoints.push_back({x, 40, 1.6f, 0, 1, 1});
+  left.descriptors = RandomFeatures(left.size(), 5).descriptors;
+  Features right = left;
+  for (Keypoint& keypoint : right.keypoints) keypoint.x -= kNearPx;
+  const cv::Mat blank = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
+  StereoReconstructionOptions options;
+  options.refine_subpixel = false;
+  const StereoPoints points =
+      StereoReconstructor(camera, options).Reconstruct(left, right, {0, blank, blank});
+  EXPECT_EQ(static_cast<int>(points.size()), left.size());
 }
 
 TEST(StereoReconstructor, IsRepeatable) {

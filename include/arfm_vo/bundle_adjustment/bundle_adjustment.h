@@ -11,14 +11,15 @@
 
 namespace arfm_vo {
 
-enum class StepStrategy { kLevenbergMarquardt, kDogleg };
+/// Gauss-Newton: damped as Levenberg's only where a step would raise the cost.
+enum class StepStrategy { kLevenbergMarquardt, kGaussNewton };
 
 inline std::vector<std::pair<std::string, StepStrategy>> ListNames(StepStrategy) {
   return {{"levenberg_marquardt", StepStrategy::kLevenbergMarquardt},
-          {"dogleg", StepStrategy::kDogleg}};
+          {"gauss_newton", StepStrategy::kGaussNewton}};
 }
 
-/// Who does the work: our own Levenberg-Marquardt, or Ceres, which can do the dogleg too.
+/// Who does the work: our own Levenberg-Marquardt, or Ceres, which can do Gauss-Newton's too.
 enum class BundleSolver { kOwn, kCeres };
 
 inline std::vector<std::pair<std::string, BundleSolver>> ListNames(BundleSolver) {
@@ -37,7 +38,7 @@ inline std::vector<std::pair<std::string, LinearSolver>> ListNames(LinearSolver)
 
 struct BundleOptions {
   BundleSolver solver = BundleSolver::kOwn;                   ///< own, or Ceres's
-  StepStrategy strategy = StepStrategy::kLevenbergMarquardt;  ///< dogleg: ceres only
+  StepStrategy strategy = StepStrategy::kLevenbergMarquardt;  ///< Gauss-Newton: Ceres only
   LinearSolver linear_solver = LinearSolver::kAutomatic;      ///< of Ceres
   LossKind loss = LossKind::kHuber;                           ///< robust loss of the residuals
   double loss_threshold_sigma = 2;                            ///< of a residual of one coordinate

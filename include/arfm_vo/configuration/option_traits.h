@@ -12,7 +12,8 @@ namespace arfm_vo {
 /// options struct, and std::vector or std::array of these. The header of an enum lists the names of
 /// its values, found by argument-dependent lookup:
 ///   inline std::vector<std::pair<std::string, Solver>> ListNames(Solver) {
-///     return {{"levenberg_marquardt", Solver::kLevenbergMarquardt}, {"dogleg", Solver::kDogleg}};
+///     return {{"levenberg_marquardt", Solver::kLevenbergMarquardt}, {"gauss_newton",
+///     Solver::kGaussNewton}};
 ///   }
 
 struct AnyVisitor {

@@ -15,6 +15,9 @@ struct Keypoint {
   int8_t laplacian_sign = 1;  ///< +1: dark blob on a bright ground (trace > 0), -1: bright on dark
 };
 
+/// Standard deviation of a keypoint's position along each axis, in units of its scale.
+constexpr double kKeypointSigma = 0.4;
+
 /// Keypoints with their descriptors, row i of `descriptors` belongs to keypoint i.
 struct Features {
   std::vector<Keypoint> keypoints;

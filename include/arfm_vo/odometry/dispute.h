@@ -14,13 +14,17 @@ class Dispute {
   /// Whether to look for contradiction more closely than usual: after one, or after a loss.
   bool IsWary() const { return num_wary_ > 0; }
   void BeWary() { num_wary_ = kWaryFrames; }
-  /// Whether poses that were not believed may have left their traces in the map.
+  /// Whether something new moved on its own a moment ago: it may have left its traces in the map.
   bool IsDoubtful() const { return is_doubtful_; }
+  /// Whether there is hope that a pose with proof follows.
+  bool MayEnd() const { return IsWary() && num_open_ < kMaxOpen; }
 
   /// Takes a pose, of whose points `num_proven` agreed with an earlier one; `continuity`: see
   /// TrackedFrame. Returns whether it is to be believed.
   bool Judge(const PoseEstimate& pose, int num_proven, double continuity = 1) {
-    const bool is_denied = continuity < (is_open_ ? kContinued : kInterrupted);
+    double wanted = is_open_ && is_doubtful_ ? kContinued : kInterrupted;
+    if (num_followed_++ < kMinFollowed) wanted = 0;  // after a gap known points may look otherwise
+    const bool is_denied = continuity < wanted;
     const bool is_proven = pose.is_plausible && !is_denied && num_proven >= kMinProven;
     const double bound = IsWary() ? kContested / 2 : kContested;
     if (pose.contest >= bound || !pose.is_plausible || is_denied) {
@@ -29,22 +33,27 @@ class Dispute {
     } else if (num_wary_ > 0) {
       --num_wary_;
     }
-    is_doubtful_ = IsWary() && (is_doubtful_ || is_open_);
+    is_doubtful_ = IsWary() && (is_doubtful_ || is_denied);
     if (is_proven) is_open_ = false;
+    num_open_ = is_open_ ? num_open_ + 1 : 0;
     return !is_open_;
   }
 
+  /// A pair without a pose.
+  void Interrupt() { num_followed_ = 0; }
   void Reset() { *this = Dispute(); }
 
  private:
-  static constexpr int kWaryFrames = 10, kMinProven = 15;
+  static constexpr int kWaryFrames = 10, kMinProven = 15, kMinFollowed = 5;
+  static constexpr int kMaxOpen = 30;
   /// A pose of less continuity is not believed, nor one of less than kContinued where it would end
   /// a dispute. Undisturbed recordings have 0.49 and more, mostly 0.8 to 1.2; objects that take the
   /// pose along had 0.1 to 0.26 in the first pair.
   static constexpr double kInterrupted = 0.4, kContinued = 0.8;
 
-  int num_wary_ = 0;
+  int num_wary_ = 0, num_open_ = 0;
   bool is_open_ = false, is_doubtful_ = false;
+  int num_followed_ = 0;  ///< pairs in a row that had a pose
 };
 
 }  // namespace arfm_vo

@@ -7,6 +7,7 @@
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/landmark_aligner.h"
 #include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/match.h"
 #include "arfm_vo/pose/pose_estimator.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
@@ -14,12 +15,15 @@
 namespace arfm_vo {
 
 struct FrameTrackerOptions {
+  /// Whether landmarks are looked for near their predicted places; false: among all keypoints, as
+  /// the features of two images are matched (FeatureMatcher, the frame's own ratio threshold).
+  bool guided = true;
   double search_radius_px = 40;  ///< around the predicted place, for descriptors
   double max_scale_ratio = 1.6;  ///< of a keypoint's scale against the expected one
   double guided_ratio = 0.9;     ///< nearest / second-nearest distance near the prediction
   double unguided_ratio = 0.8;   ///< the same among all keypoints
   int min_guided_inliers = 40;   ///< fewer call for a search among all keypoints
-  double keypoint_sigma = 0.4;   ///< of a keypoint's position, in units of its scale
+  double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
   PoseEstimatorOptions pose;
   bool align_patches = true;  ///< false: the keypoints' own positions
   LandmarkAlignerOptions alignment;
@@ -28,6 +32,7 @@ struct FrameTrackerOptions {
   void Check() const;
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
+    visit("guided", guided);
     visit("search_radius_px", search_radius_px);
     visit("guided_ratio", guided_ratio);
     visit("unguided_ratio", unguided_ratio);
@@ -75,6 +80,7 @@ class FrameTracker {
   Correspondences MatchNear(const StereoFrame& frame, const LocalMap& map,
                             const Rigid3& predicted) const;
   Correspondences MatchAll(const StereoFrame& frame, const LocalMap& map) const;
+  Correspondences MatchAsImages(const StereoFrame& frame, const LocalMap& map) const;
   Correspondences Correspond(const StereoFrame& frame,
                              const std::vector<const Landmark*>& landmarks,
                              const Matches& matches) const;
@@ -92,6 +98,7 @@ class FrameTracker {
   StereoCorrection correction_;
   FrameTrackerOptions options_;
   LandmarkAligner aligner_;
+  FeatureMatcher image_matcher_;
 };
 
 }  // namespace arfm_vo

@@ -14,7 +14,7 @@ struct KeyframeArchiveOptions {
   int max_keyframes = 32;  ///< 0: none, and no recovery beyond the local map
   int max_tries = 3;       ///< keyframes, those most alike first, in which a frame is looked for
   double ratio = 0.8;      ///< nearest / second-nearest distance
-  double keypoint_sigma = 0.4;  ///< of a keypoint's position, in units of its scale
+  double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
   PoseEstimatorOptions pose = RecognitionPose();
 
   void Check() const;

@@ -33,10 +33,10 @@ struct StereoReconstructionOptions {
   SlantAlignmentOptions slant;
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
   RowSearchOptions row_search;
-  double max_row_deviation = 3;    ///< from the expected row, in standard deviations
-  double sigma_floor_px = 0.07;    ///< no point is better than this
-  double sigma_inflation = 2;      ///< times the alignment's prediction, as rows show
-  double keypoint_sigma_px = 0.4;  ///< of a position at scale 1.2 without refinement
+  double max_row_deviation = 3;            ///< from the expected row, in standard deviations
+  double sigma_floor_px = 0.07;            ///< no point is better than this
+  double sigma_inflation = 2;              ///< times the alignment's prediction, as rows show
+  double keypoint_sigma = kKeypointSigma;  ///< where positions are not refined
 
   void Check() const;
   template <class Visitor>
@@ -48,7 +48,7 @@ struct StereoReconstructionOptions {
     visit("refine_subpixel", refine_subpixel);
     visit("search_rows", search_rows);
     visit("max_row_deviation", max_row_deviation);
-    visit("keypoint_sigma_px", keypoint_sigma_px);
+    visit("keypoint_sigma", keypoint_sigma);
   }
 };
 
