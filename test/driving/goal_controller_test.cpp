@@ -53,6 +53,13 @@ TEST(GoalController, DrivesStraightToAGoalAhead) {
   EXPECT_LT(drive.time_s, 2 / 0.1 + 10);
 }
 
+TEST(GoalController, IsNeverSlowerThanItsLeastSpeed) {
+  GoalControllerOptions options;
+  options.min_speed_mps = 0.04;
+  GoalController controller(options, {{1, 0, {}}});
+  EXPECT_NEAR(controller.Update({0.95, 0, 0}, false).forward_mps, 0.04, 1e-9);
+}
+
 TEST(GoalController, SlowsDownBeforeTheLastWaypointOnly) {
   GoalControllerOptions options;
   options.waypoint_tolerance_m = 0.05;

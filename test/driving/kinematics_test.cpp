@@ -149,6 +149,14 @@ TEST(TrackHistory, ARestartedChassisMovesNobody) {
   EXPECT_NEAR(history.At(4)->left_m, 0.017, 1e-12);
 }
 
+TEST(TrackHistory, ReadingsAheadOfAClockThatWentBackAreForgotten) {
+  TrackHistory history(10);
+  history.Add(10, 0, 0);
+  history.Add(11, 100, 100);
+  history.Add(10.5, 110, 110);
+  EXPECT_NEAR(history.At(11)->left_m, 0.11, 1e-12);
+}
+
 TEST(TrackHistory, ForgetsWhatIsTooOld) {
   TrackHistory history(10);
   for (int i = 0; i <= 100; ++i) history.Add(i, i, i);

@@ -69,6 +69,14 @@ TEST_F(MotionWatchTest, OneTrackThatIsFasterThanCommandedIsARunaway) {
   EXPECT_EQ(Reason(), StopReason::kRunaway);
 }
 
+TEST_F(MotionWatchTest, AWayOfBeforeDoesNotHideAJam) {
+  for (const double time_s : {10., 13., 16.}) {
+    watch_.ObserveWays(time_s, {time_s > 10 ? 0.3 : 0, 0.3});
+    watch_.ObserveCommand(time_s, {0.1, 0});
+  }
+  EXPECT_EQ(watch_.FindFault(16)->reason, StopReason::kTrackJammed);
+}
+
 TEST_F(MotionWatchTest, ATrackThatStandsForTwoSecondsIsJammedAndNamed) {
   Run(1.8, {0.1, 0}, 0.1, 0);
   EXPECT_EQ(Reason(), StopReason::kNone);

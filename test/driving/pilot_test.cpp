@@ -25,7 +25,7 @@ class PilotTest : public ::testing::Test {
   void Observe() {
     if (bus_up_) {
       pilot_.ObserveChassis(now_s_, chassis_);
-      pilot_.ObserveTracks(now_s_, 0, 0);
+      pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     }
     pilot_.ObserveBus(bus_up_);
     if (has_operator_) pilot_.ObserveOperator(now_s_);
@@ -72,6 +72,7 @@ class PilotTest : public ::testing::Test {
   ChassisStatus chassis_;
   bool bus_up_ = true, has_pose_ = true, has_operator_ = true;
   Rigid3 pose_;
+  int way_mm_ = 0;  ///< of the tracks
   double sigma_m_ = 0.01, heading_sigma_rad_ = 0.01;
 };
 
@@ -241,6 +242,20 @@ TEST_F(PilotTest, HoweverFreshTheGoalAMotionAfterAPauseIsWarnedOf) {
   EXPECT_EQ(State(), DriveState::kWarning);
   EXPECT_TRUE(Run(Options().warning_s - 0.2).chassis_motion.IsZero());
   EXPECT_FALSE(Run(0.5).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ACommandThatTheChassisWaitedLongWithIsWarnedOf) {
+  PilotOptions options = Options();
+  options.fresh_command_s = 1;
+  options.arming_timeout_s = 5;
+  pilot_ = Pilot(options);
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(1.5);
+  chassis_.authority = ChassisAuthority::kUs;
+  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kWarning);
 }
 
 TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumesAfterAWarning) {
@@ -644,6 +659,41 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
     way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;
   }
   EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
+}
+
+TEST_F(PilotTest, StopLookGoLooksAfterAStart) {
+  StartStopLookGo();
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  pilot_.Stop();
+  Run(kTick_s);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero()) << "has not looked";
+}
+
+TEST_F(PilotTest, AfterAPauseStopLookGoBeginsAWholeStep) {
+  StartStopLookGo();
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  const double step_m = StopLookGoOptions().step_m;
+  way_mm_ = static_cast<int>(800 * step_m);
+  sigma_m_ = 100;
+  Run(0.1);
+  ASSERT_EQ(State(), DriveState::kPaused);
+  sigma_m_ = 0.01;
+  pose_.translation.x() = 0.001 * way_mm_;
+  ASSERT_FALSE(Run(4).chassis_motion.IsZero());
+  way_mm_ += static_cast<int>(800 * step_m);
+  EXPECT_FALSE(Run(0.1).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, AReportTellsHowFarTheGoalWas) {
+  pose_.translation = {0, 1, 0};
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{3, 5, {}}}).is_accepted);
+  pilot_.CancelRoute();
+  EXPECT_NEAR(pilot_.TakeResults().at(0).position_error_m, 5, 1e-9);
 }
 
 TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {

@@ -42,6 +42,34 @@ TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
   EXPECT_EQ(watch_.Judge(10.6, tracks_)->reason, StopReason::kPoseContradiction);
 }
 
+TEST_F(PoseWatchTest, ACovarianceFromTheFutureIsNotTaken) {
+  EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10, 0.01, 0.01}));
+  EXPECT_FALSE(watch_.Observe(10, PoseUncertainty{11, 0.01, 0.01}));
+}
+
+TEST_F(PoseWatchTest, ANewEpochHasNoPoseYet) {
+  Drive(10, 0);
+  See(10, At(0));
+  ASSERT_FALSE(watch_.FindFault(10));
+  EXPECT_TRUE(watch_.ObserveEpoch(2, 10.1));
+  EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseMissing);
+}
+
+TEST(PoseConsistency, WrongOptionsAreRefused) {
+  PoseConsistencyOptions options;
+  options.max_error_m = 0;
+  EXPECT_THROW(PoseConsistency(options, TrackKinematics({})), std::invalid_argument);
+}
+
+TEST_F(PoseWatchTest, ACreepThatIsSlowerThanTheWindowIsNoSlide) {
+  const PoseConsistencyOptions consistency;
+  for (int i = 0; i < 6; ++i) {
+    const double now_s = 10 + consistency.slide_window_s * i;
+    Drive(now_s, 0);
+    EXPECT_FALSE(See(now_s, At(0, 0.4 * consistency.max_error_m * i))) << i;
+  }
+}
+
 TEST_F(PoseWatchTest, AgreesWithTracksThatSlip) {
   Drive(10, 0);
   See(10, At(0));

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/stop_look_go.h"
 
@@ -36,6 +38,16 @@ SlipEstimator Turned(double track_rad, double share) {
 TEST(SlipEstimator, SaysNothingBeforeTheWindowIsFull) {
   EXPECT_FALSE(Driven(0.29, 1).Estimate());
   EXPECT_FALSE(SlipEstimator({}, kKinematics).Estimate());
+}
+
+TEST(SlipEstimator, FewPosesFillAWindowToo) {
+  EXPECT_NEAR(Driven(2, 1, 5).Estimate()->track_forward_m, 0.4, 1e-9);
+}
+
+TEST(SlipEstimator, WrongOptionsAreRefused) {
+  SlipOptions options;
+  options.window_m = 0;
+  EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
 }
 
 TEST(SlipEstimator, NoSlipIsZero) {
