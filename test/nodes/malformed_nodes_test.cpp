@@ -106,6 +106,7 @@ TEST_F(MalformedNodes, HeadCameraAndPanel) {
   const PanTiltNode head(node, Private("head"));
   const StereoCameraNode camera(node, Private("camera"));
   const DrivePanel panel(node, Private("panel"));
+  Inbox<sensor_msgs::JointState>("head/joint_states").last();  // the unit takes commands
   visualization_msgs::InteractiveMarkerFeedback click;
   click.control_name = "stop";
   FloodEach(SpoiltTopic(node, "cmd", ValidHeadGoal()),
