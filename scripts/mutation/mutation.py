@@ -47,6 +47,7 @@ SUITES["simulated_graph"] = (["chassis_node", "simulator_node", "arfm_vo_nodelet
                              CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_simulation.test$"])
 # Of a suite: some times what it takes with nothing changed.
 SLOWER, LIMITS_S = 5, {}
+COMPILE_LIMIT_S, TIMED_OUT = 300, 124
 # How gtest and rostest tell of a test that failed.
 FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
@@ -93,9 +94,13 @@ def drop_what_does_not_compile(source):
     command = compile_command(source.path) + " -fsyntax-only -fmax-errors=0"
     while True:
         source.write()
-        said = subprocess.run(command, shell=True, cwd=BUILD, capture_output=True, text=True)
+        said = subprocess.run(["timeout", str(COMPILE_LIMIT_S), "sh", "-c", command], cwd=BUILD, capture_output=True, text=True)
         if said.returncode == 0:
             return
+        if said.returncode == TIMED_OUT:
+            print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
+            source.drop_all()
+            continue
         wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines()
                  if line.startswith(str(source.path)) and " error:" in line}
         if not source.drop_lines(wrong):

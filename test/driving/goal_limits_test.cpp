@@ -64,6 +64,7 @@ TEST(GoalLimits, WrongOptionsAreRefused) {
   GoalLimitsOptions options;
   options.fence_m = {0, 0, 1, 1};
   EXPECT_THROW(options.Check(), std::invalid_argument);
+  EXPECT_THROW(GoalLimits{options}, std::invalid_argument);
   options = GoalLimitsOptions();
   options.max_distance_m = std::numeric_limits<double>::infinity();
   EXPECT_THROW(options.Check(), std::invalid_argument);
