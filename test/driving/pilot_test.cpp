@@ -776,6 +776,11 @@ TEST_F(PilotTest, WhatTheTracksWentSinceALatePoseCounts) {
   way_mm_ = 90;
   Run(0.5);
   EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-9);
+  // One from before the tracks went.
+  pilot_.ObservePose(now_s_, {now_s_ - 0.55, pose_, {}});
+  pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.55, sigma_m_, heading_sigma_rad_});
+  pilot_.Tick(now_s_ + kTick_s);
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-9);
 }
 
 TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {
