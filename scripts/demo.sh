@@ -27,7 +27,7 @@ if [ -d "$input" ]; then
   input=$output/input.bag
 fi
 input=$(realpath "$input")
-rm -f "$output"/poses*.txt "$output"/trajectory*.tum
+rm -f "$output"{,/keyframes}/{poses,tracked}*.txt "$output"{,/keyframes}/trajectory*.tum
 roslaunch arfm_vo replay.launch bag:="$input" rviz:=false trajectory_dir:="$output" trajectory_of_camera:=true
 [ -s "$output/trajectory.tum" ] || { echo "demo: the nodes saved no trajectory" >&2; exit 1; }
 if scripts/pair_with_truth.py "$output/trajectory.tum" "$input" "$output"; then

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Breaks the driving code in many ways, one at a time, and tells which of them the tests notice.
+# Breaks the code in many ways, one at a time, and tells which of them the tests notice.
 # Usage: scripts/mutants.sh [OPTION ..]       scripts/mutants.sh --help; without options writes docs/mutation.md (hours)
+#        scripts/mutants.sh FOLDER [--sample N] [--seed N]     such as src/pose: 60 changes of its sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH

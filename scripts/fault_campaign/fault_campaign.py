@@ -139,7 +139,8 @@ class Campaign:
         promises = [fault.promise] + fault.promise.split(" or ")
         if row["drives_on"]:
             return row["moves"] and not row["told"]
-        is_told = "-" in promises or any(promise in row["told"] for promise in promises)
+        is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or (
+            "-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
         is_over = not row["moves"] or fault.promise == BRIEFLY_UNCERTAIN
         is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s
@@ -170,16 +171,16 @@ def run_away(frame):
     return frame
 
 
-class HoldLeft:
-    """The left track's counter stands."""
+class Hold:
+    """The first bytes of the odometer stand: those of the left track, or of both."""
 
-    def __init__(self):
-        self.left = None
+    def __init__(self, size):
+        self.size, self.first = size, None
 
     def __call__(self, frame):
         if frame.id == bus.ODOMETER:
-            self.left = self.left or bytes(frame.bytes[:4])
-            frame.bytes[:4] = self.left
+            self.first = self.first or bytes(frame.bytes[:self.size])
+            frame.bytes[:self.size] = self.first
         return frame
 
 
@@ -221,6 +222,9 @@ def flood(campaign):
 def bus_faults():
     def changed(change):
         return lambda campaign: campaign.obey(change() if isinstance(change, type) else change)
+
+    def held(size):
+        return lambda campaign: campaign.obey(Hold(size))
     state = bus.SYSTEM_STATE
     return [
         Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),
@@ -237,7 +241,9 @@ def bus_faults():
         Fault("motor driver reports a fault", changed(set_byte(bus.MOTOR_STATUS[0], 5, 0x44)),
               "motor or its driver reports a fault", heal),
         Fault("tracks run away at 0.2 m/s", changed(run_away), "tracks run faster than commanded", heal, 0.2),
-        Fault("left track is jammed", changed(HoldLeft), "a track is jammed", heal, 2),
+        Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
+        Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
+              "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
         Fault("another driver sends 0x111", lambda c: c.tap.inject(bus.make_frame(0x111, [0] * 8)),
               "another driver commands the chassis", lambda c: time.sleep(1.2)),

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Breaks the driving code in many ways, one at a time, and tells which of them the tests notice.
+"""Breaks the code in many ways, one at a time, and tells which of them the tests notice.
 
-1. Protections (protections.py): each is removed in turn.
+1. Protections of the driving (protections.py): each is removed in turn.
 2. With --sample N: N of the changes that fixed rules (rules.py) make to src/driving: conditions negated or
    dropped, signs and limits changed, lines removed.
+With FOLDER, such as src/pose: the second only, of the sources there, and the table as Markdown at the end.
 
 All changes are compiled in at once, each behind a switch that the environment sets (ARFM_VO_MUTANT), so that there is
 one build. Run it in a checkout without changes: the sources are changed in place and put back at the end. Builds into
@@ -16,6 +17,7 @@ import random
 import re
 import subprocess
 import sys
+import time
 
 from protections import PROTECTIONS
 from rules import find_changes
@@ -34,6 +36,8 @@ SUITES = {
                    [str(PROGRAMS / "test_simulation"), "--gtest_filter=FaultTable*:WrongPose*:Fence*:SimulatedChassis*"]),
     "ros": (["test_ros"], [str(PROGRAMS / "test_ros"), "--gtest_filter=-*HeadSweep*:BagSequence*"]),
 }
+for suite in ("pose", "odometry"):
+    SUITES[suite] = (["test_" + suite], [str(PROGRAMS / ("test_" + suite))])
 for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
                        ("clock_stall", ["chassis_node", "test_chassis_node"]),
                        ("pan_tilt", ["pan_tilt_node", "test_pan_tilt"]),
@@ -41,20 +45,26 @@ for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
     SUITES[suite] = (targets, CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
 SUITES["simulated_graph"] = (["chassis_node", "simulator_node", "arfm_vo_nodelets", "truth_path_node", "pan_tilt_node"],
                              CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_simulation.test$"])
-LIMIT_S = 400
+# Of a suite: some times what it takes with nothing changed.
+SLOWER, LIMITS_S = 5, {}
+COMPILE_LIMIT_S, TIMED_OUT = 300, 124
 # How gtest and rostest tell of a test that failed.
 FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
+# The suites that are to notice the changes by rule to a folder's sources.
+FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry",), "src/ros": ("ros",)}
 
 
 def find_failure(suite, number):
     """The first test of a suite that fails with the change of this number switched on; nothing where none does."""
     environment = {**os.environ, "ARFM_VO_MUTANT": str(number), "GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1"}
+    start_s = time.monotonic()
     try:
         ended = subprocess.run(SUITES[suite][1], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               timeout=LIMIT_S)
+                               timeout=LIMITS_S.get(suite))
     except subprocess.TimeoutExpired:
         return suite + " (time-out)"
+    LIMITS_S.setdefault(suite, 60 + SLOWER * (time.monotonic() - start_s))
     if ended.returncode == 0:
         return None
     found = FAILED.search(ended.stdout.decode(errors="replace"))
@@ -83,9 +93,13 @@ def drop_what_does_not_compile(source):
     command = compile_command(source.path) + " -fsyntax-only -fmax-errors=0"
     while True:
         source.write()
-        said = subprocess.run(command, shell=True, cwd=BUILD, capture_output=True, text=True)
+        said = subprocess.run(["timeout", str(COMPILE_LIMIT_S), "sh", "-c", command], cwd=BUILD, capture_output=True, text=True)
         if said.returncode == 0:
             return
+        if said.returncode == TIMED_OUT:
+            print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
+            source.drop_all()
+            continue
         wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines()
                  if line.startswith(str(source.path)) and " error:" in line}
         if not source.drop_lines(wrong):
@@ -133,10 +147,10 @@ def try_protections(text):
     return try_switched(sources.values(), changes, suites, lambda change: change.suites)
 
 
-def try_rules(size, seed):
+def try_rules(folder, size, seed):
     """What became of a sample, and how many changes it was drawn from."""
-    paths = sorted((ROOT / "src/driving").glob("*.cpp"))
-    sources = [Source(ROOT, "src/driving/" + path.name, i) for i, path in enumerate(paths)]
+    paths = sorted((ROOT / folder).glob("*.cpp"))
+    sources = [Source(ROOT, "%s/%s" % (folder, path.name), i) for i, path in enumerate(paths)]
     try:
         for source in sources:
             find_changes(source)
@@ -147,7 +161,8 @@ def try_rules(size, seed):
         raise
     possible = [change for source in sources for change in source.changes_by_rule()]
     sample = random.Random(seed).sample(possible, min(size, len(possible)))
-    return try_switched(sources, sample, set(BASIC), lambda change: BASIC), len(possible)
+    suites = FOLDERS[folder]
+    return try_switched(sources, sample, set(suites), lambda change: suites), len(possible)
 
 
 def make_page(protections, sampled, seed, num_possible):
@@ -158,28 +173,36 @@ def make_page(protections, sampled, seed, num_possible):
              "%d of %d are noticed." % (len(protections) - len(missed), len(protections))]
     lines += table([(change.name, "`%s`" % change.file, noticed or "**not noticed**") for change, noticed in protections],
                    ("protection", "in", "noticed by"))
-    if not sampled:
-        return "\n".join(lines) + "\n"
-    survivors = [change for change, noticed in sampled if not noticed]
-    lines += ["", "## Changes by rule", "",
-              "%d changes of src/driving, drawn (seed %d) from %d that the rules of `scripts/mutation/rules.py` make: %d are"
-              % (len(sampled), seed, num_possible, len(sampled) - len(survivors)),
-              "noticed (%.0f %%). Those that are not:" % (100 * (1 - len(survivors) / len(sampled)))]
-    lines += table([(change.file.split("/")[-1] + ":%d" % change.line, change.rule, "`%s`" % change.text.replace("|", "\\|"))
-                    for change in survivors], ("place", "change", "line"))
+    if sampled:
+        lines += [""] + tell_sample("src/driving", sampled, seed, num_possible)
     return "\n".join(lines) + "\n"
+
+
+def tell_sample(folder, sampled, seed, num_possible):
+    survivors = [change for change, noticed in sampled if not noticed]
+    lines = ["## Changes by rule, %s" % folder, "",
+             "%d changes of %s, drawn (seed %d) from %d that the rules of `scripts/mutation/rules.py` make: %d are"
+             % (len(sampled), folder, seed, num_possible, len(sampled) - len(survivors)),
+             "noticed (%.0f %%). Those that are not:" % (100 * (1 - len(survivors) / len(sampled)))]
+    return lines + table([(change.file.split("/")[-1] + ":%d" % change.line, change.rule, "`%s`" % change.text.replace("|", "\\|"))
+                          for change in survivors], ("place", "change", "line"))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", choices=sorted(FOLDERS), metavar="FOLDER", help=" ".join(sorted(FOLDERS)))
     parser.add_argument("--only", default="", help="protections whose name holds this")
     parser.add_argument("--rules-only", action="store_true", help="no protections")
     parser.add_argument("--sample", type=int, default=0, help="of the changes by rule")
     parser.add_argument("--seed", type=int, default=1, help="of the sample")
     parser.add_argument("--output", type=pathlib.Path, help="the page, Markdown")
     arguments = parser.parse_args()
+    if arguments.folder:
+        sampled, num_possible = try_rules(arguments.folder, arguments.sample or 60, arguments.seed)
+        print("\n".join(tell_sample(arguments.folder, sampled, arguments.seed, num_possible)))
+        return 0
     protections = [] if arguments.rules_only else try_protections(arguments.only)
-    sampled, num_possible = try_rules(arguments.sample, arguments.seed) if arguments.sample else ([], 0)
+    sampled, num_possible = try_rules("src/driving", arguments.sample, arguments.seed) if arguments.sample else ([], 0)
     for what, tried in ("protections", protections), ("changes by rule", sampled):
         print("%s: %d of %d noticed" % (what, sum(bool(noticed) for _, noticed in tried), len(tried)))
     if arguments.output:

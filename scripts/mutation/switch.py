@@ -86,6 +86,9 @@ class Source:
         self.by_rule = [change for change in self.by_rule if change.line not in lines]
         return len(self.by_rule) < before
 
+    def drop_all(self):
+        self.by_rule = []
+
     def write(self):
         text = "\n".join(self._switched_lines())
         for old, switched in self.protected:

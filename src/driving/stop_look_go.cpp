@@ -17,7 +17,6 @@ PlanarMotion StopLookGo::Gate(const PlanarMotion& wanted, const TrackWays& ways,
   if (!options_.is_on || wanted.IsZero()) return wanted;
   if (is_looking_) {
     if (!is_at_rest) return {};
-    is_looking_ = false;
     step_start_ = ways;
   }
   const double way_m = std::max(std::abs(ways.left_m - step_start_.left_m),

@@ -6,11 +6,11 @@
 namespace arfm_vo {
 
 void PanTiltOptions::Check() const {
-  Require(home_timeout_s > 0, "home_timeout_s must be positive");
-  Require(reply_timeout_s > 0, "reply_timeout_s must be positive");
+  Require(home_timeout_s > 0 && home_timeout_s <= 600, "home_timeout_s must be in (0, 600]");
+  Require(reply_timeout_s > 0 && reply_timeout_s <= 10, "reply_timeout_s must be in (0, 10]");
   Require(max_failed_reads >= 1, "max_failed_reads must be at least 1");
-  Require(pan_speed_rad_s >= 0, "pan_speed_rad_s must not be negative");
-  Require(tilt_speed_rad_s >= 0, "tilt_speed_rad_s must not be negative");
+  Require(pan_speed_rad_s >= 0 && pan_speed_rad_s <= 100, "pan_speed_rad_s must be in 0..100");
+  Require(tilt_speed_rad_s >= 0 && tilt_speed_rad_s <= 100, "tilt_speed_rad_s must be in 0..100");
   reopen.Check();
 }
 

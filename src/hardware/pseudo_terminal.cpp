@@ -18,10 +18,12 @@ namespace {
   throw std::system_error(errno, std::generic_category(), "pseudo terminal: " + what);
 }
 
-/// A link to a pseudo terminal: what an earlier simulation has left behind.
-bool IsOwnLink(const std::string& path) {
+/// A link to a pseudo terminal that is gone, or has become `own`: what an earlier simulation that
+/// was killed has left behind. Another's that lives stays.
+bool IsLeftBehind(const std::string& path, const std::string& own) {
   std::error_code ignored;
-  return std::filesystem::read_symlink(path, ignored).string().rfind("/dev/pts/", 0) == 0;
+  const std::string target = std::filesystem::read_symlink(path, ignored);
+  return target == own || (target.rfind("/dev/pts/", 0) == 0 && !std::filesystem::exists(target));
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ PseudoTerminal::PseudoTerminal(const std::string& link)
   ::cfmakeraw(&settings);
   if (::tcsetattr(keeper_.Get(), TCSANOW, &settings) != 0) Fail(path_);
   if (link_.empty()) return;
-  if (IsOwnLink(link_)) std::filesystem::remove(link_);
+  if (IsLeftBehind(link_, slave_)) std::filesystem::remove(link_);
   std::filesystem::create_symlink(path_, link_);
   path_ = link_;
 }

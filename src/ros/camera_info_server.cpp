@@ -4,6 +4,7 @@
 #include <ros/package.h>
 #include <ros/service_manager.h>
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -27,6 +28,18 @@ std::string PathOf(const std::string& url) {
   return folder + url.substr(end);
 }
 
+/// Throws std::invalid_argument naming the matrix that holds what is no number.
+void CheckFinite(const sensor_msgs::CameraInfo& info) {
+  const auto check = [](const auto& values, const char* name) {
+    for (const double value : values)
+      Require(std::isfinite(value), std::string(name) + " holds a value that is not finite");
+  };
+  check(info.D, "D");
+  check(info.K, "K");
+  check(info.R, "R");
+  check(info.P, "P");
+}
+
 }  // namespace
 
 CameraInfoServer::CameraInfoServer(ros::NodeHandle node, const std::string& name,
@@ -46,6 +59,7 @@ bool CameraInfoServer::Set(sensor_msgs::SetCameraInfo::Request& request,
   try {
     const std::string refusal = find_refusal_();
     Require(refusal.empty(), refusal);
+    CheckFinite(request.camera_info);
     Store(request.camera_info);
     manager_.setCameraInfo(request.camera_info);
     response.success = true;

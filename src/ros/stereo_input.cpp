@@ -26,6 +26,11 @@ void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
   subscriber = node.subscribe<sensor_msgs::CameraInfo>(
       StereoTopic(node, "left/camera_info"), 1,
       [&subscriber, take](const sensor_msgs::CameraInfoConstPtr& info) {
+        if (info->header.frame_id.empty()) {
+          ROS_WARN_THROTTLE(10, "%s: header.frame_id is empty: waiting for one with a frame",
+                            subscriber.getTopic().c_str());
+          return;
+        }
         take(info->header.frame_id);
         subscriber.shutdown();
       });

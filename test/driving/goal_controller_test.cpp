@@ -53,6 +53,35 @@ TEST(GoalController, DrivesStraightToAGoalAhead) {
   EXPECT_LT(drive.time_s, 2 / 0.1 + 10);
 }
 
+TEST(GoalController, TurnsForwardWhereThatIsTheSmallerTurn) {
+  // Forward 70 degrees and back again, backward 110.
+  GoalController controller({}, {{0.171, 0.47, 0.0}});
+  EXPECT_GT(controller.Update({}, false).turn_radps, 0);
+  // From 2 rad to 1 rad.
+  GoalController turned({}, {{0.27, 0.42, {}}});
+  EXPECT_LT(turned.Update({0, 0, 2}, false).turn_radps, 0);
+}
+
+TEST(GoalController, AWaypointIsPassedWithinItsTolerance) {
+  GoalControllerOptions options;
+  GoalController controller(options, {{1.5 * options.waypoint_tolerance_m, 0, {}}, {5, 0, {}}});
+  controller.Update({}, false);
+  EXPECT_EQ(controller.NextWaypoint(), 0u);
+}
+
+TEST(GoalController, ATurnTowardsTheWaypointIsProgress) {
+  GoalController controller({}, {{5, 0, {}}});
+  controller.Update({0, 0, 1}, false);
+  EXPECT_LT(controller.Cost({0, 0, 0.5}), controller.Cost({0, 0, 1}));
+}
+
+TEST(GoalController, IsNeverSlowerThanItsLeastSpeed) {
+  GoalControllerOptions options;
+  options.min_speed_mps = 0.04;
+  GoalController controller(options, {{1, 0, {}}});
+  EXPECT_NEAR(controller.Update({0.95, 0, 0}, false).forward_mps, 0.04, 1e-9);
+}
+
 TEST(GoalController, SlowsDownBeforeTheLastWaypointOnly) {
   GoalControllerOptions options;
   options.waypoint_tolerance_m = 0.05;

@@ -21,6 +21,12 @@ TEST(GoalLimits, AGoalTooFarIsNamed) {
             "waypoint 1 is 60.0 m away, farther than 50.0 m");
 }
 
+TEST(GoalLimits, TheDistanceIsFromTheRover) {
+  const GoalLimits limits{GoalLimitsOptions{}};
+  EXPECT_EQ(limits.FindFlaw({{100, 65, {}}}, {90, 20, 0}), "");
+  EXPECT_EQ(limits.FindFlaw({{0, 0, {}}}, {-30, -41, 0}), "it is 50.8 m away, farther than 50.0 m");
+}
+
 TEST(GoalLimits, ARouteIsBounded) {
   const GoalLimits limits{GoalLimitsOptions{}};
   EXPECT_EQ(limits.FindFlaw(Route(100), {}), "");
@@ -58,6 +64,7 @@ TEST(GoalLimits, WrongOptionsAreRefused) {
   GoalLimitsOptions options;
   options.fence_m = {0, 0, 1, 1};
   EXPECT_THROW(options.Check(), std::invalid_argument);
+  EXPECT_THROW(GoalLimits{options}, std::invalid_argument);
   options = GoalLimitsOptions();
   options.max_distance_m = std::numeric_limits<double>::infinity();
   EXPECT_THROW(options.Check(), std::invalid_argument);

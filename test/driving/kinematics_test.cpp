@@ -149,6 +149,26 @@ TEST(TrackHistory, ARestartedChassisMovesNobody) {
   EXPECT_NEAR(history.At(4)->left_m, 0.017, 1e-12);
 }
 
+TEST(TrackHistory, ALeapOfMoreThanAMetreIsNoWay) {
+  TrackHistory history(10);
+  history.Add(1, 0, 0);
+  history.Add(2, 1001, 0);
+  history.Add(3, 0, 0);
+  history.Add(4, 0, 1500);
+  EXPECT_EQ(history.At(4)->left_m, 0);
+  EXPECT_EQ(history.At(4)->right_m, 0);
+  history.Add(5, 1000, 1500);
+  EXPECT_NEAR(history.At(5)->left_m, 1, 1e-12);
+}
+
+TEST(TrackHistory, ReadingsAheadOfAClockThatWentBackAreForgotten) {
+  TrackHistory history(10);
+  history.Add(10, 0, 0);
+  history.Add(11, 100, 100);
+  history.Add(10.5, 110, 110);
+  EXPECT_NEAR(history.At(11)->left_m, 0.11, 1e-12);
+}
+
 TEST(TrackHistory, ForgetsWhatIsTooOld) {
   TrackHistory history(10);
   for (int i = 0; i <= 100; ++i) history.Add(i, i, i);

@@ -69,6 +69,33 @@ TEST_F(MotionWatchTest, OneTrackThatIsFasterThanCommandedIsARunaway) {
   EXPECT_EQ(Reason(), StopReason::kRunaway);
 }
 
+TEST_F(MotionWatchTest, WrongOptionsAreRefused) {
+  MotionWatchOptions options;
+  options.jam_s = 0;
+  EXPECT_THROW(MotionWatch(options, kGauge_m), std::invalid_argument);
+}
+
+TEST_F(MotionWatchTest, TwoShortExcessesAreNoLongOne) {
+  Run(1, {0, 0}, 0, 0);
+  Run(0.12, {0, 0}, 0.1, 0.1);
+  Run(1, {0, 0}, 0, 0);
+  Run(0.12, {0, 0}, 0.1, 0.1);
+  EXPECT_EQ(Reason(), StopReason::kNone);
+}
+
+TEST_F(MotionWatchTest, ASlowTrackMayBeJammedToo) {
+  Run(2.2, {0.02, 0}, 0, 0.02);
+  EXPECT_EQ(Reason(), StopReason::kTrackJammed);
+}
+
+TEST_F(MotionWatchTest, AWayOfBeforeDoesNotHideAJam) {
+  for (const double time_s : {10., 13., 16.}) {
+    watch_.ObserveWays(time_s, {time_s > 10 ? 0.3 : 0, 0.1 * time_s});
+    watch_.ObserveCommand(time_s, {0.1, 0});
+  }
+  EXPECT_EQ(watch_.FindFault(16)->reason, StopReason::kTrackJammed);
+}
+
 TEST_F(MotionWatchTest, ATrackThatStandsForTwoSecondsIsJammedAndNamed) {
   Run(1.8, {0.1, 0}, 0.1, 0);
   EXPECT_EQ(Reason(), StopReason::kNone);

@@ -25,7 +25,7 @@ class PilotTest : public ::testing::Test {
   void Observe() {
     if (bus_up_) {
       pilot_.ObserveChassis(now_s_, chassis_);
-      pilot_.ObserveTracks(now_s_, 0, 0);
+      pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     }
     pilot_.ObserveBus(bus_up_);
     if (has_operator_) pilot_.ObserveOperator(now_s_);
@@ -72,6 +72,7 @@ class PilotTest : public ::testing::Test {
   ChassisStatus chassis_;
   bool bus_up_ = true, has_pose_ = true, has_operator_ = true;
   Rigid3 pose_;
+  int way_mm_ = 0;  ///< of the tracks
   double sigma_m_ = 0.01, heading_sigma_rad_ = 0.01;
 };
 
@@ -125,6 +126,13 @@ TEST_F(PilotTest, GoalsThatAreTooFarOrComeWhileBlockedAreRefused) {
 TEST_F(PilotTest, AGoalWithoutAPoseIsRefused) {
   has_pose_ = false;
   Run(0.1);
+  EXPECT_EQ(pilot_.SetRoute({{5, 0, {}}}).text, "goal refused: the rover has no pose");
+}
+
+TEST_F(PilotTest, AGoalRightAfterANewEpochIsRefused) {
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  pilot_.ObserveEpoch(2, now_s_);
   EXPECT_EQ(pilot_.SetRoute({{5, 0, {}}}).text, "goal refused: the rover has no pose");
 }
 
@@ -241,6 +249,20 @@ TEST_F(PilotTest, HoweverFreshTheGoalAMotionAfterAPauseIsWarnedOf) {
   EXPECT_EQ(State(), DriveState::kWarning);
   EXPECT_TRUE(Run(Options().warning_s - 0.2).chassis_motion.IsZero());
   EXPECT_FALSE(Run(0.5).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ACommandThatTheChassisWaitedLongWithIsWarnedOf) {
+  PilotOptions options = Options();
+  options.fresh_command_s = 1;
+  options.arming_timeout_s = 5;
+  pilot_ = Pilot(options);
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(1.5);
+  chassis_.authority = ChassisAuthority::kUs;
+  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kWarning);
 }
 
 TEST_F(PilotTest, AStalePosePausesAndAGoodOneResumesAfterAWarning) {
@@ -582,6 +604,50 @@ TEST_F(PilotTest, AGoalThatComesNoNearerBlocks) {
   Run(5);
   EXPECT_EQ(State(), DriveState::kBlocked);
   EXPECT_EQ(Reason(), StopReason::kNoProgress);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(1);
+  EXPECT_EQ(State(), DriveState::kDriving) << "a start gives it as long again";
+}
+
+TEST_F(PilotTest, AnotherGoalHasTimeOfItsOwnToComeNearer) {
+  PilotOptions options = Options();
+  options.max_stall_s = 3;
+  pilot_ = Pilot(options);
+  StartDriving();
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  Run(2);
+  EXPECT_EQ(State(), DriveState::kDriving);
+}
+
+TEST_F(PilotTest, AStartForgetsAJam) {
+  PilotOptions options = Options();
+  options.motion.jam_s = 2;
+  pilot_ = Pilot(options);
+  StartDriving();
+  Run(1);
+  ASSERT_EQ(Reason(), StopReason::kTrackJammed);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(0.5);
+  EXPECT_EQ(State(), DriveState::kDriving);
+}
+
+TEST_F(PilotTest, AStandbyBeginsWithTheStop) {
+  StartDriving();
+  Run(Options().goal_limits.max_standby_s);
+  pilot_.Stop();
+  Run(0.1);
+  EXPECT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+}
+
+TEST_F(PilotTest, AVelocityOfBeforeAGoalIsForgotten) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  pilot_.CancelRoute();
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
 }
 
 TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
@@ -597,6 +663,8 @@ TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
   }
   EXPECT_EQ(Reason(), StopReason::kSlip);
   EXPECT_GT(*pilot_.Status().slip->forward_ratio, 0.9);
+  pilot_.ObserveEpoch(2, now_s_);
+  EXPECT_FALSE(pilot_.Status().slip);
 }
 
 TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
@@ -644,6 +712,75 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
     way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;
   }
   EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
+}
+
+TEST_F(PilotTest, StopLookGoLooksAfterAStart) {
+  StartStopLookGo();
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  pilot_.Stop();
+  Run(kTick_s);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  pilot_.SetVelocity(now_s_, {0.1, 0});
+  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero()) << "has not looked";
+}
+
+TEST_F(PilotTest, AfterAPauseStopLookGoBeginsAWholeStep) {
+  StartStopLookGo();
+  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  const double step_m = StopLookGoOptions().step_m;
+  way_mm_ = static_cast<int>(800 * step_m);
+  sigma_m_ = 100;
+  Run(0.1);
+  ASSERT_EQ(State(), DriveState::kPaused);
+  sigma_m_ = 0.01;
+  pose_.translation.x() = 0.001 * way_mm_;
+  ASSERT_FALSE(Run(4).chassis_motion.IsZero());
+  way_mm_ += static_cast<int>(800 * step_m);
+  EXPECT_GT(Run(0.5).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, TellsHowFarTheGoalIs) {
+  pose_.translation = {1, 1, 0};
+  Run(0.1);
+  ASSERT_TRUE(pilot_.SetRoute({{1, 1, {}}, {4, 5, 1.}}).is_accepted);
+  EXPECT_NEAR(pilot_.Status().heading_error_rad, 1, 1e-9);
+  pilot_.CancelRoute();
+  const GoalResult result = pilot_.TakeResults().at(0);
+  EXPECT_NEAR(result.position_error_m, 5, 1e-9);
+  EXPECT_NEAR(result.heading_error_rad, 1, 1e-9);
+}
+
+TEST_F(PilotTest, TellsWhatItDrives) {
+  StartDriving();
+  EXPECT_GT(pilot_.Status().motion.forward_mps, 0.09);
+  ASSERT_TRUE(pilot_.SetRoute({{0, 0, {}}, {4, 0, {}}}).is_accepted);
+  Run(0.1);
+  EXPECT_EQ(pilot_.Status().next_waypoint, 1u);
+}
+
+TEST_F(PilotTest, TellsByWhomItWasStoppedUntilItIsStarted) {
+  StartDriving();
+  pilot_.SetEmergencyStop("test", true);
+  Run(0.1);
+  EXPECT_EQ(pilot_.TakeResults().back().detail, "by test");
+  pilot_.SetEmergencyStop("test", false);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_EQ(pilot_.Status().detail, "");
+}
+
+TEST_F(PilotTest, WhatTheTracksWentSinceALatePoseCounts) {
+  StartDriving();
+  has_pose_ = false;
+  way_mm_ = 90;
+  Run(0.5);
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-9);
+  // One from before the tracks went.
+  pilot_.ObservePose(now_s_, {now_s_ - 0.55, pose_, {}});
+  pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.55, sigma_m_, heading_sigma_rad_});
+  pilot_.Tick(now_s_ + kTick_s);
+  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-9);
 }
 
 TEST_F(PilotTest, StopLookGoLooksBeforeItTurnsToAnotherGoal) {

@@ -42,6 +42,80 @@ TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
   EXPECT_EQ(watch_.Judge(10.6, tracks_)->reason, StopReason::kPoseContradiction);
 }
 
+TEST_F(PoseWatchTest, ACovarianceFromTheFutureIsNotTaken) {
+  EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10, 0.01, 0.01}));
+  EXPECT_FALSE(watch_.Observe(10, PoseUncertainty{11, 0.01, 0.01}));
+}
+
+TEST_F(PoseWatchTest, ANewEpochHasNoPoseYet) {
+  Drive(10, 0);
+  See(10, At(0));
+  ASSERT_FALSE(watch_.FindFault(10));
+  EXPECT_TRUE(watch_.ObserveEpoch(2, 10.1));
+  EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseMissing);
+}
+
+TEST_F(PoseWatchTest, ACovarianceOfAnotherEpochSaysNothingOfThisOne) {
+  EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10.2, 0.01, 0.01}));
+  EXPECT_TRUE(watch_.ObserveEpoch(2, 10.1));
+  watch_.Observe(10.1, PoseObservation{10.1, At(0), {}});
+  watch_.Judge(10.1, tracks_);
+  EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseUncertain);
+}
+
+TEST(PoseConsistency, WrongOptionsAreRefused) {
+  PoseConsistencyOptions options;
+  options.max_error_m = 0;
+  EXPECT_THROW(PoseConsistency(options, TrackKinematics({})), std::invalid_argument);
+}
+
+TEST(PoseWatch, WrongOptionsAreRefused) {
+  PoseWatchOptions options;
+  options.max_tilt_deg = 0;
+  EXPECT_THROW(PoseWatch(options, TrackKinematics({})), std::invalid_argument);
+}
+
+TEST(PoseWatch, WhereNoCovarianceIsAskedForNoneIsWaitedFor) {
+  PoseWatchOptions options;
+  options.requires_covariance = false;
+  PoseWatch watch(options, TrackKinematics({}));
+  watch.ObserveEpoch(1, 10);
+  watch.Observe(10, PoseObservation{10, At(0), {}});
+  EXPECT_FALSE(watch.Judge(10, TrackHistory(2)));
+  EXPECT_FALSE(watch.FindFault(10));
+}
+
+TEST(PoseConsistency, SidewaysIsAcrossTheMiddleOfATurn) {
+  const PoseConsistency consistency({}, TrackKinematics({}));
+  const TrackedSighting earlier{0, {}, 0, 0, {}};
+  const TrackWays ways{0.2, 0.6};
+  RoverPose ahead = consistency.Predict(earlier, ways);
+  ASSERT_GT(ahead.heading_rad, 0.3);
+  ahead.x_m += 0.1 * std::cos(ahead.heading_rad / 2);
+  ahead.y_m += 0.1 * std::sin(ahead.heading_rad / 2);
+  EXPECT_NEAR(consistency.Compare(earlier, {1, ahead, 0, 0, ways}).sideways_m, 0, 1e-12);
+}
+
+TEST(PoseConsistency, TheFasterTrackSaysHowMuchMaySlip) {
+  const PoseConsistencyOptions options;
+  const PoseConsistency consistency(options, TrackKinematics({}));
+  const TrackedSighting earlier{0, {}, 0, 0, {}};
+  for (const TrackWays& ways : {TrackWays{0, 0.5}, TrackWays{0.5, 0}}) {
+    const auto difference = consistency.Compare(earlier, {1, {}, 0, 0, ways});
+    EXPECT_NEAR(difference.max_distance_m, options.max_error_m + 0.5 * options.max_slip_ratio,
+                1e-12);
+  }
+}
+
+TEST_F(PoseWatchTest, ACreepThatIsSlowerThanTheWindowIsNoSlide) {
+  const PoseConsistencyOptions consistency;
+  for (int i = 0; i < 6; ++i) {
+    const double now_s = 10 + consistency.slide_window_s * i;
+    Drive(now_s, 0);
+    EXPECT_FALSE(See(now_s, At(0, 0.4 * consistency.max_error_m * i))) << i;
+  }
+}
+
 TEST_F(PoseWatchTest, AgreesWithTracksThatSlip) {
   Drive(10, 0);
   See(10, At(0));

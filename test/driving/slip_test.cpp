@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/stop_look_go.h"
 
@@ -36,6 +38,23 @@ SlipEstimator Turned(double track_rad, double share) {
 TEST(SlipEstimator, SaysNothingBeforeTheWindowIsFull) {
   EXPECT_FALSE(Driven(0.29, 1).Estimate());
   EXPECT_FALSE(SlipEstimator({}, kKinematics).Estimate());
+}
+
+TEST(SlipEstimator, FewPosesFillAWindowToo) {
+  EXPECT_NEAR(Driven(2, 1, 5).Estimate()->track_forward_m, 0.4, 1e-9);
+}
+
+TEST(SlipEstimator, ALeapOfTheSightBeginsAnew) {
+  SlipEstimator slip = Driven(1, 1);
+  for (int i = 0; i <= 40; ++i) slip.Add(Pose(9 + 0.01 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
+  ASSERT_TRUE(slip.Estimate());
+  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
+}
+
+TEST(SlipEstimator, WrongOptionsAreRefused) {
+  SlipOptions options;
+  options.window_m = 0;
+  EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
 }
 
 TEST(SlipEstimator, NoSlipIsZero) {

@@ -49,6 +49,10 @@ TEST(PseudoTerminal, RemovesNothingButItsOwnLinkAndThoseLeftBehind) {
   EXPECT_THROW(PseudoTerminal{Link()}, std::system_error);
   EXPECT_EQ(std::filesystem::read_symlink(Link()), "/dev/ttyS0");
   std::filesystem::remove(Link());
+  {
+    const PseudoTerminal living(Link());
+    EXPECT_THROW(PseudoTerminal{Link()}, std::system_error) << "took the link of one that lives";
+  }
   std::filesystem::create_symlink("/dev/pts/100000", Link());
   auto device = std::make_unique<PseudoTerminal>(Link());
   std::filesystem::remove(Link());

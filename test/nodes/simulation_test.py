@@ -16,9 +16,10 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, Empty
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
 from drive_to import Errand  # noqa: E402
 
 PATIENCE_S = 120
@@ -155,6 +156,33 @@ class SimulationTest(unittest.TestCase):
         self.assertLessEqual(max(speeds), 0.1)
         self.wait(lambda: self.head.is_at(0.3, 0), "the head")
         print("drive: error %.1f mm" % (1000 * errand.error_m()))
+
+    def test_stops_when_the_wait_for_a_drive_is_interrupted(self):
+        """Ctrl-C and a time-out end the wait of drive_to.py in the same way."""
+        told = []
+        rospy.Subscriber("drive_status", DriveStatus, told.append)
+        errand = Errand()
+
+        def interrupt(_):
+            self.wait(lambda: told and told[-1].forward_mps > 0.05, "the rover to drive")
+            raise KeyboardInterrupt
+
+        errand.done.wait = interrupt
+        with self.assertRaises(KeyboardInterrupt):
+            errand.run(3, 0, 0, timeout_s=PATIENCE_S)
+        self.wait(lambda: told[-1].state == DriveStatus.STANDBY and not told[-1].has_goal, "the stop")
+
+    def test_an_operator_beats_until_the_terminal_is_gone_and_stops_the_rover(self):
+        beats_s = []
+        rospy.Subscriber("operator_heartbeat", Empty, lambda _: beats_s.append(time.monotonic()))
+        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator.py"], stdin=subprocess.PIPE,
+                                    stdout=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(operator.wait)
+        self.addCleanup(operator.terminate)
+        self.wait(lambda: len(beats_s) >= 5, "heartbeats")
+        self.assertLess((beats_s[4] - beats_s[0]) / 4, 0.8)
+        said, _ = operator.communicate("\n", timeout=PATIENCE_S)  # Enter, then the terminal is gone
+        self.assertEqual(said.count("stop: stopped"), 2, said)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,9 @@
 
 namespace arfm_vo {
 
+/// Of the i-th message's fields.
+inline double ShareToSpoil(int i) { return i % 4 == 0 ? 1 : i % 2 == 0 ? 0.2 : 0.02; }
+
 /// A topic with its node in this process, and copies of a valid message spoilt for it.
 template <class Message>
 class SpoiltTopic {
@@ -31,7 +34,7 @@ class SpoiltTopic {
   void Send(int i, const ros::Time& stamp) {
     const auto message = boost::make_shared<Message>(valid_);
     SetStamp(*message, stamp);
-    spoiler_.Spoil(*message, i % 4 == 0 ? 1 : i % 2 == 0 ? 0.2 : 0.02);
+    spoiler_.Spoil(*message, ShareToSpoil(i));
     if (i % 3 != 0) SetStamp(*message, stamp);
     publisher_.publish(message);
   }

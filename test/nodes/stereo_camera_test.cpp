@@ -143,6 +143,18 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsRefusedWhileTheRoverDrives) {
   WaitUntil([&] { return Set("left", Calibration(false)).empty(); }, "acceptance");
 }
 
+TEST_F(StereoCameraNodeTest, ACalibrationThatIsNotFiniteIsRefusedByName) {
+  sensor_msgs::CameraInfo info = Calibration(true);
+  info.D.back() = INFINITY;
+  EXPECT_EQ(Set("left", info),
+            "refused: camera_info is not set: D holds a value that is not finite");
+  info = Calibration(true);
+  info.P[3] = NAN;
+  EXPECT_EQ(Set("left", info),
+            "refused: camera_info is not set: P holds a value that is not finite");
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
 TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
   AwaitDiagnosis("calibration", DiagnosticStatus::WARN, "not calibrated");
   WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");

@@ -7,6 +7,7 @@
 
 #include "arfm_vo/configuration/option_traits.h"
 #include "arfm_vo/ros/chassis_node_options.h"
+#include "arfm_vo/ros/pan_tilt_node.h"
 #include "arfm_vo/ros/simulator_node.h"
 #include "ros/expect_throw.h"
 
@@ -53,6 +54,8 @@ void ExpectNoInfiniteLimit() {
 }
 
 TEST(InfiniteLimits, AreRefusedByTheChassisNode) { ExpectNoInfiniteLimit<ChassisNodeOptions>(); }
+
+TEST(InfiniteLimits, AreRefusedByTheHead) { ExpectNoInfiniteLimit<PanTiltNodeOptions>(); }
 
 TEST(InfiniteLimits, AreRefusedByTheSimulator) {
   SimulatorNodeOptions options;

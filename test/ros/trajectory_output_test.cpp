@@ -62,6 +62,15 @@ TEST_F(TrajectoryOutputTest, AFurtherRunDoesNotOverwriteTheFirst) {
   EXPECT_EQ(ReadTumTrajectory(folder_ / "trajectory_2.tum").size(), 2u);
 }
 
+TEST_F(TrajectoryOutputTest, TheTrajectoryOfAnEarlierDriveStays) {
+  TrajectoryOutput(folder_, kFrame).Save({{1.5, Rigid3(), true}});
+  TrajectoryOutput output(folder_, kFrame);
+  for (int i = 0; i < 2; ++i) output.Save({{2.5, Rigid3(), true}, {3.5, Rigid3(), true}});
+  EXPECT_EQ(ReadTumTrajectory(folder_ / "trajectory.tum").size(), 1u);
+  EXPECT_EQ(ReadTumTrajectory(folder_ / "trajectory_2.tum").size(), 2u);
+  EXPECT_FALSE(fs::exists(folder_ / "poses_3.txt")) << "saved twice in one run";
+}
+
 TEST_F(TrajectoryOutputTest, WithoutADirectoryItSaysSo) {
   EXPECT_FALSE(TrajectoryOutput("", kFrame).is_enabled());
   EXPECT_INVALID(TrajectoryOutput("", kFrame).Save({}), "trajectory_dir is not set");

@@ -12,7 +12,7 @@ struct BackoffOptions {
 
   void Check() const {
     Require(first_s > 0, "backoff.first_s must be positive");
-    Require(max_s >= first_s, "backoff.max_s must not be below backoff.first_s");
+    Require(max_s >= first_s && max_s <= 3600, "backoff.max_s must be in backoff.first_s..3600");
   }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {

@@ -8,23 +8,27 @@ namespace arfm_vo {
 
 /// Writes DIR/poses.txt (KITTI, lost pairs interpolated), DIR/tracked.txt (a line for each of
 /// poses.txt: 1 where the pair was tracked, 0 where its pose is interpolated) and
-/// DIR/trajectory.tum (tracked pairs only), making DIR; files of the second and later runs are
-/// called poses_2.txt and so on. frame.txt says whose poses they are, as the .tum does. Each file
-/// is written whole or not at all. Throws std::system_error naming the file.
+/// DIR/trajectory.tum (tracked pairs only), making DIR. Files of an earlier run, of this process or
+/// another, stay: those of the next one are called poses_2.txt and so on. frame.txt says whose
+/// poses they are, as the .tum does. Each file is written whole or not at all. Throws
+/// std::system_error naming the file.
 class TrajectoryOutput {
  public:
   /// `directory` may be empty: then there is nowhere to write to. `frame` is whose poses they are,
   /// in words.
-  TrajectoryOutput(std::string directory, std::string frame)
-      : directory_(std::move(directory)), frame_(std::move(frame)) {}
+  TrajectoryOutput(std::string directory, std::string frame);
 
   bool is_enabled() const { return !directory_.empty(); }
   /// Returns what was written, in words. Throws std::invalid_argument where there is no directory.
   std::string Save(const Trajectory& trajectory) const;
   /// What is saved from now on is another run.
-  void StartRun() { ++run_; }
+  void StartRun();
 
  private:
+  /// Of a file of this run.
+  std::string PathOf(const std::string& name, const std::string& extension) const;
+  void SkipEarlierRuns();
+
   std::string directory_, frame_;
   int run_ = 1;
 };
