@@ -3,6 +3,7 @@
 # the marks of README.md. Takes some minutes; best on a machine that does nothing else.
 # Usage: scripts/benchmark.sh [KITTI_FOLDER]     default: KITTI 06 of ../shared/data, else a rendered drive
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo

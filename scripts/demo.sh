@@ -5,6 +5,7 @@
 #        scripts/demo.sh --simulation [X_M Y_M HEADING_DEG [OUTPUT_DIR]]
 # With --simulation a simulated rover drives to a goal by sight alone, and a picture of the drive is written.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 if [ "${1:-}" = --simulation ]; then
   shift

@@ -4,6 +4,7 @@
 #        --checks   also what scripts/static_checks.sh needs
 #        --list GROUP ...   installs nothing, prints the packages of build, ros, libraries, tests, runtime, hardware
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 
 build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin ccache)
 # (libstereo-image-proc-dev and libimage-proc-dev hold the package.xml and nodelet lists that roslaunch needs.)

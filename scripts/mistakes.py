@@ -143,6 +143,9 @@ def find_session(leader):
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     def give_up(*_):
         raise TimeoutError
     signal.signal(signal.SIGALRM, give_up)
