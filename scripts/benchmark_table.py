@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Prints the table of scripts/benchmark.sh and writes it between the marks of the README.
+"""Prints the table of scripts/benchmark.sh and writes it between the marks of docs/benchmark.md.
 
-Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE README
+Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE PAGE
 """
 import csv
 import json
