@@ -17,7 +17,9 @@ output=${2:-_demo}
 [ -e "$input" ] || { echo "demo: $input: no such bag or KITTI folder" >&2; exit 1; }
 scripts/install_dependencies.sh
 # Only what the demo runs.
-scripts/build.sh arfm_node pose_node ba_node truth_path_node camera_mount_node kitti_to_bag evaluate_trajectory
+targets=(arfm_node pose_node ba_node truth_path_node camera_mount_node evaluate_trajectory)
+if [ -d "$input" ]; then targets+=(kitti_to_bag); fi
+scripts/build.sh "${targets[@]}"
 export PATH=/usr/bin:$PATH
 set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
 export ROS_MASTER_URI=http://localhost:${ROS_MASTER_PORT:-11911}

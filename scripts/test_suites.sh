@@ -54,7 +54,6 @@ enter() {
   unshare "${spaces[@]}" bash -c '
     root=$1; shift
     mount -t proc proc "$root/proc"; mount --rbind /dev "$root/dev"; mount --rbind /sys "$root/sys"
-    mkdir -p "$root/root/.ccache" "${CCACHE_DIR:=$HOME/.ccache}"; mount --bind "$CCACHE_DIR" "$root/root/.ccache"
     ip link set lo up
     exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 "$@"' -- "${@:2}"
 }
