@@ -3,6 +3,7 @@
 # docs/ablation.md.
 # Usage: scripts/ablation.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/kitti_folders.sh ablation "$@"
 scripts/build.sh kitti_odometry simulate_kitti

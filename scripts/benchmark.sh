@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Measures SURF, matching and the whole pair against what Debian offers, and writes the table between
-# the marks of README.md. Takes some minutes; best on a machine that does nothing else.
+# the marks of docs/benchmark.md. Takes some minutes; best on a machine that does nothing else.
 # Usage: scripts/benchmark.sh [KITTI_FOLDER]     default: KITTI 06 of ../shared/data, else a rendered drive
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo
@@ -23,4 +24,4 @@ ARFM_VO_PAIR=$left:$folder/image_1/$(basename "$left") "$programs/features_bench
 "$programs/kitti_odometry" "$folder" --output "$work/run" > "$work/lines" 2> "$work/errors" ||
   { cat "$work/errors" >&2; exit 1; }
 scripts/benchmark_table.py "$work/features.json" "$work/lines" "$work/run/timing.csv" \
-  "$(basename "$folder")" README.md
+  "$(basename "$folder")" docs/benchmark.md

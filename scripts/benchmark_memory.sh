@@ -3,6 +3,7 @@
 # Usage: scripts/benchmark_memory.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 # PAIRS=N: so many pairs. Takes some minutes a folder.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/kitti_folders.sh benchmark_memory "$@"
 pairs=${PAIRS:-2000}

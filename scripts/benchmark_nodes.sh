@@ -3,6 +3,7 @@
 # to odometry, pairs a second, dropped pairs, memory. The mount is given, so that no pair waits for the bag's tf. Run on a machine that does nothing else.
 # Usage: scripts/benchmark_nodes.sh BAG [SPEED ...]      SPEED: times that of the recording (default 1 2 3 4)
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 [ $# -ge 1 ] || { sed -n 2,4p "$0" >&2; exit 2; }
 bag=$(realpath "$1"); shift

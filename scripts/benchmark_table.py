@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Prints the table of scripts/benchmark.sh and writes it between the marks of the README.
+"""Prints the table of scripts/benchmark.sh and writes it between the marks of docs/benchmark.md.
 
-Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE README
+Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE PAGE
 """
 import csv
 import json
@@ -79,6 +79,9 @@ def list_pair(lines_path, timing_path):
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     features, lines, timing, sequence, readme = sys.argv[1:6]
     all_of = read_medians(features)
     dlib = all_of["DlibSurf"]["cpu_time"] / all_of[SURF.format(1000, 1, 100)]["cpu_time"]

@@ -2,6 +2,7 @@
 # Measures the global adjustment on drives of 125 to 1,000 keyframes and writes docs/global_adjustment.md.
 # Usage: scripts/bundle_table.sh        on a machine that does nothing else
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 if [ -z "${BUILD_DIR:-}" ]; then scripts/build.sh bundle_benchmark; fi
 work=$(mktemp -d)

@@ -3,6 +3,7 @@
 # compares with the truth: fx and baseline must be within 0.1 %, cx and cy within 1 px. The package must be built.
 # Usage: scripts/calibration_figures.sh [RENDER_OPTION ...]     such as --pairs 15 --width 812
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 programs=${BUILD_DIR:-_b}/devel/lib/arfm_vo
 work=$(mktemp -d)

@@ -2,6 +2,7 @@
 # Drives the simulated rover to 24 goals by sight alone, more than an hour, as many at a time as there are CPUs, and writes
 # docs/driving.md and docs/drives.jpg. Usage: scripts/closed_loop.sh [DIR]     drives already in DIR are not driven again
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 goals=24
 scripts/build.sh drive_simulation

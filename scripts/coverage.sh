@@ -4,6 +4,7 @@
 # Usage: scripts/coverage.sh [--lines] [LAYER ...]     default: all; with LAYER .. only the tests of these
 # BUILD_DIR (default _b_coverage) is the build tree.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 lines=
 if [[ ${1-} == --lines ]]; then lines=1; shift; fi

@@ -5,6 +5,7 @@
 #        scripts/demo.sh --simulation [X_M Y_M HEADING_DEG [OUTPUT_DIR]]
 # With --simulation a simulated rover drives to a goal by sight alone, and a picture of the drive is written.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 if [ "${1:-}" = --simulation ]; then
   shift
@@ -16,7 +17,9 @@ output=${2:-_demo}
 [ -e "$input" ] || { echo "demo: $input: no such bag or KITTI folder" >&2; exit 1; }
 scripts/install_dependencies.sh
 # Only what the demo runs.
-scripts/build.sh arfm_node pose_node ba_node truth_path_node camera_mount_node kitti_to_bag evaluate_trajectory
+targets=(arfm_node pose_node ba_node truth_path_node camera_mount_node evaluate_trajectory)
+if [ -d "$input" ]; then targets+=(kitti_to_bag); fi
+scripts/build.sh "${targets[@]}"
 export PATH=/usr/bin:$PATH
 set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
 export ROS_MASTER_URI=http://localhost:${ROS_MASTER_PORT:-11911}

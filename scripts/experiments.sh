@@ -3,6 +3,7 @@
 # Usage: scripts/experiments.sh [KITTI_FOLDER ...]      default: those of ../shared/data that are there
 # ARFM_VO_SHARED: the folder that holds data/matching, data/kitti and data/calibration.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 readonly MAX_PAIRS=100  # of a sequence, as in the paper

@@ -597,6 +597,9 @@ Lines: T from 0.5 to 1; dots: T {RATIO}. Ours against theirs:
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     work, docs = sys.argv[1:3]
     Matching(os.path.join(work, "matching.csv")).check()
     shutil.rmtree(os.path.join(docs, "experiments"), ignore_errors=True)

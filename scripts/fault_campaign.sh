@@ -2,6 +2,7 @@
 # Injects faults into the running nodes of the simulated rover and writes docs/fault_campaign.md.
 # Usage: scripts/fault_campaign.sh [--only TEXT|TEXT|..]      with --only nothing is written
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 scripts/build.sh chassis_node simulator_node arfm_node pose_node ba_node truth_path_node arfm_vo_generate_messages_py

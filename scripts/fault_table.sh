@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures how the rover stops at each fault and writes docs/faults.md. Usage: scripts/fault_table.sh
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 scripts/build.sh test_simulation
 ARFM_VO_FAULT_TABLE=$PWD/docs/faults.md \

@@ -6,6 +6,7 @@
 # Usage: scripts/fuzz.sh [SECONDS [TARGET ...]]     default: 60 s for each target
 # BUILD_DIR (default _b_fuzz) is the build tree; JOBS (default: all processors) targets are fed at a time.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 seconds=${1:-60}; shift || true
 [[ $seconds =~ ^[0-9]+$ ]] || { sed -n '2,8s/^# \?//p' "$0" >&2; exit 2; }

@@ -4,8 +4,9 @@
 #        --checks   also what scripts/static_checks.sh needs
 #        --list GROUP ...   installs nothing, prints the packages of build, ros, libraries, tests, runtime, hardware
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 
-build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin ccache)
+build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin)
 # (libstereo-image-proc-dev and libimage-proc-dev hold the package.xml and nodelet lists that roslaunch needs.)
 # libX-msgs-dev holds the headers, ros-X-msgs the .msg files; both are needed.
 ros=(libroscpp-dev ros-message-generation ros-message-runtime

@@ -5,6 +5,7 @@
 # where a test fails or a sanitizer reports.
 # Usage: scripts/malformed_input.sh [NUMBER]
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 number=${1:-100000}
 [[ $number =~ ^[0-9]+$ ]] || { sed -n '2,6s/^# \?//p' "$0" >&2; exit 2; }

@@ -14,6 +14,7 @@ import time
 
 import rosbag
 import rospy
+from sensor_msgs.msg import CompressedImage
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "_b"))
@@ -56,12 +57,19 @@ def darken(message):
     message.data = bytes(len(message.data))
 
 
+def compress(topic, message):
+    if not topic.endswith("image_rect"):
+        return topic, message
+    return topic + "/compressed", CompressedImage(message.header, "png", b"")
+
+
 def swap(topic, message):
     if "/left/" in topic:
         return topic.replace("left", "right"), message
     return topic.replace("right", "left"), message
 
 
+PROGRAMS = BUILD + "/devel/lib/arfm_vo/"
 REPLAY = "replay.launch rviz:=false bag:=input.bag "
 LIVE = ("odometry.launch & sleep 3; rosbag play --quiet input.bag & "
         "wait %1")  # as beside a camera of one's own
@@ -86,6 +94,15 @@ MISTAKES = [
     ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
     ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
     ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "display"),
+    ("wrong bag", without("image_rect", "camera_info"), REPLAY, "its cameras are none"),
+    ("compressed images only", compress, REPLAY, "holds compressed images only"),
+    ("second instance", None, "odometry.launch & sleep 4; roslaunch arfm_vo odometry.launch",
+     "registered with same name"),
+    ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': "),
+    ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye: "),
+    ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head': "),
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 3 --width 640 > /dev/null; " + PROGRAMS +
+     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "9x6"),
 ]
 
 
@@ -102,6 +119,8 @@ def write_input(folder, edit):
         bag.write(source.read(1000000 if edit == "half" else -1))
     with open(os.path.join(folder, "config.yaml"), "w") as file:
         file.write("frontend: {no_such_key: 1}\n")
+    with open(os.path.join(folder, "camera.yaml"), "w") as file:
+        file.write("{left_device: /dev/no_left_eye, right_device: /dev/no_right_eye}\n")
 
 
 def watch(folder, arguments, wanted):
@@ -111,7 +130,9 @@ def watch(folder, arguments, wanted):
         port = probe.getsockname()[1]
     environment = {**os.environ, "PWD": folder, "ROS_MASTER_URI": f"http://localhost:{port}"}
     environment.pop("DISPLAY", None)
-    command = f'. {BUILD}/devel/setup.bash; {"set -m; " if "&" in arguments else "exec "}roslaunch arfm_vo {arguments}'
+    mode = "set -m;" if "&" in arguments or ";" in arguments else "exec"
+    call = arguments if arguments.startswith(PROGRAMS) else f"roslaunch arfm_vo {arguments}"
+    command = f". {BUILD}/devel/setup.bash; {mode} {call}"
     run = subprocess.Popen(["bash", "-c", command], env=environment, cwd=folder, text=True, errors="replace",
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
     signal.alarm(60)
@@ -143,6 +164,9 @@ def find_session(leader):
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     def give_up(*_):
         raise TimeoutError
     signal.signal(signal.SIGALRM, give_up)
@@ -157,7 +181,7 @@ def main():
             print(rows[-1], flush=True)
     with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
         page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
-                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started.\n\n"
+                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: with the time to render its pictures).\n\n"
                    "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
     sys.exit(num_late > 0)
 

@@ -36,6 +36,9 @@ def attend():
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     if len(rospy.myargv()) != 1:
         sys.exit(__doc__)
     # Ctrl-C must find the node alive, so that it can still stop the rover.

@@ -36,6 +36,9 @@ def read_truth(bag_path, topic):
 
 
 def main():
+    if {"--help", "-h"} & set(sys.argv):
+        print(__doc__)
+        return
     if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
     tum_path, bag_path, output = sys.argv[1:4]

@@ -3,6 +3,7 @@
 # calibration, and writes docs/results.md and, of the default folders, the table in the README. What peers reach stands in docs/peers.csv.
 # Usage: scripts/results.sh [KITTI_FOLDER ...]     default: those of ../shared/data that are there
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/kitti_folders.sh results "$@"
 program=${BUILD_DIR:-_b}/devel/lib/arfm_vo/kitti_odometry

@@ -4,6 +4,7 @@
 # A quarter of an hour on two cores that do nothing else. WORK=DIR: keeps each run's numbers there, and does not repeat
 # the runs whose numbers it finds there.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 poses=${1:-${ARFM_VO_SHARED:-../shared}/data/kitti/ground_truth_poses}
 [ -d "$poses" ] || { echo "simulated_kitti: $poses: no such folder of KITTI poses" >&2; exit 1; }

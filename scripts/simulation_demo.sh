@@ -2,6 +2,7 @@
 # A simulated rover drives to a goal by sight alone, through all the nodes, without a screen; writes a picture of the
 # drive. Usage: scripts/simulation_demo.sh [X_M Y_M HEADING_DEG [OUTPUT_DIR]]      default 4 1.5 90, _demo_simulation
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 x=${1:-4} y=${2:-1.5} heading=${3:-90} output=${4:-_demo_simulation}
 scripts/build.sh simulator_node chassis_node arfm_node pose_node ba_node truth_path_node pan_tilt_node arfm_vo_nodelets \

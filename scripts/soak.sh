@@ -5,6 +5,7 @@
 # writes docs/soak.md. Status 1 where it was not tracked again.
 # Usage: scripts/soak.sh [PAIRS [SECONDS [KITTI_FOLDER ...]]]     default: 50000 pairs; ends after SECONDS (0: never)
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 pairs=${1:-50000} seconds=${2:-0}
 [[ $pairs =~ ^[0-9]+$ && $seconds =~ ^[0-9]+$ ]] || { sed -n '2,6s/^# \?//p' "$0" >&2; exit 2; }

@@ -4,6 +4,7 @@
 # with the first finding. Needs: apt-get install shellcheck pyflakes3 cppcheck [clang-tidy]
 # Usage: scripts/static_checks.sh [--tidy [FOLDER ...]]
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 for tool in shellcheck pyflakes3 cppcheck; do

@@ -5,6 +5,7 @@
 #        default folders: those of ../shared/data that are there, the hand-held walk too
 #        --all   60 disturbances instead of 16, to docs/stress_all.md, and how long it took
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 all=()
 page=stress

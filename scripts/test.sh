@@ -2,6 +2,7 @@
 # Installs what is missing, builds, and runs every test. Usage: scripts/test.sh [CTEST_ARGUMENT ...]
 # With arguments only ctest runs, without the tests in the virtual machine.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh
 scripts/build.sh

@@ -5,6 +5,7 @@
 # Usage: scripts/test_hardware.sh [--check] [PART ...]     video, vcan, chain; default: all
 #        --check leaves docs/hardware_faults.md as it is
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 if reason=$(scripts/virtual_machine.sh --prepare 2>&1); then :; else
   echo "SKIPPED: tests on real SocketCAN and V4L2: $reason"

@@ -9,6 +9,7 @@
 # Each ends with a line "SUITE: ... tests". The chroots (4 GB each) stay in ARFM_VO_SUITES (default: ~/.cache/arfm_vo/suites);
 # the packages come from where this machine's apt has them.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 suites=${ARFM_VO_SUITES:-${XDG_CACHE_HOME:-$HOME/.cache}/arfm_vo/suites}
 mkdir -p "$suites"
@@ -53,7 +54,6 @@ enter() {
   unshare "${spaces[@]}" bash -c '
     root=$1; shift
     mount -t proc proc "$root/proc"; mount --rbind /dev "$root/dev"; mount --rbind /sys "$root/sys"
-    mkdir -p "$root/root/.ccache" "${CCACHE_DIR:=$HOME/.ccache}"; mount --bind "$CCACHE_DIR" "$root/root/.ccache"
     ip link set lo up
     exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 "$@"' -- "${@:2}"
 }

@@ -7,6 +7,7 @@
 # Exit status: the command's; 124 timed out, 125 the machine ended without a report, 126 it cannot be made here (the
 # reason is on stderr). Files that the command writes to $VM_OUT come back in $VM_OUT. Needs no root outside.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 export PATH=$PATH:/sbin:/usr/sbin
 memory=2048 limit=600 prepare_only=
 while [[ ${1-} == --* ]]; do case $1 in

@@ -1,5 +1,10 @@
 #include "ceres_bundle.h"
 
+#include <ceres/iteration_callback.h>
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+#include <ceres/solver.h>
+
 #include <memory>
 
 #include "ceres_terms.h"

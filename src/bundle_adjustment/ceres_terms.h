@@ -1,8 +1,8 @@
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/sized_cost_function.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 #include "pose_manifold.h"
@@ -59,11 +59,20 @@ class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, kMaxCo
   const BundleObservation& observation_;
 };
 
+/// R with R^T R = information, which may be singular. (By eigenvalues it takes GCC 10 s more.)
+inline Eigen::Matrix<double, 6, 6> FindSquareRoot(const Eigen::Matrix<double, 6, 6>& information) {
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  const Eigen::LDLT<Matrix6d> ldlt(information);
+  const Matrix6d permutation = ldlt.transpositionsP() * Matrix6d::Identity();
+  const Matrix6d upper = ldlt.matrixU();
+  return ldlt.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * (upper * permutation);
+}
+
 /// sqrt(Omega) e of a PoseConstraint. Parameters: first pose, second pose.
 class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> {
  public:
   explicit ConstraintCost(const PoseConstraint& constraint)
-      : constraint_(constraint), root_(SquareRootOf(constraint.information)) {}
+      : constraint_(constraint), root_(FindSquareRoot(constraint.information)) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -80,15 +89,8 @@ class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> 
   }
 
  private:
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
-  static Matrix6d SquareRootOf(const Matrix6d& information) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
-    return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-           solver.eigenvectors().transpose();
-  }
-
   const PoseConstraint& constraint_;
-  const Matrix6d root_;
+  const Eigen::Matrix<double, 6, 6> root_;
 };
 
 /// What the correction's coefficients are off their prior's mean, times the root of its

@@ -1,7 +1,12 @@
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
 #include <ceres/version.h>
+#if CERES_VERSION_MAJOR > 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR >= 1)
+#include <ceres/manifold.h>
+#else
+#include <ceres/local_parameterization.h>
+#endif
 
 #include <array>
 

@@ -132,6 +132,15 @@ size_t ReadYamlName(const YamlValue& value, const std::vector<std::string>& name
   return found - names.begin();
 }
 
+std::vector<YamlValue> ListElements(const YamlValue& value) {
+  if (!value.node.IsSequence()) value.Fail("must be a list");
+  std::vector<YamlValue> elements;
+  for (size_t i = 0; i < value.node.size(); ++i) {
+    elements.push_back(value.Child(value.node[i], "[" + std::to_string(i) + "]"));
+  }
+  return elements;
+}
+
 YamlMapReader::YamlMapReader(const YamlValue& map) : map_(map) {
   if (map.node.IsNull() && map.key.empty()) return;
   if (!map.node.IsMap()) map.Fail("must be a map of options");
@@ -143,6 +152,14 @@ YamlMapReader::YamlMapReader(const YamlValue& map) : map_(map) {
       map.Child(entry.first, entry.first.Scalar()).Fail("stands twice");
     }
   }
+}
+
+std::optional<YamlValue> YamlMapReader::Find(const char* name) {
+  known_.emplace_back(name);
+  if (!map_.node.IsMap()) return std::nullopt;
+  const YAML::Node& map = map_.node;  // const: a search that adds no key
+  if (const YAML::Node found = map[name]) return map_.Child(found, name);
+  return std::nullopt;
 }
 
 void YamlMapReader::CheckAllKeysKnown() const {

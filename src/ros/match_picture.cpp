@@ -25,9 +25,9 @@ void DrawRing(cv::Mat& picture, double u, double v, int radius_px, const cv::Sca
 std::string Describe(const StereoFrame& frame, const PoseEstimate& pose) {
   char text[160];
   if (pose.IsMeasured())
-    std::snprintf(text, sizeof text, "%s%d of %d map points agree, rms %.2f px, %zu stereo points",
+    std::snprintf(text, sizeof text, "%s%d of %d map points agree, rms %.2f px",
                   pose.IsTracked() ? "" : "DEGRADED: ", pose.num_inliers, pose.num_matches,
-                  pose.rms_px, frame.points.size());
+                  pose.rms_px);
   else
     std::snprintf(text, sizeof text, "LOST: %s (%d matches, %zu stereo points)",
                   ToString(pose.status), pose.num_matches, frame.points.size());

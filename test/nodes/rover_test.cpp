@@ -58,6 +58,7 @@ const std::set<std::string> kWays = {
     "/pose_node /odom /chassis_node",
     "/pose_node /status /chassis_node",
     "/chassis_node /track_odom /pose_node",
+    "/chassis_node /drive_status /drive_panel",
     "/head/pan_tilt_node /joint_states /robot_state_publisher",
     "/robot_state_publisher /tf /pose_node",
     "/robot_state_publisher /tf_static /pose_node",

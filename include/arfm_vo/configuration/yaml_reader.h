@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ void ReadYamlValue(const YamlValue& value, std::string& field);
 int64_t ReadYamlInteger(const YamlValue& value, int64_t min, int64_t max);
 /// The index in `names` of the one that a scalar holds.
 size_t ReadYamlName(const YamlValue& value, const std::vector<std::string>& names);
+/// The elements of a list, each with its index in its name.
+std::vector<YamlValue> ListElements(const YamlValue& value);
 
 /// The visitor that reads the fields of one options struct from one YAML map.
 class YamlMapReader {
@@ -42,6 +45,8 @@ class YamlMapReader {
 
   template <class Field>
   void operator()(const char* name, Field& field);
+  /// The value of a key, which is known from now on; none where the map does not hold it.
+  std::optional<YamlValue> Find(const char* name);
   /// Fails where the map holds a key that was not asked for.
   void CheckAllKeysKnown() const;
 
@@ -64,12 +69,11 @@ void ReadYamlField(const YamlValue& value, Field& field) {
     using Limits = std::numeric_limits<Field>;
     field = static_cast<Field>(ReadYamlInteger(value, Limits::min(), Limits::max()));
   } else if constexpr (kIsVector<Field> || kIsArray<Field>) {
-    if (!value.node.IsSequence()) value.Fail("must be a list");
-    if constexpr (kIsVector<Field>) field.assign(value.node.size(), {});
-    if (value.node.size() != field.size())
+    const std::vector<YamlValue> elements = ListElements(value);
+    if constexpr (kIsVector<Field>) field.assign(elements.size(), {});
+    if (elements.size() != field.size())
       value.Fail("must be a list of " + std::to_string(field.size()));
-    for (size_t i = 0; i < field.size(); ++i)
-      ReadYamlField(value.Child(value.node[i], "[" + std::to_string(i) + "]"), field[i]);
+    for (size_t i = 0; i < field.size(); ++i) ReadYamlField(elements[i], field[i]);
   } else {
     ReadYamlValue(value, field);
   }
@@ -77,9 +81,7 @@ void ReadYamlField(const YamlValue& value, Field& field) {
 
 template <class Field>
 void YamlMapReader::operator()(const char* name, Field& field) {
-  known_.emplace_back(name);
-  if (!map_.node.IsMap()) return;
-  if (const YAML::Node& child = map_.node[name]) ReadYamlField(map_.Child(child, name), field);
+  if (const auto value = Find(name)) ReadYamlField(*value, field);
 }
 
 /// Reads options strictly: each key of the map must be a field (VisitFields) of the right type, or
