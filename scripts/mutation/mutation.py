@@ -98,8 +98,7 @@ def drop_what_does_not_compile(source):
             return
         if said.returncode == TIMED_OUT:
             print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
-            source.drop_all()
-            continue
+            return source.drop_all()
         wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines()
                  if line.startswith(str(source.path)) and " error:" in line}
         if not source.drop_lines(wrong):

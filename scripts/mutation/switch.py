@@ -88,8 +88,11 @@ class Source:
 
     def drop_all(self):
         self.by_rule = []
+        self.restore()
 
     def write(self):
+        if not self.by_rule and not self.protected:
+            return self.restore()
         text = "\n".join(self._switched_lines())
         for old, switched in self.protected:
             text = text.replace(old, switched, 1)
