@@ -1,0 +1,187 @@
+#include "pilot_fixture.h"
+
+namespace arfm_vo {
+namespace {
+
+TEST_F(PilotTest, WhatTheChassisSaysBlocks) {
+  const std::pair<ChassisStatus, StopReason> kCases[] = {
+      {{true, false, ChassisAuthority::kUs}, StopReason::kChassisEmergency},
+      {{false, true, ChassisAuthority::kUs}, StopReason::kChassisFault},
+      {{false, false, ChassisAuthority::kUs, true}, StopReason::kRemoteLost},
+      {{false, false, ChassisAuthority::kUs, false, true}, StopReason::kMotorFault},
+      {{false, false, ChassisAuthority::kRemoteControl}, StopReason::kRemoteControl},
+      {{false, false, ChassisAuthority::kNobody}, StopReason::kModeLost},
+      {{false, false, ChassisAuthority::kOther}, StopReason::kModeLost},
+  };
+  for (const auto& [status, reason] : kCases) {
+    pilot_ = Pilot(Options());
+    StartDriving();
+    chassis_ = status;
+    const DriveCommand command = Run(kTick_s);
+    EXPECT_TRUE(command.chassis_motion.IsZero());
+    EXPECT_TRUE(command.wants_authority);
+    EXPECT_EQ(State(), DriveState::kBlocked);
+    EXPECT_EQ(Reason(), reason);
+    chassis_ = {false, false, ChassisAuthority::kUs};
+    EXPECT_TRUE(Run(5).chassis_motion.IsZero()) << "went on without being started";
+    pilot_.Start(now_s_);
+    EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  }
+}
+
+TEST_F(PilotTest, StartIsRefusedWhileTheRemoteControlHasTheRover) {
+  chassis_.authority = ChassisAuthority::kRemoteControl;
+  Run(0.1);
+  const Reply reply = pilot_.Start(now_s_);
+  EXPECT_FALSE(reply.is_accepted);
+  EXPECT_EQ(reply.text, "not started: remote control has the rover");
+  EXPECT_FALSE(Run(0.1).may_speak);
+}
+
+TEST_F(PilotTest, ABusThatGoesDownBlocksAndIsNotResumedWithoutStart) {
+  StartDriving();
+  bus_up_ = false;
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kBusDown);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  bus_up_ = true;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  pilot_.Start(now_s_);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, ASilentChassisBlocks) {
+  StartDriving();
+  for (int i = 0; i < 30; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
+    pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_EQ(Reason(), StopReason::kNoFeedback);
+}
+
+TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
+  StartDriving();
+  for (int i = 0; i < 27; ++i) {
+    now_s_ += kTick_s;
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObserveTracks(now_s_, 0, 0);
+    pilot_.Tick(now_s_);
+    if (i == 23) {
+      EXPECT_EQ(State(), DriveState::kDriving) << "0.5 s are allowed";
+    }
+  }
+  EXPECT_EQ(Reason(), StopReason::kNoFeedback);
+}
+
+TEST_F(PilotTest, AStartForgetsAJam) {
+  PilotOptions options = Options();
+  options.motion.jam_s = 2;
+  pilot_ = Pilot(options);
+  StartDriving();
+  Run(1);
+  ASSERT_EQ(Reason(), StopReason::kTrackJammed);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(0.5);
+  EXPECT_EQ(State(), DriveState::kDriving);
+}
+
+TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
+  StartDriving();
+  for (int i = 0; i < 100 && State() == DriveState::kDriving; ++i) {
+    now_s_ += 0.1;
+    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
+    pilot_.ObserveOperator(now_s_);
+    pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
+    pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
+    pilot_.Tick(now_s_);
+  }
+  EXPECT_EQ(Reason(), StopReason::kSlip);
+  EXPECT_GT(*pilot_.Status().slip->forward_ratio, 0.9);
+  pilot_.ObserveEpoch(2, now_s_);
+  EXPECT_FALSE(pilot_.Status().slip);
+}
+
+TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
+  StartDriving();
+  now_s_ += 0.4;
+  EXPECT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+  now_s_ += 0.6;
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kHeldUp);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+}
+
+TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
+  StartDriving();
+  pilot_.ObserveForeignCommand(now_s_);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kForeignCommands);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  Run(1.1);
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+}
+
+TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
+  Run(0.2);
+  EXPECT_FALSE(pilot_.Status().is_tilt_near_limit);
+  pose_ = Rigid3(ExpSO3({22 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
+  Run(0.2);
+  EXPECT_TRUE(pilot_.Status().is_tilt_near_limit);
+}
+
+TEST(PilotOptions, EachPartIsChecked) {
+  const auto refuses = [](auto&& spoil) {
+    PilotOptions options;
+    options.Check();
+    spoil(options);
+    try {
+      options.Check();
+      return false;
+    } catch (const std::invalid_argument&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(refuses([](auto& options) { options.kinematics.gauge_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.limits.max_turn_rate_radps = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal.position_tolerance_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.stop_look_go.step_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.slip.window_m = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.pose.max_tilt_deg = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.chassis.max_feedback_age_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.motion.jam_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.operator_watch.timeout_s = kNaN; }));
+  EXPECT_TRUE(refuses([](auto& options) { options.goal_limits.max_distance_m = kNaN; }));
+  for (double PilotOptions::*field :
+       {&PilotOptions::settle_s, &PilotOptions::resume_after_s, &PilotOptions::max_pause_s,
+        &PilotOptions::fresh_command_s, &PilotOptions::warning_s, &PilotOptions::max_tick_gap_s,
+        &PilotOptions::arming_timeout_s, &PilotOptions::max_stall_s,
+        &PilotOptions::velocity_timeout_s})
+    EXPECT_TRUE(refuses([&](auto& options) { options.*field = kNaN; }));
+}
+
+TEST_F(PilotTest, WrongOptionsAreNamed) {
+  PilotOptions options;
+  options.velocity_timeout_s = 1;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  options = PilotOptions();
+  options.limits.max_speed_mps = 0.5;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (double PilotOptions::*field : {&PilotOptions::max_pause_s, &PilotOptions::max_stall_s,
+                                      &PilotOptions::warning_s, &PilotOptions::fresh_command_s}) {
+    options = PilotOptions();
+    options.*field = infinite;
+    EXPECT_THROW(Pilot{options}, std::invalid_argument);
+  }
+  options = PilotOptions();
+  options.pose.max_position_sigma_m = infinite;
+  EXPECT_THROW(Pilot{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace arfm_vo
