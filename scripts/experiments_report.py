@@ -25,7 +25,22 @@ PAPER_RULE = "variance_over_mean_squared"
 PAPER_ERROR_PERCENT, PAPER_SECONDS = 0.53, 7.25
 PAPER_SEQUENCE = "04"
 RATIO = 0.8  # of the comparison of methods
+OTHERS_PICTURES = "_experiments"
 COLORS = plt.rcParams["axes.prop_cycle"].by_key()["color"]
+
+
+def show(source, docs, name, caption):
+    """The lines that show a picture, which is copied beside the page; not there: none. Recordings are not ours to
+    publish: their pictures, but for plots (.png), stay out of the repository, in a folder that git ignores."""
+    if not os.path.exists(source):
+        return []
+    is_ours = "rendered" in name or name.endswith(".png")
+    folder = os.path.join(docs, "experiments") if is_ours else OTHERS_PICTURES
+    os.makedirs(folder, exist_ok=True)
+    shutil.copy(source, os.path.join(folder, name))
+    if is_ours:
+        return [f"{caption}:\n\n![{caption}](experiments/{name})\n"]
+    return [f"{caption}: `{OTHERS_PICTURES}/{name}`\n"]
 
 
 class Matching:
@@ -236,12 +251,8 @@ def write_rules(matching, runs, work, docs, claims):
     for name in (matching.stereo[:1] + matching.planar[:1]):
         for kind in ("fixed_0.6", "adaptive"):
             file = f"{name}_{kind}.jpg"
-            if os.path.exists(os.path.join(work, "pictures", file)):
-                target = f"fig07_{file}"
-                shutil.copy(os.path.join(work, "pictures", file),
-                            os.path.join(docs, "experiments", target))
-                text.append(f"{name}, {kind.replace('_', ' ')} (green right, red wrong):\n\n"
-                            f"![matches](experiments/{target})\n")
+            text += show(os.path.join(work, "pictures", file), docs, f"fig07_{file}",
+                         f"{name}, {kind.replace('_', ' ')} (green right, red wrong)")
     return "\n".join(text)
 
 
@@ -332,10 +343,8 @@ def write_strategies(matching, work, docs, claims):
             table(["set", "strategy", "matches", "right", "share, %", "ms"], rows), ""]
     name = (matching.planar or matching.stereo)[0]
     for strategy in STRATEGIES:
-        source = os.path.join(work, "pictures", f"{name}_{strategy}.jpg")
-        if os.path.exists(source):
-            shutil.copy(source, os.path.join(docs, "experiments", f"fig08_{strategy}.jpg"))
-            text.append(f"{name}, {STRATEGY_NAMES[strategy]}:\n\n![matches](experiments/fig08_{strategy}.jpg)\n")
+        text += show(os.path.join(work, "pictures", f"{name}_{strategy}.jpg"), docs, f"fig08_{name}_{strategy}.jpg",
+                     f"{name}, {STRATEGY_NAMES[strategy]}")
     return "\n".join(text)
 
 
@@ -442,49 +451,8 @@ def write_indoor(all_runs, work, docs, claims):
 
 
 def copy_depths(work, docs, name):
-    source = os.path.join(work, "pictures", f"{name}_depths.jpg")
-    if not os.path.exists(source):
-        return []
-    shutil.copy(source, os.path.join(docs, "experiments", f"depths_{name}.jpg"))
-    return [f"Features coloured by depth, red near to blue far:\n\n"
-            f"![features by depth](experiments/depths_{name}.jpg)\n"]
-
-
-def write_outdoor(all_runs, work, docs, claims):
-    text = ["## Figs 16, 17: the outdoor run\n",
-            f"The paper: {PAPER_ERROR_PERCENT} % after 100 m, {PAPER_SECONDS} s a pair.\n"]
-    rows = []
-    for name, runs in all_runs.items():
-        for run in runs:
-            if run.config not in ("best", "paper_adaptive") or not run.ran or run.truth is None:
-                continue
-            if name.startswith("rendered"):
-                continue
-            distance, error = run.distance(), run.error()
-            end = 100 * error[-1] / distance[-1]
-            rows.append([name, RUN_NAMES[run.config], f"{distance[-1]:.1f}", f"{error[-1]:.2f}",
-                         f"{end:.2f}", f"{np.median(run.ms) / 1000:.3f}"])
-            if run.config == "best":
-                claims += judge_outdoor(name, distance[-1], end, np.median(run.ms) / 1000)
-        if not name.startswith("rendered"):
-            text += [f"{name}:\n"] + copy_depths(work, docs, name)
-    text.insert(2, table(["sequence", "run", "driven, m", "error at the end, m", "error at the end, %",
-                          "s a pair"], rows) + "\n\nTrajectories and error over distance are above.\n")
-    return "\n".join(text)
-
-
-def judge_outdoor(name, driven, end, seconds):
-    is_papers = name == PAPER_SEQUENCE
-    reached = end <= PAPER_ERROR_PERCENT
-    error = ("reproduced" if reached else "not reproduced") if is_papers else "not comparable"
-    why = "" if is_papers else f"the paper ran KITTI {PAPER_SEQUENCE}, this is {name}: "
-    return [["17", f"error of {PAPER_ERROR_PERCENT} % of the way at the end", error,
-             f"{why}{end:.2f} % of {driven:.0f} m"],
-            ["17", f"{PAPER_SECONDS} s a pair", "reproduced" if seconds <= PAPER_SECONDS else "not reproduced",
-             f"{seconds:.3f} s on {name}, {PAPER_SECONDS / seconds:.0f} times faster, on this machine"]]
-
-
-# Figs 12, 13 -------------------------------------------------------------------------------------
+    return show(os.path.join(work, "pictures", f"{name}_depths.jpg"), docs, f"depths_{name}.jpg",
+                "Features coloured by depth, red near to blue far")
 
 
 def write_calibration(work, docs, claims):
@@ -500,10 +468,7 @@ def write_calibration(work, docs, claims):
         if name.startswith("rendered"):
             text += compare_with_truth(values, read_lines(os.path.join(work, "calibration_truth")))
         for picture in ("coverage.png", "rectified.jpg"):
-            if os.path.exists(os.path.join(folder, picture)):
-                target = f"fig12_{name}_{picture}"
-                shutil.copy(os.path.join(folder, picture), os.path.join(docs, "experiments", target))
-                text.append(f"![{picture}](experiments/{target})\n")
+            text += show(os.path.join(folder, picture), docs, f"fig12_{name}_{picture}", os.path.splitext(picture)[0])
     if not any(name.startswith("rendered") for name in names):
         text.append("No rendered board: `render_board_set` is not built here.\n")
     claims.append(["12, 13", "calibration of the camera", "not comparable",
