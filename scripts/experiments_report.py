@@ -455,6 +455,43 @@ def copy_depths(work, docs, name):
                 "Features coloured by depth, red near to blue far")
 
 
+def write_outdoor(all_runs, work, docs, claims):
+    text = ["## Figs 16, 17: the outdoor run\n",
+            f"The paper: {PAPER_ERROR_PERCENT} % after 100 m, {PAPER_SECONDS} s a pair.\n"]
+    rows = []
+    for name, runs in all_runs.items():
+        for run in runs:
+            if run.config not in ("best", "paper_adaptive") or not run.ran or run.truth is None:
+                continue
+            if name.startswith("rendered"):
+                continue
+            distance, error = run.distance(), run.error()
+            end = 100 * error[-1] / distance[-1]
+            rows.append([name, RUN_NAMES[run.config], f"{distance[-1]:.1f}", f"{error[-1]:.2f}",
+                         f"{end:.2f}", f"{np.median(run.ms) / 1000:.3f}"])
+            if run.config == "best":
+                claims += judge_outdoor(name, distance[-1], end, np.median(run.ms) / 1000)
+        if not name.startswith("rendered"):
+            text += [f"{name}:\n"] + copy_depths(work, docs, name)
+    text.insert(2, table(["sequence", "run", "driven, m", "error at the end, m", "error at the end, %",
+                          "s a pair"], rows) + "\n\nTrajectories and error over distance are above.\n")
+    return "\n".join(text)
+
+
+def judge_outdoor(name, driven, end, seconds):
+    is_papers = name == PAPER_SEQUENCE
+    reached = end <= PAPER_ERROR_PERCENT
+    error = ("reproduced" if reached else "not reproduced") if is_papers else "not comparable"
+    why = "" if is_papers else f"the paper ran KITTI {PAPER_SEQUENCE}, this is {name}: "
+    return [["17", f"error of {PAPER_ERROR_PERCENT} % of the way at the end", error,
+             f"{why}{end:.2f} % of {driven:.0f} m"],
+            ["17", f"{PAPER_SECONDS} s a pair", "reproduced" if seconds <= PAPER_SECONDS else "not reproduced",
+             f"{seconds:.3f} s on {name}, {PAPER_SECONDS / seconds:.0f} times faster, on this machine"]]
+
+
+# Figs 12, 13 -------------------------------------------------------------------------------------
+
+
 def write_calibration(work, docs, claims):
     text, names = ["## Figs 12, 13: calibration\n"], []
     for name in sorted(os.listdir(os.path.join(work, "calibration"))):
