@@ -55,6 +55,13 @@ TEST_F(ExactPairingTest, NoPairIsLostWhereTimeJumpsBack) {
   EXPECT_THAT(paired_s_, ElementsAre(60, 1, 2));
 }
 
+TEST_F(ExactPairingTest, NoPairIsLostWhereOneTopicJumpsBackBeforeTheOther) {
+  AddImage(60), AddInfo(60);
+  AddImage(1), AddImage(2), AddInfo(1), AddInfo(2);
+  AddInfo(0.5), AddInfo(0.6), AddImage(0.5), AddImage(0.6);
+  EXPECT_THAT(paired_s_, ElementsAre(60, 1, 2, 0.5, 0.6));
+}
+
 TEST_F(ExactPairingTest, IncompleteOnesOfALaterTimeKeepNoOthersOut) {
   for (int i = 0; i < 10; ++i) AddImage(4e9 + i);
   for (const double stamp_s : {1, 2, 3}) AddImage(stamp_s), AddInfo(stamp_s);

@@ -28,7 +28,8 @@ class ExactPairing {
   template <size_t topic>
   void Add(const std::tuple_element_t<topic, Set>& message) {
     const ros::Time stamp = message->header.stamp;
-    if (stamp < last_[topic] && stamp < newest_) {
+    // Another topic may have gone back before and be ahead by some messages: these wait on.
+    if (stamp < last_[topic] && stamp < newest_ && waiting_.count(stamp) == 0) {
       waiting_.clear();
       newest_ = stamp;
     }
