@@ -55,14 +55,19 @@ class PilotTest : public ::testing::Test {
     ASSERT_GT(Run(2).chassis_motion.forward_mps, 0.09);
   }
 
+  /// Started, without a goal.
+  void Start() {
+    chassis_.authority = ChassisAuthority::kUs;
+    Run(0.1);
+    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  }
+
   /// Started in the mode that stops after each step to look.
   void StartStopLookGo() {
     PilotOptions options = Options();
     options.stop_look_go.is_on = true;
     pilot_ = Pilot(options);
-    chassis_.authority = ChassisAuthority::kUs;
-    Run(0.1);
-    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+    Start();
   }
 
   DriveState State() const { return pilot_.Status().state; }

@@ -4,9 +4,7 @@ namespace arfm_vo {
 namespace {
 
 TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  Start();
   for (int i = 0; i < 20; ++i) {
     EXPECT_TRUE(pilot_.SetVelocity(now_s_, {0.05, 0}).is_accepted);
     Run(0.1);
@@ -16,9 +14,7 @@ TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
 }
 
 TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  Start();
   pilot_.SetVelocity(now_s_, {0.1, 0});
   ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
   pilot_.Stop();
@@ -27,9 +23,7 @@ TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
 }
 
 TEST_F(PilotTest, AVelocityOfBeforeABlockIsForgotten) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  Start();
   pilot_.SetVelocity(now_s_, {0.1, 0});
   ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
   pilot_.SetEmergencyStop("test", true);
@@ -50,9 +44,7 @@ TEST_F(PilotTest, AfterAStopTheSpeedGrowsFromNothing) {
 }
 
 TEST_F(PilotTest, ALateTickIsNoLeapOfTheSpeed) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  Start();
   Run(kTick_s);
   now_s_ += 0.4;
   pilot_.SetVelocity(now_s_, {0.1, 0});
@@ -62,9 +54,7 @@ TEST_F(PilotTest, ALateTickIsNoLeapOfTheSpeed) {
 }
 
 TEST_F(PilotTest, VelocityNeverExceedsTheCap) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.Start(now_s_);
+  Start();
   for (int i = 0; i < 200; ++i) {
     pilot_.SetVelocity(now_s_, {5, 5});
     EXPECT_LE(Run(kTick_s).chassis_motion.forward_mps, 0.1);
@@ -80,9 +70,7 @@ TEST_F(PilotTest, VelocityIsRefusedWhileThereIsAGoalOrWhereItIsNotFinite) {
 }
 
 TEST_F(PilotTest, AVelocityOfBeforeAGoalIsForgotten) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Start();
   pilot_.SetVelocity(now_s_, {0.1, 0});
   ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
   ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);

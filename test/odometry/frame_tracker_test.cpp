@@ -63,8 +63,9 @@ TEST_F(FrameTrackerTest, TellsWhereKnownPointsContradictThePoseOfNewOnes) {
   std::vector<LandmarkId> expected;
   for (const auto& [id, landmark] : map_.landmarks()) {
     if (landmark.keypoint.x >= kKnownPx || id % 3 != 0) continue;
-    LandmarkObservation observation;
+    LandmarkObservation observation{};
     observation.landmark = id;
+    observation.pixels.setZero();
     seen.push_back(observation);
     expected.push_back(id);
   }

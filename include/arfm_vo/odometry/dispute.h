@@ -22,21 +22,22 @@ class Dispute {
   /// Takes a pose, of whose points `num_proven` agreed with an earlier one; `continuity`: see
   /// TrackedFrame. Returns whether it is to be believed.
   bool Judge(const PoseEstimate& pose, int num_proven, double continuity = 1) {
-    double wanted = is_open_ && is_doubtful_ ? kContinued : kInterrupted;
+    bool is_open = num_open_ > 0;
+    double wanted = is_open && is_doubtful_ ? kContinued : kInterrupted;
     if (num_followed_++ < kMinFollowed) wanted = 0;  // after a gap known points may look otherwise
     const bool is_denied = continuity < wanted;
     const bool is_proven = pose.is_plausible && !is_denied && num_proven >= kMinProven;
     const double bound = IsWary() ? kContested / 2 : kContested;
     if (pose.contest >= bound || !pose.is_plausible || is_denied) {
       BeWary();
-      is_open_ = is_open_ || !is_proven;
+      is_open = is_open || !is_proven;
     } else if (num_wary_ > 0) {
       --num_wary_;
     }
     is_doubtful_ = IsWary() && (is_doubtful_ || is_denied);
-    if (is_proven) is_open_ = false;
-    num_open_ = is_open_ ? num_open_ + 1 : 0;
-    return !is_open_;
+    if (is_proven) is_open = false;
+    num_open_ = is_open ? num_open_ + 1 : 0;
+    return !is_open;
   }
 
   /// A pair without a pose.
@@ -44,16 +45,16 @@ class Dispute {
   void Reset() { *this = Dispute(); }
 
  private:
-  static constexpr int kWaryFrames = 10, kMinProven = 15, kMinFollowed = 5;
-  static constexpr int kMaxOpen = 30;
+  static constexpr int kWaryFrames = 10, kMinProven = 15, kMinFollowed = 5, kMaxOpen = 30;
   /// A pose of less continuity is not believed, nor one of less than kContinued where it would end
   /// a dispute. Undisturbed recordings have 0.49 and more, mostly 0.8 to 1.2; objects that take the
   /// pose along had 0.1 to 0.26 in the first pair.
   static constexpr double kInterrupted = 0.4, kContinued = 0.8;
 
-  int num_wary_ = 0, num_open_ = 0;
-  bool is_open_ = false, is_doubtful_ = false;
+  int num_wary_ = 0;
+  int num_open_ = 0;      ///< pairs in a row whose pose was not believed
   int num_followed_ = 0;  ///< pairs in a row that had a pose
+  bool is_doubtful_ = false;
 };
 
 }  // namespace arfm_vo

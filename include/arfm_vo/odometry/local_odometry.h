@@ -44,7 +44,7 @@ struct LocalOdometryOptions {
 };
 
 /// The pose of each frame against the local map, which it keeps up and refines by windowed bundle
-/// adjustment on a thread of its own (floors pose to bundle_adjustment). A frame that the map does
+/// adjustment on a thread of its own (layers pose to bundle_adjustment). A frame that the map does
 /// not know is looked for in the keyframes that left it; where it is found the map begins anew.
 /// What Session runs.
 /// The world is the left camera of the first frame after construction or Reset.
