@@ -1,5 +1,7 @@
 #include "arfm_vo/odometry/base_covariance.h"
 
+#include <algorithm>
+
 namespace arfm_vo {
 
 Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from_camera) {
@@ -11,6 +13,18 @@ Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from
   base_from_step.topRightCorner<3, 3>() = rotation;
   base_from_step.bottomLeftCorner<3, 3>() = rotation;
   return base_from_step * camera_covariance * base_from_step.transpose();
+}
+
+Matrix6 GapCovariance(const Twist& twist, double gap_s) {
+  // A base that stood may have begun to move as fast.
+  constexpr double kUnknownSpeed_m_s = 0.1, kUnknownTurn_rad_s = 0.1;
+  const double change = std::min(gap_s, 1.0);
+  const double way_m = (twist.head<3>().norm() * change + kUnknownSpeed_m_s) * gap_s;
+  const double turn_rad = (twist.tail<3>().norm() * change + kUnknownTurn_rad_s) * gap_s;
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.diagonal() << Eigen::Vector3d::Constant(way_m * way_m),
+      Eigen::Vector3d::Constant(turn_rad * turn_rad);
+  return covariance;
 }
 
 Matrix6 DriftCovariance::At(const Rigid3& odom_from_base, const Matrix6& base_covariance) const {

@@ -123,6 +123,7 @@ void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& obse
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
   point.votes = Votes(landmark);
+  point.is_proven = landmark.num_agreed > 0;
   correspondences.points.push_back(point);
 }
 

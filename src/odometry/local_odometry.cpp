@@ -67,6 +67,7 @@ class LocalOdometry::Implementation {
     tracker_.SetMotionBetweenEyes(later_from_now_);
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, later_from_now_);
     eye_faults_.Look(frame);
+    dispute_.Advance(frame.stamp_s);
     const bool is_left_good = eye_faults_.of_left().empty();
     const bool is_right_good = eye_faults_.of_right().empty();
     if (!is_right_good) frame.points.clear();

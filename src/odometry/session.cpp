@@ -14,8 +14,6 @@ constexpr double kMaxTwistInterval_s = 1;
 
 /// So long the base is taken to go on as it went, without a picture that tells.
 constexpr double kMaxBridge_s = 2;
-/// A base that stood may have begun to move as fast.
-constexpr double kUnknownSpeed_m_s = 0.1, kUnknownTurn_rad_s = 0.1;
 /// What a vehicle, or a hand, cannot do; and how wrong the speed before may be.
 constexpr double kMaxAcceleration_m_s2 = 10, kMaxTurnAcceleration_rad_s2 = 10;
 constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
@@ -23,18 +21,6 @@ constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
 /// by this part of the distance of what it sees.
 constexpr int kMaxUnknownPairs = 3;
 constexpr double kNewGround = 0.05;
-
-/// How far a base may be from where its last speed would have brought it: it may stop, or go twice
-/// as fast, within a second.
-Matrix6 GapCovariance(const Eigen::Matrix<double, 6, 1>& twist, double gap_s) {
-  const double change = std::min(gap_s, 1.0);
-  const double way_m = (twist.head<3>().norm() * change + kUnknownSpeed_m_s) * gap_s;
-  const double turn_rad = (twist.tail<3>().norm() * change + kUnknownTurn_rad_s) * gap_s;
-  Matrix6 covariance = Matrix6::Zero();
-  covariance.diagonal() << Eigen::Vector3d::Constant(way_m * way_m),
-      Eigen::Vector3d::Constant(turn_rad * turn_rad);
-  return covariance;
-}
 
 }  // namespace
 
@@ -157,8 +143,11 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     if (last_) {
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
+      new_map_ = NewMap{
+          *last_, pose.odom_from_base, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
     }
   }
+  DoubtNewMap(pose);
   pose.covariance = drift_.At(pose.odom_from_base,
                               BaseCovariance(pose.update.covariance_from_start, base_from_camera));
   if (!is_new_epoch) SetTwist(BaseCovariance(estimate.covariance, base_from_camera), pose);
@@ -167,6 +156,22 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
                                    base_from_camera};
   }
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
+}
+
+void Session::DoubtNewMap(SessionUpdate& pose) {
+  if (!new_map_) return;
+  const double stamp_s = pose.update.stamp_s;
+  if (new_map_->doubt.Follow(stamp_s, pose.odom_from_base)) {
+    // It may as well have gone on as before.
+    const Tracked& before = new_map_->before;
+    drift_.StartEpoch(new_map_->odom_from_base, before.covariance,
+                      GapCovariance(before.twist, stamp_s - before.stamp_s));
+    if (pose.update.pose.IsTracked()) {
+      pose.update.pose.status = PoseStatus::kDegraded;
+      pose.update.remark = "the new map moves otherwise than the one before the loss";
+    }
+  }
+  if (new_map_->doubt.IsOver()) new_map_.reset();
 }
 
 void Session::SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const {

@@ -64,7 +64,7 @@ class Refiner {
         weights_(observations.size()) {
     result_.camera_from_world = camera_from_world;
     result_.is_inlier = is_inlier;
-    if (is_inlier.empty()) result_.is_inlier.assign(observations.size(), 1);
+    if (is_inlier.empty()) BeginWithProven();
     CountInliers();
   }
 
@@ -91,6 +91,17 @@ class Refiner {
   bool HasEnoughInliers() {
     result_.status = RefinementStatus::kTooFewPoints;
     return result_.num_inliers >= options_.min_inliers;
+  }
+
+  /// New points join where they agree with the pose of these: on something that moves they agree
+  /// with one another so well that they would take the pose along.
+  void BeginWithProven() {
+    constexpr int kEnough = 15;  // as PoseEstimatorOptions::min_inliers
+    for (const PointObservation& observation : observations_) {
+      result_.is_inlier.push_back(observation.is_proven);
+    }
+    CountInliers();
+    if (result_.num_inliers < kEnough) result_.is_inlier.assign(observations_.size(), 1);
   }
 
   void CountInliers() {

@@ -71,6 +71,17 @@ TEST(Dispute, KnownPointsMayLookOtherwiseAfterAGap) {
   EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3));
 }
 
+TEST(Dispute, PairsThatAreMissingAreAGap) {
+  Dispute dispute = OnTheWay();
+  for (const double stamp_s : {7.0, 7.1, 7.2}) dispute.Advance(stamp_s);
+  for (int i = 0; i < 5; ++i) dispute.Judge(Pose(0), 59, 0.9);
+  dispute.Advance(7.4);
+  Dispute after_gap = dispute;
+  after_gap.Advance(8.9);
+  EXPECT_FALSE(dispute.Judge(Pose(0), 59, 0.3));
+  EXPECT_TRUE(after_gap.Judge(Pose(0), 59, 0.3));
+}
+
 TEST(Dispute, LeavesDoubtForAWhile) {
   Dispute dispute = OnTheWay();
   dispute.Judge(Pose(0.8), 3);

@@ -256,6 +256,25 @@ TEST_F(SessionTest, BeginsAnewOnGroundThatTheMapDoesNotKnow) {
   EXPECT_NEAR(pose.odom_from_base.translation.x(), 0.3 * 8, 0.1);
 }
 
+TEST_F(SessionTest, DoubtsANewMapThatMovesOtherwiseThanTheOneBefore) {
+  LocalOdometryOptions options;
+  options.restart_after_lost_s = 0;
+  session_ = Session(options);
+  for (int i = 0; i < 4; ++i) Step(0.3 * i);
+  const TexturedWall object(2);  // hides the wall from now on and goes with the camera
+  int num_doubted = 0;
+  for (int i = 4; i < 34; ++i) {
+    const SessionUpdate pose = Step(0, 0, false, [&](StereoImages& images) {
+      images = object.Render(images.stamp_s, Rigid3());
+    });
+    num_doubted += pose.epoch == 2 && !pose.IsTracked();
+    if (!pose.IsTracked()) continue;
+    const double error_m = std::abs(pose.odom_from_base.translation.x() - 0.3 * i);
+    EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0))) << i;
+  }
+  EXPECT_NEAR(num_doubted * kInterval_s, 2, 0.15);
+}
+
 TEST_F(SessionTest, BeginsNoEpochWithPairsWhosePicturesDoNotAgree) {
   for (int i = 0; i < 4; ++i) Step(0.3 * i);
   const TexturedWall elsewhere(2);

@@ -95,6 +95,26 @@ TEST(PoseRefinement, LeavesOutliersOut) {
   }
 }
 
+TEST(PoseRefinement, NewPointsThatMovedTogetherDoNotTakeThePoseAlong) {
+  constexpr int kNumProven = 60;
+  RandomEngine engine(21);
+  const Rigid3 truth = RandomPose(engine, 1, 5);
+  Rigid3 by_object = truth;
+  by_object.translation.z() += 0.2;
+  std::vector<PointObservation> observations = MakeObservations(truth, kNumProven, 0.5, engine);
+  for (const auto& moved : MakeObservations(by_object, 3 * kNumProven, 0.5, engine)) {
+    observations.push_back(moved);
+  }
+  const auto error_m = [&] {
+    const PoseRefinement refined = RefinePose(kSceneCamera, observations, truth, {});
+    EXPECT_EQ(refined.status, RefinementStatus::kConverged);
+    return (refined.camera_from_world.translation - truth.translation).norm();
+  };
+  EXPECT_GT(error_m(), 0.1);
+  for (size_t i = kNumProven; i < observations.size(); ++i) observations[i].is_proven = false;
+  EXPECT_LT(error_m(), 0.05);
+}
+
 TEST(PoseRefinement, MeasuresTheScaleOfTheResiduals) {
   RandomEngine engine(5);
   const Rigid3 truth = RandomPose(engine, 1, 5);

@@ -7,6 +7,7 @@
 namespace arfm_vo {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Twist = Eigen::Matrix<double, 6, 1>;  ///< seen from the base: (m/s, rad/s)
 
 /// On the diagonal where nothing is known: large, yet finite (1e308 makes rviz fall over).
 constexpr double kUnknownVariance = 9999;
@@ -14,6 +15,10 @@ constexpr double kUnknownVariance = 9999;
 /// The base's covariance (x, y, z m, rotations about x, y, z rad), seen from the base, of a camera
 /// pose with the covariance that PoseEstimate has: (rotation rad, translation m), camera frame.
 Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from_camera);
+
+/// Covariance (of DriftCovariance) of how far a base may be from where `twist` would have brought
+/// it without a picture: it may stop, or go twice as fast, within a second.
+Matrix6 GapCovariance(const Twist& twist, double gap_s);
 
 /// How sure the odometry is of where the base stands in odom, over worlds that follow one another:
 /// what was unsure when a world began stays, and an unsure heading makes the place unsure with the

@@ -42,9 +42,17 @@ class Dispute {
 
   /// A pair without a pose.
   void Interrupt() { num_followed_ = 0; }
+  /// The next pair's time: one much later than usual is as if pairs before it had no pose.
+  void Advance(double stamp_s) {
+    const double interval_s = stamp_s - stamp_s_;
+    if (interval_s > kGap * interval_s_) Interrupt();
+    interval_s_ = interval_s;
+    stamp_s_ = stamp_s;
+  }
   void Reset() { *this = Dispute(); }
 
  private:
+  static constexpr double kGap = 3;  ///< of the interval before
   static constexpr int kWaryFrames = 10, kMinProven = 15, kMinFollowed = 5, kMaxOpen = 30;
   /// A pose of less continuity is not believed, nor one of less than kContinued where it would end
   /// a dispute. Undisturbed recordings have 0.49 and more, mostly 0.8 to 1.2; objects that take the
@@ -55,6 +63,7 @@ class Dispute {
   int num_open_ = 0;      ///< pairs in a row whose pose was not believed
   int num_followed_ = 0;  ///< pairs in a row that had a pose
   bool is_doubtful_ = false;
+  double stamp_s_ = 0, interval_s_ = 0;  ///< of the last pair, and since the one before
 };
 
 }  // namespace arfm_vo

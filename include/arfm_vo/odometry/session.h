@@ -9,6 +9,7 @@
 #include "arfm_vo/odometry/local_odometry.h"
 #include "arfm_vo/odometry/map_frame.h"
 #include "arfm_vo/odometry/motion_model.h"
+#include "arfm_vo/odometry/new_map_doubt.h"
 #include "arfm_vo/odometry/trajectory_log.h"
 
 namespace arfm_vo {
@@ -21,7 +22,7 @@ struct SessionUpdate {
   Rigid3 odom_from_base;  ///< the last known where the pair is not tracked
   Matrix6 covariance = Matrix6::Identity() * kUnknownVariance;  ///< of odom_from_base, axes of odom
   /// (m/s, rad/s) seen from the base, since the last tracked pair.
-  Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
+  Twist twist = Twist::Zero();
   Matrix6 twist_covariance = Matrix6::Identity() * kUnknownVariance;
   std::optional<PlacedKeyframe> keyframe;  ///< where the pair became one
 
@@ -71,7 +72,12 @@ class Session {
     double stamp_s;
     Rigid3 odom_from_base;
     Matrix6 covariance;
-    Eigen::Matrix<double, 6, 1> twist;
+    Twist twist;
+  };
+  struct NewMap {
+    Tracked before;  ///< the last pose in the map before
+    Rigid3 odom_from_base;
+    NewMapDoubt doubt;
   };
   void PrepareFor(const StereoCamera& camera);
   /// Where the camera may be by the base's motion.
@@ -79,6 +85,7 @@ class Session {
   void Track(const StereoFrame& frame, const StereoImages& images, const Rigid3& base_from_camera,
              SessionUpdate& pose);
   void FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose);
+  void DoubtNewMap(SessionUpdate& pose);
   void Bridge(const Rigid3& base_from_camera, SessionUpdate& pose);
   bool IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
@@ -96,6 +103,7 @@ class Session {
   DriftCovariance drift_;
   MotionModel motion_;           // of the base in the odometry's world
   std::optional<Tracked> last_;  // measured
+  std::optional<NewMap> new_map_;
   std::optional<double> lost_since_s_;
   int num_unknown_ = 0;  // good pairs in a row that the map does not know
   MapFrame map_;

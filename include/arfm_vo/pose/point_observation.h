@@ -15,8 +15,9 @@ struct PointObservation {
   Eigen::Matrix3d x_covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d pixels;  ///< (u_left, v, u_right), px; u_right is not read unless has_right
   bool has_right = true;
-  double sigma_px = 1;  ///< standard deviation of each of `pixels`; positive
-  double votes = 1;     ///< for a pose that it agrees with, against others; not negative
+  double sigma_px = 1;    ///< standard deviation of each of `pixels`; positive
+  double votes = 1;       ///< for a pose that it agrees with, against others; not negative
+  bool is_proven = true;  ///< agreed with earlier poses
 
   /// Number of coordinates seen: 3, or 2 where the right image does not see the point.
   int NumCoordinates() const { return has_right ? 3 : 2; }

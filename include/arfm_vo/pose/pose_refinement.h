@@ -65,7 +65,8 @@ struct PoseRefinement {
 /// of its projection; (u, v) alone where the right image does not see the point. `scale` is
 /// measured from the residuals (median), and observations beyond the chi-square bound are left out.
 /// The covariance is that of an M-estimator (Huber, Robust Statistics, 1981, 7.6).
-/// `is_inlier` [N]: what to start with; empty = all. Observations must be IsValid().
+/// `is_inlier` [N]: what to start with; empty = what is proven, or all where that is too few.
+/// Observations must be IsValid().
 PoseRefinement RefinePose(const StereoCamera& camera,
                           const std::vector<PointObservation>& observations,
                           const Rigid3& camera_from_world, const PoseRefinementOptions& options,
