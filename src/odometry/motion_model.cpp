@@ -1,5 +1,7 @@
 #include "arfm_vo/odometry/motion_model.h"
 
+#include "arfm_vo/geometry/screw_motion.h"
+
 namespace arfm_vo {
 
 void MotionModel::Add(double stamp_s, const Rigid3& body_from_world) {
@@ -26,9 +28,7 @@ std::optional<Rigid3> MotionModel::Predict(double stamp_s) const {
   if (!last_ || is_new_world_) return std::nullopt;
   if (!last_->body_from_before || last_->interval_s <= 0) return last_->body_from_world;
   const double ratio = (stamp_s - last_->stamp_s) / last_->interval_s;
-  const Rigid3 motion(ExpSO3(ratio * LogSO3(last_->body_from_before->rotation)),
-                      Eigen::Vector3d(ratio * last_->body_from_before->translation));
-  return motion * last_->body_from_world;
+  return ScrewMotion(*last_->body_from_before, ratio) * last_->body_from_world;
 }
 
 }  // namespace arfm_vo

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "arfm_vo/geometry/screw_motion.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -29,6 +31,20 @@ TEST(Rigid3, LogIsTheInverseOfExp) {
 TEST(Rigid3, BoxPlusOfZeroIsNoMotion) {
   const Rigid3 moved = BoxPlus(kB_from_a, Eigen::Matrix<double, 6, 1>::Zero());
   EXPECT_LT((moved.Matrix() - kB_from_a.Matrix()).norm(), 1e-12);
+}
+
+TEST(ScrewMotion, IsAPowerOfTheMotion) {
+  for (const double angle : {0.0, 1e-8, 1e-3, 0.5, 1.5}) {
+    const Rigid3 motion(ExpSO3(angle * Eigen::Vector3d(0.6, -0.48, 0.64)),
+                        Eigen::Vector3d(0.3, -0.2, 1.1));
+    const auto expect_same = [&](const Rigid3& a, const Rigid3& b) {
+      EXPECT_LT((a.Matrix() - b.Matrix()).norm(), 1e-9) << angle;
+    };
+    expect_same(ScrewMotion(motion, 2), motion * motion);
+    expect_same(ScrewMotion(motion, -1), motion.Inverse());
+    expect_same(ScrewMotion(motion, 0), Rigid3());
+    expect_same(ScrewMotion(ScrewMotion(motion, 0.3), 10), motion * motion * motion);
+  }
 }
 
 }  // namespace

@@ -26,6 +26,21 @@ TEST(MotionModel, TurnsOn) {
   EXPECT_NEAR(LogSO3(model.Predict(0.15)->rotation).y(), 0.3, 1e-12);
 }
 
+TEST(MotionModel, StaysOnACurve) {
+  const Rigid3 step(ExpSO3({0, 0.2, 0}), Eigen::Vector3d(0, 0, -0.5));
+  MotionModel model;
+  Rigid3 pose = At(3);
+  for (int i = 0; i < 2; ++i) {
+    model.Add(0.1 * i, pose);
+    pose = step * pose;
+  }
+  for (int i = 2; i < 9; ++i) {
+    const Rigid3 error = *model.Predict(0.1 * i) * pose.Inverse();
+    EXPECT_LT(error.translation.norm() + error.Angle(), 1e-9) << i;
+    pose = step * pose;
+  }
+}
+
 TEST(MotionModel, KeepsTheSpeedInANewWorld) {
   MotionModel model;
   model.Add(1, At(2));

@@ -21,6 +21,25 @@ TEST(InterpolateLostPoses, LiesBetweenTheNeighboursByStamp) {
   EXPECT_FALSE(trajectory[1].is_tracked);
 }
 
+TEST(InterpolateLostPoses, StaysOnACurve) {
+  const auto on_circle = [](double stamp_s, bool is_tracked) {
+    const Eigen::Vector3d out(5, 0, 0);
+    const Eigen::Quaterniond turn = ExpSO3({0, stamp_s, 0});
+    return TrajectoryPose{stamp_s, Rigid3(turn, Eigen::Vector3d(turn * out)), is_tracked};
+  };
+  Trajectory trajectory;
+  for (int i = 0; i < 20; ++i) trajectory.push_back(on_circle(0.1 * i, i < 5 || i > 14));
+  for (TrajectoryPose& pose : trajectory) {
+    if (!pose.is_tracked) pose.world_from_camera = Rigid3();
+  }
+  InterpolateLostPoses(trajectory);
+  for (const TrajectoryPose& pose : trajectory) {
+    const Rigid3 error =
+        on_circle(pose.stamp_s, true).world_from_camera.Inverse() * pose.world_from_camera;
+    EXPECT_LT(error.translation.norm() + error.Angle(), 1e-9) << pose.stamp_s;
+  }
+}
+
 TEST(InterpolateLostPoses, HoldsTheNearestAtBothEnds) {
   Trajectory trajectory = {Lost(0), Lost(1), Tracked(2, 5, 0.3), Tracked(3, 6, 0), Lost(4)};
   InterpolateLostPoses(trajectory);

@@ -16,7 +16,8 @@ struct TrajectoryPose {
 };
 using Trajectory = std::vector<TrajectoryPose>;
 
-/// Sets the poses of the lost frames: between their tracked neighbours by stamp (slerp), held at an
+/// Sets the poses of the lost frames: from the way the camera went before to the way it went after
+/// where that is at most two seconds and both are known, else straight by stamp (slerp); held at an
 /// end. Where no frame was tracked nothing changes.
 void InterpolateLostPoses(Trajectory& trajectory);
 
