@@ -29,18 +29,21 @@ struct FrameTracker::Correspondences {
     return selected;
   }
 
-  /// Share of the landmarks that agreed with earlier poses which agree with this one, over that of
-  /// the new ones; 1 where there are too few to tell.
-  double Continuity(const std::vector<char>& is_inlier) const {
+  AgreeingShares Shares(const std::vector<char>& is_inlier) const {
     constexpr double kFew = 20;
     double num[2] = {0, 0}, num_inliers[2] = {0, 0};  // new, and of earlier poses
+    double num_suspect = 0;
     for (size_t i = 0; i < landmarks.size(); ++i) {
       const bool has_agreed = landmarks[i]->num_agreed > 0;
       ++num[has_agreed];
       num_inliers[has_agreed] += is_inlier[i];
+      num_suspect += is_inlier[i] && landmarks[i]->is_suspect;
     }
-    if (num[0] < kFew || num[1] < kFew || num_inliers[0] == 0) return 1;
-    return (num_inliers[1] / num[1]) / (num_inliers[0] / num[0]);
+    AgreeingShares shares;
+    shares.suspect = num_suspect / std::max(1.0, num_inliers[0] + num_inliers[1]);
+    if (num[0] >= kFew) shares.fresh = num_inliers[0] / num[0];
+    if (num[1] >= kFew) shares.known = num_inliers[1] / num[1];
+    return shares;
   }
 };
 
@@ -240,7 +243,7 @@ TrackedFrame FrameTracker::Localise(Correspondences correspondences,
     tracked.expected.push_back(observation.landmark);
   }
   tracked.contradicting = correspondences.Select(is_inlier, 0);
-  tracked.continuity = correspondences.Continuity(is_inlier);
+  tracked.shares = correspondences.Shares(is_inlier);
   return tracked;
 }
 
@@ -265,7 +268,7 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   TrackedFrame tracked;
   tracked.pose = coarse.pose;
   tracked.contradicting = coarse.contradicting;
-  tracked.continuity = coarse.continuity;
+  tracked.shares = coarse.shares;
   const Rigid3& coarse_pose = coarse.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {

@@ -177,7 +177,7 @@ class LocalOdometry::Implementation {
       return;
     }
     const bool is_believed =
-        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.continuity);
+        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.shares);
     const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
     if (is_contested || !is_believed) update.remark = "two groups of points move differently";
     if (!is_believed) {

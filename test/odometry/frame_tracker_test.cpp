@@ -80,12 +80,13 @@ TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
     const auto track = [&](const StereoImages& images) {
       return FrameTracker(camera_, {}).Track(frontend_.Process(images), images, map, truth_);
     };
-    EXPECT_GT(track(moved).continuity, 0.8);
+    const AgreeingShares undisturbed = track(moved).shares;
+    EXPECT_GT(*undisturbed.known, 0.8 * *undisturbed.fresh);
     const TrackedFrame tracked = track(images);
     ASSERT_TRUE(tracked.pose.HasPose());
     const bool is_few = known_px == 70;
     ExpectNear(tracked.pose.camera_from_world, is_few ? truth_ : by_known, 0.01);
-    EXPECT_EQ(tracked.continuity < 0.6, is_few) << tracked.continuity;
+    EXPECT_EQ(*tracked.shares.known < 0.6 * *tracked.shares.fresh, is_few);
   }
 }
 

@@ -43,15 +43,21 @@ struct FrameTrackerOptions {
   }
 };
 
+/// How many of the landmarks that a frame seems to see agree with its pose, 0..1. Where something
+/// new moves on its own and takes the pose along, known ones agree far less.
+struct AgreeingShares {
+  std::optional<double> known;  ///< of those that agreed with earlier poses
+  std::optional<double> fresh;  ///< of the others; nothing where too few are seen to tell
+  double suspect = 0;           ///< share of those that agree which began among what moved
+};
+
 /// A frame found again in the map.
 struct TrackedFrame {
   PoseEstimate pose;
   LandmarkObservations observations;   ///< those that agree with the pose, sorted by landmark
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
-  /// Share of the landmarks that agreed with earlier poses which agree with this one, over that of
-  /// the new ones: well below 1 where something new moves on its own and takes the pose along.
-  double continuity = 1;
+  AgreeingShares shares;
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
