@@ -1,11 +1,29 @@
 #include "arfm_vo/odometry/local_bundle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+namespace {
+
+/// A right row that is further from where the correction has it tells of the rig, not of the point.
+constexpr double kMaxRowPx = 1;
+
+/// The observation's pixels, the right row where the correction has it if it is far from there.
+Eigen::Vector4d PixelsOf(const StereoCamera& camera, const StereoCorrection& correction,
+                         const LandmarkObservation& observation) {
+  Eigen::Vector4d pixels = observation.pixels;
+  if (!observation.has_right) return pixels;
+  const double expected = pixels.y() + correction.AtRight(camera, pixels.tail<2>()).y() -
+                          correction.AtLeft(camera, pixels.head<2>()).y();
+  if (std::abs(pixels.w() - expected) > kMaxRowPx) pixels.w() = expected;
+  return pixels;
+}
+
+}  // namespace
 
 void LocalBundleOptions::Check() const {
   Require(num_keyframes >= 2, "bundle.num_keyframes must be at least 2");
@@ -39,13 +57,15 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& 
       const auto row = rows.find(observation.landmark);
       if (row == rows.end()) continue;
       sees_any = true;
-      bundle.problem.observations.push_back(
-          {pose, row->second, observation.pixels, observation.has_right, observation.sigma_px});
+      bundle.problem.observations.push_back({pose, row->second,
+                                             PixelsOf(camera, correction, observation),
+                                             observation.has_right, observation.sigma_px});
     }
     if (!sees_any) continue;
     bundle.keyframes.push_back(keyframes[k].id);
     bundle.problem.camera_from_world.push_back(keyframes[k].camera_from_world);
-    bundle.problem.pose_is_fixed.push_back(k < first_moving);
+    // The oldest in the map may see nothing of the others.
+    bundle.problem.pose_is_fixed.push_back(pose == 0 || k < first_moving);
   }
   return bundle;
 }

@@ -256,6 +256,21 @@ TEST_F(SessionTest, BeginsAnewOnGroundThatTheMapDoesNotKnow) {
   EXPECT_NEAR(pose.odom_from_base.translation.x(), 0.3 * 8, 0.1);
 }
 
+TEST_F(SessionTest, RowsThatTheCalibrationHasElsewhereDoNotTiltThePose) {
+  const auto shift_rows = [](StereoImages& images) {
+    const cv::Matx23f two_down(1, 0, 0, 0, 1, 2);
+    cv::warpAffine(images.right.clone(), images.right, two_down, images.right.size(),
+                   cv::INTER_NEAREST, cv::BORDER_REFLECT);
+  };
+  for (int i = 0; i < 20; ++i) {
+    const SessionUpdate pose = Step(0.1 * i, 0, false, shift_rows);
+    ASSERT_TRUE(pose.IsTracked()) << i << ": " << pose.text;
+    const Eigen::Vector3d error = pose.odom_from_base.translation - Eigen::Vector3d(0.1 * i, 0, 0);
+    EXPECT_LT(error.norm(), 0.01) << i;
+    EXPECT_LT(pose.odom_from_base.Angle(), 0.001) << i;
+  }
+}
+
 TEST_F(SessionTest, DoubtsANewMapThatMovesOtherwiseThanTheOneBefore) {
   LocalOdometryOptions options;
   options.restart_after_lost_s = 0;
