@@ -173,6 +173,25 @@ TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) 
   EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
 }
 
+TEST_F(VcanDriveTest, AnAdapterThatComesBackUnderAnotherNameIsNotDriven) {
+  StartDriving();
+  ASSERT_TRUE(RunsWell("ip link del vcan0"));
+  const double pulled_s = Now();
+  EXPECT_TRUE(RunUntil(0.2, [&] { return Reason() == StopReason::kBusDown; }));
+  const double stop_s = Now() - pulled_s;
+  ASSERT_TRUE(RunsWell("ip link add dev vcan9 type vcan && ip link set vcan9 up"));
+  Run(1);
+  EXPECT_FALSE(driver_->pilot().Start(Now()).is_accepted) << "vcan0 is not there";
+  EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
+  // The names of the simulated chassis' and of the driver's interface are the same again.
+  ASSERT_TRUE(RunsWell("ip link del vcan9 && ip link add dev vcan0 type vcan"));
+  ASSERT_TRUE(RunsWell("ip link set vcan0 up"));
+  EXPECT_TRUE(RunUntil(5, [&] { return driver_->pilot().Start(Now()).is_accepted; }));
+  EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+  PrintRow("`ip link del vcan0`, and the adapter is back as vcan9", Milliseconds(stop_s),
+           "its name is vcan0 again; start");
+}
+
 TEST_F(VcanDriveTest, GarbageWrongLengthsAndAFloodDoNotDisturbTheDrive) {
   StartDriving();
   for (const char* frame : {"211#01", "211#", "311#00000000", "221#7FFF", "2FF#0102030405060708",
