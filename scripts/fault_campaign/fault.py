@@ -2,13 +2,15 @@
 import dataclasses
 from typing import Callable
 
+from rover import UNCERTAIN
+
 
 class NotPermitted(Exception):
     """The machine does not let this fault be injected."""
 
 
 EITHER = "drives on, or stops and says why"
-BRIEFLY_UNCERTAIN = "pose is too uncertain"  # until the next good covariance
+BRIEFLY_UNCERTAIN = UNCERTAIN  # until the next good covariance
 
 
 @dataclasses.dataclass

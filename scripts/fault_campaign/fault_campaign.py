@@ -27,7 +27,7 @@ from topic_faults import topic_faults  # noqa: E402
 from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus  # noqa: E402
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
-from rover import Launch, Rover, pids_of_nodes, start_again  # noqa: E402
+from rover import UNCERTAIN, Launch, Rover, pids_of_nodes, start_again  # noqa: E402
 from ports import find_bus_port  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
 from table import WATCH_S, table  # noqa: E402
@@ -43,13 +43,17 @@ class Campaign:
     def __init__(self, rover, tap, camera, launch, max_stop_s):
         self.rover, self.tap, self.camera, self.launch, self.max_stop_s = rover, tap, camera, launch, max_stop_s
         self.pids, self.children = {}, []
-        self.began_s, self.began_way_m = 0.0, 0.0  # the fault, by the steady clock and the tracks; it may set them itself
+        self.began_s, self.began_way_m = 0.0, 0.0  # the fault, by the steady clock and the tracks
         self.broadcaster = tf2_ros.TransformBroadcaster()
         self.publishers = {topic: rospy.Publisher(topic, kind, queue_size=10) for topic, kind in (
             ("odom", Odometry), ("status", OdometryStatus), ("waypoints", Path), ("cmd_vel", Twist), ("goal", PoseStamped))}
         self.clock = rospy.Publisher("/clock", Clock, queue_size=1)
 
     # What a fault may do.
+
+    def begin(self):
+        """The fault begins now; one that takes time to prepare says so itself."""
+        self.began_s, self.began_way_m = time.monotonic(), self.tap.way_m()
 
     def signal(self, node, number):
         os.kill(self.pids[node], number)
@@ -87,8 +91,8 @@ class Campaign:
         del self.rover.reports[:]
         del self.rover.odometry_texts[:]
         self.rover.sight.mark()
-        self.began_way_m = self.tap.way_m()
-        self.began_s, simulated_s = time.monotonic(), rospy.get_time()
+        self.begin()
+        simulated_s = rospy.get_time()
         fault.inject(self)
         injected_s, way_m = self.began_s, self.began_way_m
         told = [self.rover.status.reason]
@@ -159,8 +163,10 @@ class Campaign:
         rover.wait(lambda: time.monotonic() - self.tap.moving_s > 0.5, 2)
         if rover.wait(rover.moves, 6):
             return "by itself, with a warning"
-        rover.wait(lambda: rover.call("chassis_node/start").success, 20)
-        return "start" if rover.wait(rover.moves, 3) else "start and a new goal"
+        is_uncertain = UNCERTAIN in (rover.status.reason + rover.status.detail)
+        rover.wait(rover.start, 20)
+        start = "datum and start" if is_uncertain else "start"
+        return start if rover.wait(rover.moves, 3) else start + " and a new goal"
 
 
 def all_faults():
@@ -179,7 +185,7 @@ def run(names, log, output, max_stop_s):
     chassis_port = find_bus_port(driver_port + 1)
     tap = bus.BusTap(driver_port, chassis_port)
     launch = Launch(log, driver_port, chassis_port)
-    rows = []
+    rows, campaign = [], None
     try:
         while subprocess.run(["rosparam", "get", "/use_sim_time"], capture_output=True).returncode != 0:
             if launch.process.poll() is not None:
@@ -212,6 +218,8 @@ def run(names, log, output, max_stop_s):
             print("frames were sent before start", flush=True)
             rows[0]["kept"] = False
     finally:
+        for child in campaign.children if campaign else []:
+            child.kill()
         launch.end()
     return rows
 

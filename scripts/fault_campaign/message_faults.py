@@ -1,5 +1,6 @@
 """Wrong operators, goals, velocities and poses: messages and services."""
 import subprocess
+import threading
 import time
 
 import rospy
@@ -23,15 +24,18 @@ def operator_faults():
 
     def second_velocity(campaign):
         """Of another node, as fast as the first; it begins when its first message comes."""
-        begun = []
-        listener = rospy.Subscriber("cmd_vel", Twist, lambda twist: twist.linear.x < 0 and begun.append(
-            (time.monotonic(), campaign.tap.way_m())))
+        is_begun = threading.Event()
+
+        def take(twist):
+            if twist.linear.x < 0 and not is_begun.is_set():
+                campaign.begin()
+                is_begun.set()
+        listener = rospy.Subscriber("cmd_vel", Twist, take)
         campaign.burden = [subprocess.Popen(["rostopic", "pub", "-r", "20", "/cmd_vel", "geometry_msgs/Twist",
                                              "{linear: {x: -0.1}}"], stdout=subprocess.DEVNULL)]
-        if not campaign.rover.wait(lambda: begun, 30):
+        if not is_begun.wait(30):
             raise RuntimeError("rostopic pub publishes nothing")
         listener.unregister()
-        campaign.began_s, campaign.began_way_m = begun[0]
 
     def emergency(is_set):
         return lambda c: c.rover.emergency.publish(Bool(is_set))

@@ -20,6 +20,7 @@ from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
+UNCERTAIN = "pose is too uncertain"
 MAX_DISTANCE_M = 20  # from the start, in a terrain that ends; then the rover turns round
 WARNING_S = 1.8  # of the 2 s that are promised: what tells them comes late too
 COMMANDED_S = 2.5  # a motion so soon after a command needs no warning
@@ -138,12 +139,18 @@ class Rover:
         self.send_goal(-6)
         self.is_fast(PATIENCE_S)
 
+    def start(self):
+        """As a person does it, who has seen where the rover stands; says whether it has started."""
+        if self.status.reason == UNCERTAIN or UNCERTAIN in self.status.detail:
+            self.call("chassis_node/set_datum")
+        return self.call("chassis_node/start").success
+
     def drive(self, by_velocity=False):
         """Started, and at full speed to a goal 6 m ahead, or by cmd_vel."""
         self.speed_mps = None
         ready = (DriveStatus.READY, DriveStatus.DRIVING)
         if not self.wait(lambda: self.status and self.status.state in ready or
-                         (self.call("chassis_node/start").success and time.sleep(1))):
+                         (self.start() and time.sleep(1))):
             return False
         if by_velocity:
             self.call("chassis_node/cancel")
@@ -156,7 +163,7 @@ class Rover:
                 self.send_goal(6)
             if self.is_fast(6):
                 return True
-            self.call("chassis_node/start")
+            self.start()
         return False
 
     def moves(self):

@@ -1,6 +1,7 @@
 """Floods and malformed messages on each topic that a node of the running graph subscribes to."""
 import copy
 import random
+import threading
 import time
 
 import rospy
@@ -59,6 +60,21 @@ def send_nan(topic, kind, samples):
     return inject
 
 
+def stop_in_a_flood(topics, samples):
+    """The stop service is called while what the rover drives by comes as fast as it can be sent."""
+    def inject(campaign):
+        floods = [threading.Thread(target=send, args=(topic, kind, [samples.newest(topic, kind)] * FLOOD, 0, FLOOD_S))
+                  for topic, kind in topics]
+        for thread in floods:
+            thread.start()
+        time.sleep(FLOOD_S / 2)
+        campaign.begin()
+        campaign.rover.call("chassis_node/stop")
+        for thread in floods:
+            thread.join()
+    return inject
+
+
 def feed(topics):
     def inject(campaign):
         generator = MessageGenerator(random.Random(1))
@@ -81,7 +97,10 @@ def topic_faults():
             for topic, kind in topics]
     rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle)
              for topic, kind in topics if has_floats(kind)]
+    driven_by = [(topic, kind) for topic, kind in topics if topic in ("/operator_heartbeat", "/goal", "/tf", "/odom")]
     return rows + [
+        Fault("stop service called in a flood of goals, poses and heartbeats", stop_in_a_flood(driven_by, samples),
+              "stopped by hand", settle, is_load=True),
         Fault("malformed goals, paths, velocities and stated poses",
               feed([(topic, kind) for topic, kind in topics if topic in COMMANDS]), "drives on"),
         Fault("malformed messages on every topic but /clock",
