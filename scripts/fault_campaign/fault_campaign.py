@@ -37,6 +37,7 @@ MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included;
 # A row in which the campaign itself did not run for so long says nothing of the rover: it is measured anew.
 MAX_HELD_UP_S = 0.3
 MAX_TRIES = 3
+MAX_WAIT_S = 30  # for simulated time where the machine holds it back
 
 
 class Campaign:
@@ -97,9 +98,10 @@ class Campaign:
         injected_s, way_m = self.began_s, self.began_way_m
         told = [self.rover.status.reason]
         end_s = max(injected_s + fault.limit_s + WATCH_S, time.monotonic() + WATCH_S / 2)  # injecting may take long
+        simulated_end_s = simulated_s + fault.limit_s + WATCH_S / 2
         looked_s, held_up_s = time.monotonic(), 0.0
         end_way_m, has_warned = way_m, False
-        while looked_s < end_s:
+        while looked_s < end_s or (not fault.ends_graph and looked_s < end_s + MAX_WAIT_S and rospy.get_time() < simulated_end_s):
             told.append(self.rover.status.reason)
             has_warned |= self.rover.status.state == DriveStatus.WARNING
             moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
