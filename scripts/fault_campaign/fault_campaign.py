@@ -163,12 +163,12 @@ class Campaign:
             return ""
         rover = self.rover
         rover.wait(lambda: time.monotonic() - self.tap.moving_s > 0.5, 2)
-        if rover.wait(rover.moves, 6):
+        if rover.wait_simulated(rover.moves, 6):
             return "by itself, with a warning"
         is_uncertain = UNCERTAIN in (rover.status.reason + rover.status.detail)
         rover.wait(rover.start, 20)
         start = "datum and start" if is_uncertain else "start"
-        return start if rover.wait(rover.moves, 3) else start + " and a new goal"
+        return start if rover.wait_simulated(rover.moves, 3) else start + " and a new goal"
 
 
 def all_faults():

@@ -1,5 +1,6 @@
 """The running graph of launch/simulation.launch, and a person who drives it."""
 import fcntl
+import math
 import os
 import signal
 import subprocess
@@ -95,9 +96,10 @@ class Rover:
             time.sleep(0.04)
 
     def take_status(self, status):
-        if status.state == DriveStatus.WARNING:
-            if self.status is None or self.status.state != DriveStatus.WARNING:
-                self.warnings_s.append([time.monotonic(), 0])
+        warned, warns = (some is not None and some.state == DriveStatus.WARNING for some in (self.status, status))
+        if warns and not warned:
+            self.warnings_s.append([time.monotonic(), math.inf])
+        if warned and not warns:
             self.warnings_s[-1][1] = time.monotonic()
         self.status = status
 
@@ -115,6 +117,11 @@ class Rover:
                 return True
             time.sleep(0.005)
         return condition()
+
+    def wait_simulated(self, condition, limit_s):
+        """So long in simulated time, which a busy machine holds back."""
+        end_s = rospy.get_time() + limit_s
+        return self.wait(lambda: condition() or rospy.get_time() > end_s) and condition()
 
     def call(self, service):
         self.commands_s.append(time.monotonic())
