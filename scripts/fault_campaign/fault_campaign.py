@@ -129,7 +129,7 @@ class Campaign:
         fault.mend(self)
         row["go_on"] = "" if fault.ends_graph else self.find_what_it_takes(row)
         self.rover.speed_mps = None
-        row["unwarned"] = 0 if fault.ends_graph else self.rover.count_unwarned(injected_s)
+        row["unwarned"] = 0 if fault.ends_graph else self.rover.count_unwarned(injected_s, min(1.0, pace))
         row["kept"] = self.is_kept(fault, row) and is_well
         return row
 

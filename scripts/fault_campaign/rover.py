@@ -103,10 +103,10 @@ class Rover:
             self.warnings_s[-1][1] = time.monotonic()
         self.status = status
 
-    def count_unwarned(self, since_s):
-        """How often it began to move without having been commanded just before, or having warned."""
+    def count_unwarned(self, since_s, pace):
+        """How often it began to move without having been commanded just before (in time of that pace), or having warned."""
         def is_announced(start_s):
-            return (any(0 <= start_s - command_s <= COMMANDED_S for command_s in self.commands_s) or
+            return (any(0 <= start_s - command_s <= COMMANDED_S / pace for command_s in self.commands_s) or
                     any(WARNING_S <= start_s - begin_s and start_s - end_s <= 1 for begin_s, end_s in self.warnings_s))
         return sum(not is_announced(start_s) for start_s in self.tap.starts_s if start_s > since_s)
 
