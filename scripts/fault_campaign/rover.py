@@ -77,7 +77,7 @@ class Rover:
         self.heartbeats = rospy.Publisher("operator_heartbeat", Empty, queue_size=1)
         self.velocities = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         rospy.Subscriber("drive_status", DriveStatus, self.take_status)
-        rospy.Subscriber("goal_report", GoalReport, self.reports.append)
+        rospy.Subscriber("goal_report", GoalReport, self.take_report)
         for act in self.beat, self.steer:
             threading.Thread(target=act, daemon=True).start()
 
@@ -95,7 +95,18 @@ class Rover:
                 self.velocities.publish(twist)
             time.sleep(0.04)
 
+    @staticmethod
+    def is_told_by_chassis(message):
+        """And not by a fault."""
+        return message._connection_header["callerid"] == "/chassis_node"
+
+    def take_report(self, report):
+        if self.is_told_by_chassis(report):
+            self.reports.append(report)
+
     def take_status(self, status):
+        if not self.is_told_by_chassis(status):
+            return
         warned, warns = (some is not None and some.state == DriveStatus.WARNING for some in (self.status, status))
         if warns and not warned:
             self.warnings_s.append([time.monotonic(), math.inf])
