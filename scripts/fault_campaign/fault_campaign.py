@@ -7,6 +7,7 @@ import argparse
 import math
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -232,6 +233,7 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, help="the table, Markdown")
     parser.add_argument("--max-stop-s", type=float, default=MAX_STOP_S, help="after the fault or its limit")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so do its children
     names = arguments.only.split("|") if arguments.only else [""]
     with tempfile.NamedTemporaryFile(suffix=".log", prefix="fault_campaign_") as log:
         rows = run(names, log, arguments.output, arguments.max_stop_s)

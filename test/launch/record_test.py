@@ -110,6 +110,7 @@ def check_ring(folder):
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so do its children
     master = subprocess.Popen(["roscore", "-p", os.environ["ROS_MASTER_URI"].rpartition(":")[2]], stdout=subprocess.DEVNULL)
     try:
         rospy.init_node("record_test", disable_signals=True)
