@@ -18,11 +18,16 @@ constexpr int kQueueSize = 8;
 
 struct StereoSyncOptions {
   double max_skew_s = 0.01;  ///< at most between left and right; less than half of their period
+  int every_nth_pair = 1;    ///< goes out, the others do not
 
-  void Check() const { Require(max_skew_s > 0, "max_skew_s must be positive"); }
+  void Check() const {
+    Require(max_skew_s > 0, "max_skew_s must be positive");
+    Require(every_nth_pair >= 1, "every_nth_pair must be positive");
+  }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("max_skew_s", max_skew_s);
+    visit("every_nth_pair", every_nth_pair);
   }
 };
 
@@ -124,7 +129,7 @@ class StereoSyncNode {
   void PublishPairs() {
     if (!newest_left_info_ || !newest_right_info_) return;
     while (const auto pair = pairing_.Take()) {
-      ++counts_.pairs;
+      if (counts_.pairs++ % options_.every_nth_pair != 0) continue;
       const ros::Time stamp = pair->first->header.stamp;
       left_info_out_.publish(WithStamp(*newest_left_info_, stamp));
       right_info_out_.publish(WithStamp(*newest_right_info_, stamp));

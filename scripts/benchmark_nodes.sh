@@ -13,7 +13,7 @@ export PATH=/usr/bin:$PATH
 # shellcheck disable=SC1091
 set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
 # A master of its own, so that no other ROS on the machine is disturbed.
-export ROS_MASTER_URI=http://localhost:$((20000 + RANDOM % 10000))
+export ROS_MASTER_URI=http://localhost:$(scripts/ports.py)
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 

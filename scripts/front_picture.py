@@ -9,11 +9,12 @@ package: --without-images draws the map alone. A GIF takes ImageMagick.
 """
 import argparse
 import os
-import socket
 import subprocess
 import sys
 import tempfile
 import threading
+
+from ports import find_free_port
 
 MAP_PX = (960, 330)  # width, height
 MAX_GIF_FRAMES = 24
@@ -122,12 +123,6 @@ def write_picture(path, drive, with_images):
             cv2.imwrite(names[-1], picture)
         subprocess.run(["convert", "-delay", "15", "-loop", "0", *names, "-resize", "80%", "+dither", "-colors", "64",
                         "-layers", "OptimizeFrame", path], check=True)
-
-
-def find_free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 def play(recording, speed, drive):

@@ -6,7 +6,6 @@ Usage: mistakes.py [BUILD_DIR]      default _b; exit status 1 where a mistake is
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -14,6 +13,7 @@ import time
 
 import rosbag
 import rospy
+from ports import find_free_port
 from sensor_msgs.msg import CompressedImage
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -125,10 +125,7 @@ def write_input(folder, edit):
 
 def watch(folder, arguments, wanted):
     """The console's line and the time to it since the nodes started (or since the call, where none does), s."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    environment = {**os.environ, "PWD": folder, "ROS_MASTER_URI": f"http://localhost:{port}"}
+    environment = {**os.environ, "PWD": folder, "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
     environment.pop("DISPLAY", None)
     mode = "set -m;" if "&" in arguments or ";" in arguments else "exec"
     call = arguments if arguments.startswith(PROGRAMS) else f"roslaunch arfm_vo {arguments}"

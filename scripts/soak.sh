@@ -18,7 +18,7 @@ export PATH=/usr/bin:$PATH
 # shellcheck disable=SC1091
 set +u; . "$build/devel/setup.sh"; set -u
 # A master of its own, so that no other ROS on the machine is disturbed.
-port=$((20000 + RANDOM % 10000))
+port=$(scripts/ports.py)
 export ROS_MASTER_URI=http://localhost:$port
 rosmaster --core -p "$port" > "$build/rosmaster.log" 2>&1 &
 trap 'kill $!' EXIT

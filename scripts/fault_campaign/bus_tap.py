@@ -29,7 +29,8 @@ class BusTap:
 
     def __init__(self, driver_port, chassis_port):
         """The driver is on udp:PORT1:PORT2, the chassis on udp:PORT2:PORT1, of ports such as 4711."""
-        self.driver = self._open(driver_port * 10 + 2, driver_port * 10 + 1)
+        self.driver_port = driver_port
+        self.plug(driver_port)
         self.chassis = self._open(chassis_port * 10 + 1, chassis_port * 10 + 2)
         self.change = lambda frame: frame  # of the feedback; None drops it
         self.lock = threading.Lock()
@@ -38,8 +39,7 @@ class BusTap:
         self.stops_s, self.starts_s = [], []  # of each frame that stops it or sets it in motion
         self.is_moving = False
         self.ways_m = (0.0, 0.0)
-        for source, sink, note in ((self.driver, self.chassis, self._note_command),
-                                   (self.chassis, self.driver, self._note_feedback)):
+        for source, sink, note in (("driver", "chassis", self._note_command), ("chassis", "driver", self._note_feedback)):
             threading.Thread(target=self._carry, args=(source, sink, note), daemon=True).start()
 
     @staticmethod
@@ -47,16 +47,25 @@ class BusTap:
         end = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         end.bind(("127.0.0.1", local_port))
         end.connect(("127.0.0.1", peer_port))
+        end.settimeout(0.2)  # a socket that is closed meanwhile is noticed
         return end
 
     def _carry(self, source, sink, note):
         while True:
             try:
-                frame = note(Frame(source.recv(64)))
+                frame = note(Frame(getattr(self, source).recv(64)))
                 if frame is not None:
-                    sink.send(frame.datagram())
-            except ConnectionRefusedError:
-                time.sleep(0.005)  # the other end does not run
+                    getattr(self, sink).send(frame.datagram())
+            except OSError:
+                time.sleep(0.005)  # the other end does not run, or is unplugged
+
+    def unplug(self):
+        """The driver's end of the bus is gone."""
+        self.driver.close()
+
+    def plug(self, port):
+        """It is there again, under the name of that port."""
+        self.driver = self._open(port * 10 + 2, self.driver_port * 10 + 1)
 
     def _note_command(self, frame):
         now = time.monotonic()
@@ -84,7 +93,7 @@ class BusTap:
         """As if another node on the bus had sent it."""
         try:
             self.driver.send(frame.datagram())
-        except ConnectionRefusedError:
+        except OSError:
             pass
 
     def way_m(self):

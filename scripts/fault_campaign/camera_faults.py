@@ -3,7 +3,7 @@ import time
 
 import rospy
 import tf2_ros
-from camera_tap import IMAGES, AgainOnce, Freeze, cover, recalibrate, swap, unchanged
+from camera_tap import IMAGES, AgainOnce, Hold, cover, freeze, recalibrate, swap, unchanged
 from fault import Fault
 from geometry_msgs.msg import TransformStamped
 
@@ -31,11 +31,34 @@ def cover_for(duration_s):
     return inject
 
 
+def freeze_camera(campaign):
+    """From now on it shows what it has shown last."""
+    campaign.camera.change = freeze(campaign.camera.last)
+
+
+def stop_camera_for(duration_s):
+    """As a SIGSTOP of its node does it: what has waited comes at once."""
+    def inject(campaign):
+        campaign.camera.change = hold = Hold()
+        rospy.sleep(duration_s)
+        hold.is_let_go = True
+    return inject
+
+
+def restart_camera(duration_s):
+    """As where its node is killed and started anew: its topics go and come."""
+    def inject(campaign):
+        campaign.camera.unadvertise()
+        rospy.sleep(duration_s)
+        campaign.camera.advertise()
+    return inject
+
+
 def shift_camera(campaign):
-    """Beside the right transform, for 2 s."""
+    """Beside the right transform of the mast's top, for 2 s."""
     transforms = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(transforms)
-    message = transforms.lookup_transform("base_link", "left_camera_optical", rospy.Time(), rospy.Duration(5))
+    message = transforms.lookup_transform("mast", "pan_link", rospy.Time(), rospy.Duration(5))
     listener.unregister()
     end_s = rospy.get_time() + 2
     message.transform.translation.x += 0.5
@@ -66,12 +89,14 @@ def names_the_right_eye(campaign):
 def camera_faults():
     stale, anew = "pose is stale", "odometry has started anew"
     return [
-        Fault("camera is frozen: the same pictures with new stamps", changed(Freeze), "too much slip or " + stale, mend, 4),
+        Fault("camera is frozen: the same pictures with new stamps", freeze_camera, stale, mend, 1),
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_eye),
         Fault("eyes are swapped", changed(swap), "pose contradicts the tracks or " + stale, mend, 1.5, is_well=is_true),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
+        Fault("camera's node is stopped (SIGSTOP) for 2 s: its pairs wait", stop_camera_for(2), stale, mend, 1.5),
+        Fault("camera's node is killed and started anew after 2 s: its topics go and come", restart_camera(2), stale, mend, 1.5),
         Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),
         Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend, is_well=is_true),
         Fault("an old pair comes again", changed(AgainOnce), "drives on", mend, is_well=is_true),

@@ -7,6 +7,7 @@ from sensor_msgs.msg import CameraInfo, Image
 
 IMAGES = ("left/image_rect", "right/image_rect")
 INFOS = ("left/camera_info", "right/camera_info")
+KINDS = [(topic, CameraInfo) for topic in INFOS] + [(topic, Image) for topic in IMAGES]
 
 
 def unchanged(pair):
@@ -18,22 +19,36 @@ class CameraTap:
 
     def __init__(self):
         self.change = unchanged
+        self.last = None  # pair as it came
         self.lock = threading.Lock()
         self.waiting = {}  # by stamp
-        self.publishers, kinds = {}, [(topic, CameraInfo) for topic in INFOS] + [(topic, Image) for topic in IMAGES]
-        for topic, kind in kinds:
-            self.publishers[topic] = rospy.Publisher("/eyes/" + topic, kind, queue_size=10)
-        for topic, kind in kinds:
+        self.publishers = {}
+        self.advertise()
+        for topic, kind in KINDS:
             rospy.Subscriber("/stereo/" + topic, kind, lambda message, topic=topic: self.take(topic, message))
+
+    def advertise(self):
+        with self.lock:
+            for topic, kind in KINDS:
+                self.publishers[topic] = rospy.Publisher("/eyes/" + topic, kind, queue_size=10)
+
+    def unadvertise(self):
+        """As where the camera's node has ended."""
+        with self.lock:
+            for publisher in self.publishers.values():
+                publisher.unregister()
+            self.publishers.clear()
 
     def take(self, topic, message):
         with self.lock:
             pair = self.waiting.setdefault(message.header.stamp, {})
             pair[topic] = message
-            if len(pair) < len(self.publishers):
+            if len(pair) < len(KINDS):
                 return
             self.waiting = {stamp: other for stamp, other in self.waiting.items() if stamp > message.header.stamp}
-            for changed in self.change(pair):
+            changes = self.change(pair)
+            self.last = pair
+            for changed in changes:
                 for name, publisher in self.publishers.items():
                     publisher.publish(changed[name])
 
@@ -52,15 +67,25 @@ def cover(*topics):
     return change
 
 
-class Freeze:
-    """The same pictures with new stamps."""
+def freeze(seen):
+    """The pictures of a pair that was seen, with new stamps."""
+    def change(pair):
+        return [{**pair, **{name: with_data(pair[name], seen[name].data) for name in IMAGES}}]
+    return change
+
+
+class Hold:
+    """Pairs wait, and come all at once when they are let go."""
 
     def __init__(self):
-        self.first = None
+        self.pairs, self.is_let_go = [], False
 
     def __call__(self, pair):
-        self.first = self.first or {name: pair[name].data for name in IMAGES}
-        return [{**pair, **{name: with_data(pair[name], self.first[name]) for name in IMAGES}}]
+        self.pairs.append(pair)
+        if not self.is_let_go:
+            return []
+        pairs, self.pairs = self.pairs, []
+        return pairs
 
 
 def swap(pair):

@@ -2,18 +2,26 @@
 import dataclasses
 from typing import Callable
 
+from rover import UNCERTAIN
+
 
 class NotPermitted(Exception):
     """The machine does not let this fault be injected."""
+
+
+EITHER = "drives on, or stops and says why"
+BRIEFLY_UNCERTAIN = UNCERTAIN  # until the next good covariance
 
 
 @dataclasses.dataclass
 class Fault:
     name: str
     inject: Callable
-    promise: str  # reasons of drive_status, any of them with " or ", "drives on", or "-" where nobody is left to tell one
+    promise: str  # reasons of drive_status, any of them with " or ", "drives on", EITHER, or "-": nobody is left to tell one
     mend: Callable = lambda campaign: None
     limit_s: float = 0.0
     ends_graph: bool = False  # nothing can be asked of the graph afterwards
     is_load: bool = False  # holds the campaign itself up
+    ends_node: bool = False  # ends the process of a node
+    by_velocity: bool = False  # the rover is driven by cmd_vel, not to a goal
     is_well: Callable = lambda campaign: True  # what else must hold when the rover has been watched

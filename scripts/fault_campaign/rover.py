@@ -3,10 +3,10 @@ import fcntl
 import math
 import os
 import signal
-import socket
 import subprocess
 import threading
 import time
+import xmlrpc.client
 
 import rosgraph
 import roslib.packages
@@ -14,41 +14,27 @@ import rosnode
 import rospy
 import rosservice
 from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus
-from geometry_msgs.msg import PoseStamped
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import PoseStamped, Twist
+from ports import find_free_port
+from sight import Sight
 from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
+UNCERTAIN = "pose is too uncertain"
+MAX_DISTANCE_M = 20  # from the start, in a terrain that ends; then the rover turns round
+WARNING_S = 1.8  # of the 2 s that are promised: what tells them comes late too
+COMMANDED_S = 2.5  # a motion so soon after a command needs no warning
 F_SETPIPE_SZ = 1031  # Linux; fcntl has its name from Python 3.10 on
-
-
-def is_free(port, kind):
-    with socket.socket(socket.AF_INET, kind) as end:
-        try:
-            end.bind(("127.0.0.1", port))
-        except OSError:
-            return False
-    return True
-
-
-def find_bus_port(first):
-    """The first PORT from `first` on of which UDP ports PORT1 and PORT2 are free."""
-    return next(port for port in range(first, 6500)
-                if all(is_free(10 * port + end, socket.SOCK_DGRAM) for end in (1, 2)))
-
-
-def find_master_port():
-    return next(port for port in range(11411, 12000) if is_free(port, socket.SOCK_STREAM))
 
 
 class Launch:
     """simulation.launch as a user starts it, with an operator, in real time, the bus through the tap."""
 
     def __init__(self, log, driver_port, chassis_port):
-        port = find_master_port()
+        port = find_free_port()
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
-        arguments = ["rviz:=false", "head:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
+        arguments = ["rviz:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
                      "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "eyes:=/eyes"]
         self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
@@ -75,69 +61,65 @@ class Launch:
             self.process.wait()
 
 
-class Sight:
-    """The way by the odometry beside the true one."""
-
-    def __init__(self):
-        self.truths, self.seen = {}, {}  # places by stamp
-        self.mark_s = 0.0
-        rospy.Subscriber("base_truth", Odometry, self.take_truth)
-        rospy.Subscriber("odom", Odometry, self.take_odometry)
-
-    @staticmethod
-    def note(places, message):
-        place = message.pose.pose.position
-        places[message.header.stamp.to_sec()] = (place.x, place.y)
-        while len(places) > 3000:
-            del places[next(iter(places))]
-
-    def take_truth(self, message):
-        self.note(self.truths, message)
-
-    def take_odometry(self, message):
-        is_known = message.pose.covariance[0] < 1  # a pose that is lost has thousands
-        if is_known and message._connection_header["callerid"] == "/pose_node":
-            self.note(self.seen, message)
-
-    def mark(self):
-        """From here on."""
-        self.mark_s = rospy.get_time() - 1
-
-    def error_m(self):
-        """By how much the way between the first and the last pose that was told differs from the true one."""
-        stamps = [stamp for stamp in sorted(self.seen) if stamp >= self.mark_s]
-        if len(stamps) < 2 or not self.truths:
-            return 0.0
-        ways = []
-        for places in self.seen, self.truths:
-            ends = [places[min(places, key=lambda other: abs(other - stamp))] for stamp in (stamps[0], stamps[-1])]
-            ways.append(math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
-        return abs(ways[0] - ways[1])
-
-
 class Rover:
     def __init__(self, tap):
-        self.sight = Sight()
+        self.sight = Sight(tap.way_m)
         self.odometry_texts = []  # what the odometry said of itself
         rospy.Subscriber("status", OdometryStatus, lambda status: self.odometry_texts.append(status.text))
         self.tap = tap
         self.status, self.reports = None, []
         self.has_operator = True
+        self.is_homeward = False  # far from where it began, and turned round
+        self.speed_mps = None  # of cmd_vel, where the rover is driven by it
+        self.commands_s, self.warnings_s = [], []  # by the steady clock; of a warning its begin and its end
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         self.emergency = rospy.Publisher("emergency_stop", Bool, queue_size=1)
         self.heartbeats = rospy.Publisher("operator_heartbeat", Empty, queue_size=1)
+        self.velocities = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         rospy.Subscriber("drive_status", DriveStatus, self.take_status)
-        rospy.Subscriber("goal_report", GoalReport, self.reports.append)
-        threading.Thread(target=self.beat, daemon=True).start()
+        rospy.Subscriber("goal_report", GoalReport, self.take_report)
+        for act in self.beat, self.steer:
+            threading.Thread(target=act, daemon=True).start()
 
     def beat(self):
         while True:
-            if self.has_operator:
+            if self.has_operator and not rospy.is_shutdown():
                 self.heartbeats.publish(Empty())
             time.sleep(0.4)
 
+    def steer(self):
+        while True:
+            if self.speed_mps is not None:
+                twist = Twist()
+                twist.linear.x = self.speed_mps
+                self.velocities.publish(twist)
+            time.sleep(0.04)
+
+    @staticmethod
+    def is_told_by_chassis(message):
+        """And not by a fault."""
+        return message._connection_header["callerid"] == "/chassis_node"
+
+    def take_report(self, report):
+        if self.is_told_by_chassis(report):
+            self.reports.append(report)
+
     def take_status(self, status):
+        if not self.is_told_by_chassis(status):
+            return
+        warned, warns = (some is not None and some.state == DriveStatus.WARNING for some in (self.status, status))
+        if warns and not warned:
+            self.warnings_s.append([time.monotonic(), math.inf])
+        if warned and not warns:
+            self.warnings_s[-1][1] = time.monotonic()
         self.status = status
+
+    def count_unwarned(self, since_s, pace):
+        """How often it began to move without having been commanded just before (in time of that pace), or having warned."""
+        def is_announced(start_s):
+            return (any(0 <= start_s - command_s <= COMMANDED_S / pace for command_s in self.commands_s) or
+                    any(WARNING_S <= start_s - begin_s and start_s - end_s <= 1 for begin_s, end_s in self.warnings_s))
+        return sum(not is_announced(start_s) for start_s in self.tap.starts_s if start_s > since_s)
 
     def wait(self, condition, limit_s=PATIENCE_S):
         end = time.monotonic() + limit_s
@@ -147,7 +129,13 @@ class Rover:
             time.sleep(0.005)
         return condition()
 
+    def wait_simulated(self, condition, limit_s):
+        """So long in simulated time, which a busy machine holds back."""
+        end_s = rospy.get_time() + limit_s
+        return self.wait(lambda: condition() or rospy.get_time() > end_s) and condition()
+
     def call(self, service):
+        self.commands_s.append(time.monotonic())
         try:
             return rospy.ServiceProxy(service, Trigger)()
         except rospy.ServiceException as error:
@@ -159,19 +147,41 @@ class Rover:
         goal.header.stamp = stamp if stamp is not None else rospy.Time.now()
         goal.pose.position.x, goal.pose.position.y = x_m, y_m
         goal.pose.orientation.w = 1
+        self.commands_s.append(time.monotonic())
         self.goals.publish(goal)
 
-    def drive(self):
-        """Started, and at full speed to a goal 6 m ahead."""
+    def is_fast(self, limit_s):
+        return self.wait(lambda: self.status.forward_mps > 0.09, limit_s)
+
+    def turn_round(self):
+        self.send_goal(-6)
+        self.is_fast(PATIENCE_S)
+
+    def start(self):
+        """As a person does it, who has seen where the rover stands; says whether it has started."""
+        if self.status.reason == UNCERTAIN or UNCERTAIN in self.status.detail:
+            self.call("chassis_node/set_datum")
+        return self.call("chassis_node/start").success
+
+    def drive(self, by_velocity=False):
+        """Started, and at full speed to a goal 6 m ahead, or by cmd_vel."""
+        self.speed_mps = None
         ready = (DriveStatus.READY, DriveStatus.DRIVING)
         if not self.wait(lambda: self.status and self.status.state in ready or
-                         (self.call("chassis_node/start").success and time.sleep(1))):
+                         (self.start() and time.sleep(1))):
             return False
+        if by_velocity:
+            self.call("chassis_node/cancel")
+            self.speed_mps = 0.1
+        elif self.sight.distance_m() > MAX_DISTANCE_M and not self.is_homeward:
+            self.turn_round()
+        self.is_homeward = self.sight.distance_m() > MAX_DISTANCE_M
         for _ in range(10):
-            self.send_goal(6)
-            if self.wait(lambda: self.status.forward_mps > 0.09, 6):
+            if not by_velocity:
+                self.send_goal(6)
+            if self.is_fast(6):
                 return True
-            self.call("chassis_node/start")
+            self.start()
         return False
 
     def moves(self):
@@ -180,9 +190,20 @@ class Rover:
 
 def pid_of(node):
     """The process of a node, as the node itself tells it."""
-    import xmlrpc.client
     uri = rosnode.get_api_uri(rosgraph.Master("/fault_campaign"), node, skip_cache=True)
     return xmlrpc.client.ServerProxy(uri).getPid("/fault_campaign")[2]
+
+
+def pids_of_nodes():
+    """By their names without the first slash; those that answer, and not this one."""
+    pids = {}
+    for name in rosnode.get_node_names():
+        try:
+            pids[name.lstrip("/")] = pid_of(name)
+        except (OSError, rosnode.ROSNodeIOException):
+            pass  # it has ended
+    del pids[rospy.get_name().lstrip("/")]
+    return pids
 
 
 def program_of(node):

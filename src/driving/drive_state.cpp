@@ -90,6 +90,8 @@ const char* ToString(StopReason reason) {
       return "feedback of the chassis is frozen";
     case StopReason::kMotorFault:
       return "motor or its driver reports a fault";
+    case StopReason::kVelocityConflict:
+      return "two nodes command velocities";
   }
   return "unknown";
 }

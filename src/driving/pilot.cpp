@@ -11,7 +11,7 @@ namespace {
 
 /// A late tick is not made up for by a leap of the speed.
 constexpr double kMaxTick_s = 0.1;
-/// More sources of an emergency stop are not told apart.
+/// Further sources of an emergency stop are not told apart: a person releases theirs.
 constexpr size_t kMaxEmergencySources = 64;
 
 PoseWatchOptions PoseOptionsFor(const PilotOptions& options) {
@@ -74,8 +74,9 @@ void Pilot::Stop() {
 void Pilot::SetEmergencyStop(const std::string& source, bool is_set) {
   if (!is_set) {
     emergency_sources_.erase(source);
-  } else if (emergency_sources_.size() < kMaxEmergencySources) {
-    emergency_sources_.insert(source);
+  } else {
+    const bool is_room = emergency_sources_.size() < kMaxEmergencySources;
+    emergency_sources_.insert(is_room ? source : "further nodes");
   }
 }
 
@@ -103,14 +104,22 @@ Reply Pilot::SetRoute(Route route) {
 
 void Pilot::CancelRoute() { EndRoute(GoalOutcome::kCancelled); }
 
-Reply Pilot::SetVelocity(double now_s, const PlanarMotion& motion) {
+Reply Pilot::SetVelocity(double now_s, const PlanarMotion& motion, const std::string& source) {
   if (!motion.IsFinite()) {
     velocity_s_ = kNeverCommanded_s;
     return {false, "velocity refused: it is not finite"};
   }
   if (route_) return {false, "velocity refused: a goal is being driven to"};
+  if (IsMovedByAnother(now_s, source)) {
+    velocity_s_ = kNeverCommanded_s;
+    Distrust({StopReason::kVelocityConflict, "(" + velocity_source_ + ", " + source + ")"});
+    return {false, std::string("velocity refused: ") + ToString(StopReason::kVelocityConflict)};
+  }
   velocity_ = motion;
-  velocity_s_ = commanded_s_ = now_s;
+  velocity_source_ = source;
+  velocity_s_ = now_s;
+  // What streams on through a pause is no new command.
+  if (state_ != DriveState::kPaused && state_ != DriveState::kWarning) commanded_s_ = now_s;
   return {true, ""};
 }
 

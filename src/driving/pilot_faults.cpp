@@ -52,6 +52,10 @@ bool Pilot::IsVelocityFresh(double now_s) const {
   return now_s - velocity_s_ <= options_.velocity_timeout_s;
 }
 
+bool Pilot::IsMovedByAnother(double now_s, const std::string& source) const {
+  return source != velocity_source_ && IsVelocityFresh(now_s) && !velocity_.IsZero();
+}
+
 void Pilot::Block(const Fault& fault) {
   if (route_) Report(GoalOutcome::kBlocked, fault);
   state_ = DriveState::kBlocked;

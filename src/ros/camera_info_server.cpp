@@ -4,11 +4,11 @@
 #include <ros/package.h>
 #include <ros/service_manager.h>
 
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/ros/message_checks.h"
 
 namespace arfm_vo {
 namespace {
@@ -28,16 +28,11 @@ std::string PathOf(const std::string& url) {
   return folder + url.substr(end);
 }
 
-/// Throws std::invalid_argument naming the matrix that holds what is no number.
-void CheckFinite(const sensor_msgs::CameraInfo& info) {
-  const auto check = [](const auto& values, const char* name) {
-    for (const double value : values)
-      Require(std::isfinite(value), std::string(name) + " holds a value that is not finite");
-  };
-  check(info.D, "D");
-  check(info.K, "K");
-  check(info.R, "R");
-  check(info.P, "P");
+void RequireFiniteMatrices(const sensor_msgs::CameraInfo& info) {
+  RequireFinite(info.D, "D");
+  RequireFinite(info.K, "K");
+  RequireFinite(info.R, "R");
+  RequireFinite(info.P, "P");
 }
 
 }  // namespace
@@ -59,7 +54,7 @@ bool CameraInfoServer::Set(sensor_msgs::SetCameraInfo::Request& request,
   try {
     const std::string refusal = find_refusal_();
     Require(refusal.empty(), refusal);
-    CheckFinite(request.camera_info);
+    RequireFiniteMatrices(request.camera_info);
     Store(request.camera_info);
     manager_.setCameraInfo(request.camera_info);
     response.success = true;

@@ -156,14 +156,14 @@ void ChassisNode::TakeRoute(const Message& message) {
   }
 }
 
-void ChassisNode::TakeVelocity(const geometry_msgs::Twist& twist) {
+void ChassisNode::TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event) {
   PlanarMotion motion;
   try {
-    motion = ReadVelocity(twist);
+    motion = ReadVelocity(*event.getConstMessage());
   } catch (const std::invalid_argument& error) {
     ROS_WARN_THROTTLE(1, "%s", error.what());
   }
-  const Reply reply = driver_.pilot().SetVelocity(clock_.Now(), motion);
+  const Reply reply = driver_.pilot().SetVelocity(clock_.Now(), motion, event.getPublisherName());
   if (!reply.is_accepted) ROS_WARN_THROTTLE(1, "%s", reply.text.c_str());
 }
 

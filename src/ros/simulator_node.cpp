@@ -16,6 +16,8 @@ namespace arfm_vo {
 namespace {
 
 constexpr uint64_t kStep_ns = 10'000'000;
+/// So late that a clock may step back by hours.
+constexpr uint64_t kStart_ns = 10'000'000'000'000;
 const ros::WallDuration kPoll(0.002);
 
 PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
@@ -47,7 +49,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       map_from_world_(GroundOf(terrain_, options_.shape)(RoverPose{}).Inverse()),
       chassis_(OpenCanBus(options_.can),
                TrackedPlant(options_.plant, RoverPose{}, GroundOf(terrain_, options_.shape))),
-      now_ns_(static_cast<uint64_t>(kStampOffset_s * 1e9)),
+      now_ns_(kStart_ns),
       head_(options_.head_port.empty() ? nullptr
                                        : std::make_unique<SimulatedPtuPort>(
                                              options_.head_port, SimulatedPtuOptions::Instant(),

@@ -153,6 +153,19 @@ TEST_F(PilotTest, EmergencyStopBlocksUntilReleasedAndStarted) {
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
+TEST_F(PilotTest, AnEmergencyStopOfOneTooManySourcesWaitsForAPerson) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  const auto set_all = [&](bool is_set) {
+    for (int i = 0; i < 100; ++i) pilot_.SetEmergencyStop(std::to_string(i), is_set);
+  };
+  set_all(true);
+  set_all(false);
+  EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  pilot_.ReleaseEmergencyStops();
+  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+}
+
 TEST_F(PilotTest, AnEmergencyStopIsClearedByNobodyButItsSourceOrAPerson) {
   StartDriving();
   pilot_.SetEmergencyStop("joystick", true);

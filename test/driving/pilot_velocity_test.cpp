@@ -78,6 +78,55 @@ TEST_F(PilotTest, AVelocityOfBeforeAGoalIsForgotten) {
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
 }
 
+TEST_F(PilotTest, VelocitiesOfTwoNodesBlock) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  ASSERT_TRUE(pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner").is_accepted);
+  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
+  EXPECT_FALSE(pilot_.SetVelocity(now_s_, {0, 0}, "/joystick").is_accepted);
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero()) << "whoever of them is right, it stands";
+  EXPECT_EQ(Reason(), StopReason::kVelocityConflict);
+  EXPECT_EQ(pilot_.Status().detail, "(/planner, /joystick)");
+  pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner");
+  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  EXPECT_FALSE(Run(0.1).chassis_motion.IsZero());
+}
+
+TEST_F(PilotTest, ANodeTakesOverWhereTheOtherHasEnded) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner");
+  Run(Options().velocity_timeout_s + 2 * kTick_s);
+  EXPECT_TRUE(pilot_.SetVelocity(now_s_, {0.1, 0}, "/joystick").is_accepted);
+  EXPECT_FALSE(Run(0.1).chassis_motion.IsZero());
+  pilot_.SetVelocity(now_s_, {0, 0}, "/joystick");
+  EXPECT_TRUE(pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner").is_accepted) << "it stands";
+}
+
+TEST_F(PilotTest, VelocitiesThatStreamOnThroughAPauseAreWarnedOf) {
+  chassis_.authority = ChassisAuthority::kUs;
+  Run(0.1);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  const auto run = [&](double duration_s) {
+    double fastest_mps = 0;
+    for (const double end_s = now_s_ + duration_s; now_s_ < end_s;) {
+      pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner");
+      fastest_mps = std::max(fastest_mps, Run(kTick_s).chassis_motion.forward_mps);
+    }
+    return fastest_mps;
+  };
+  ASSERT_GT(run(1), 0.09) << "just commanded";
+  sigma_m_ = 100;
+  run(kTick_s);
+  sigma_m_ = 0.01;
+  EXPECT_EQ(run(Options().resume_after_s + Options().warning_s - 0.2), 0);
+  EXPECT_EQ(State(), DriveState::kWarning);
+  EXPECT_GT(run(1), 0.05);
+}
+
 TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
   StartStopLookGo();
   double way_m = 0;

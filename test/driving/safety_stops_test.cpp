@@ -143,7 +143,7 @@ TEST(DrivingNames, EachValueHasANameOfItsOwn) {
     EXPECT_EQ(names.count(""), 0u);
   };
   expect_distinct(DriveState::kWarning);
-  expect_distinct(StopReason::kMotorFault);
+  expect_distinct(StopReason::kVelocityConflict);
   expect_distinct(GoalOutcome::kReplaced);
   expect_distinct(DrivePhase::kArrived);
 }

@@ -4,11 +4,13 @@
 Usage: install_space_test.py BUILD_DIR SOURCE_DIR INSTALL_PREFIX      the prefix that the build is configured for
 """
 import os
-import socket
 import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(sys.argv[2], "scripts"))
+from ports import find_free_port  # noqa: E402
 
 BUILD_DIR, SOURCE_DIR, INSTALL_PREFIX = sys.argv[1:4]
 FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
@@ -30,12 +32,6 @@ print(len(files), "launch files")
 """
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 class InstallSpaceTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -52,7 +48,7 @@ class InstallSpaceTest(unittest.TestCase):
     def run_installed(self, *command):
         """The output of a command in a shell that knows the installed package and no other."""
         environment = {"PATH": "/usr/bin:/bin", "HOME": self.folder.name,
-                       "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+                       "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
         run = subprocess.run(
             ["bash", "-c", '. "$0/setup.bash" && exec "$@"', self.prefix, *command],
             env=environment, cwd=self.folder.name, text=True, stdout=subprocess.PIPE,
@@ -78,7 +74,8 @@ class InstallSpaceTest(unittest.TestCase):
     def test_scripts_configuration_and_headers_are_installed(self):
         for name in ("share/arfm_vo/config/arfm.yaml", "share/arfm_vo/config/odometry.rviz",
                      "share/arfm_vo/urdf/rover.urdf", "include/arfm_vo/geometry/rigid3.h",
-                     "include/arfm_vo/OdometryStatus.h", "lib/arfm_vo/drive_to.py"):
+                     "include/arfm_vo/OdometryStatus.h", "lib/arfm_vo/drive_to.py",
+                     "lib/arfm_vo/operator_heartbeat.py"):
             self.assertTrue(os.path.exists(self.installed(*name.split("/"))), name)
         self.run_installed("/usr/bin/python3", "-c", "import arfm_vo.msg; arfm_vo.msg.DriveStatus()")
 

@@ -12,10 +12,12 @@ import argparse
 import os
 import re
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+from ports import find_free_port  # noqa: E402
 
 BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)```", re.S)
 # What roslaunch says of a node that ends badly, while it goes on.
@@ -50,16 +52,10 @@ def write_script(blocks):
     return "\n".join(script) + "\n"
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def run(script, folder, home):
     """What a fresh shell says of the script; ends the test where it fails."""
     environment = {"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": home, "LANG": "C.UTF-8",
-                   "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+                   "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
     shell = ["bash", "--norc", "-c", script]
     if shutil.which("xvfb-run"):
         shell = ["xvfb-run", "-a"] + shell

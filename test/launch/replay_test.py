@@ -5,7 +5,6 @@ Usage: replay_test.py BUILD_DIR SOURCE_DIR
 """
 import os
 import re
-import socket
 import subprocess
 import sys
 import tempfile
@@ -14,6 +13,9 @@ import unittest
 import numpy as np
 import rosbag
 import rospy
+
+sys.path.insert(0, os.path.join(sys.argv[2], "scripts"))
+from ports import find_free_port  # noqa: E402
 
 BUILD_DIR, SOURCE_DIR = sys.argv[1:3]
 FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
@@ -56,12 +58,6 @@ LATE_LISTENER = """
 """
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 class ReplayTest(unittest.TestCase):
     def setUp(self):
         self.directory = tempfile.TemporaryDirectory(prefix="arfm_vo_replay_")
@@ -76,7 +72,7 @@ class ReplayTest(unittest.TestCase):
     def launch(self, *arguments, limit_s=100, package=("arfm_vo",)):
         """The exit code and the console of roslaunch, called in the test's folder and ended after a time."""
         environment = {**os.environ, "PWD": self.folder,
-                       "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+                       "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
         run = subprocess.run(
             ["bash", "-c", '. "$0/devel/setup.bash" && exec timeout -s INT "$@"', BUILD_DIR, str(limit_s),
              "roslaunch", *package, *arguments], env=environment, cwd=self.folder, text=True,

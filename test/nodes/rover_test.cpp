@@ -157,6 +157,8 @@ TEST_F(RoverTest, TheBlackBoxRecordsTheDrive) {
         const std::set<std::string> ways = ReadWays();
         return ways.count("/chassis_node /drive_status" + recorder) &&
                ways.count("/pose_node /odom" + recorder) &&
+               ways.count("/stereo/stereo_camera_node /stereo/left/image_raw /black_box/pairs") &&
+               ways.count("/black_box/pairs /black_box/right/image_raw" + recorder) &&
                ways.count("/pose_node /status" + recorder);
       },
       "the recorder to listen");

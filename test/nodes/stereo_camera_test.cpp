@@ -146,12 +146,10 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsRefusedWhileTheRoverDrives) {
 TEST_F(StereoCameraNodeTest, ACalibrationThatIsNotFiniteIsRefusedByName) {
   sensor_msgs::CameraInfo info = Calibration(true);
   info.D.back() = INFINITY;
-  EXPECT_EQ(Set("left", info),
-            "refused: camera_info is not set: D holds a value that is not finite");
+  EXPECT_EQ(Set("left", info), "refused: camera_info is not set: D[4] is not a finite number");
   info = Calibration(true);
   info.P[3] = NAN;
-  EXPECT_EQ(Set("left", info),
-            "refused: camera_info is not set: P holds a value that is not finite");
+  EXPECT_EQ(Set("left", info), "refused: camera_info is not set: P[3] is not a finite number");
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 

@@ -61,6 +61,8 @@ bool IsSlipBeyondLimit(const SimulatedDrive& drive, double) {
   return slip && slip->forward_ratio.value_or(0) > SlipOptions().max_slip_ratio;
 }
 
+void SendVelocity(SimulatedDrive& drive) { drive.pilot().SetVelocity(drive.Now(), {0.1, 0}); }
+
 const Action kNothing = [](SimulatedDrive&) {};
 
 std::vector<Fault> OperatorFaults() {
@@ -83,6 +85,15 @@ std::vector<Fault> OperatorFaults() {
        },
        "", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", TimeSince(0), Stopper::kDriver,
        true},
+      {"velocity commands of two nodes",
+       [](SimulatedDrive& d) {
+         d.each_tick_ = [&d] {
+           SendVelocity(d);
+           d.pilot().SetVelocity(d.Now(), {-0.1, 0}, "/another");
+         };
+       },
+       "one of them ends", [](SimulatedDrive& d) { d.each_tick_ = [&d] { SendVelocity(d); }; }, "",
+       TimeSince(0), Stopper::kDriver, true},
   };
 }
 
@@ -262,8 +273,6 @@ std::vector<Fault> NodeFaults() {
        kNothing, "", TimeSince(0), Stopper::kChassisTimeout},
   };
 }
-
-void SendVelocity(SimulatedDrive& drive) { drive.pilot().SetVelocity(drive.Now(), {0.1, 0}); }
 
 /// A rover at full speed, at a moment between two ticks.
 void BringToSpeed(SimulatedDrive& drive, bool by_velocity) {

@@ -124,7 +124,8 @@ std::vector<std::string> CommandsInLog(const std::string& path) {
   std::string time, interface, frame;
   std::vector<std::string> commands;
   while (file >> time >> interface >> frame)
-    if (frame.rfind("111#", 0) == 0 || frame.rfind("421#", 0) == 0) commands.push_back(frame);
+    for (const char* command : {"111#", "121#", "421#"})
+      if (frame.rfind(command, 0) == 0) commands.push_back(frame);
   return commands;
 }
 
@@ -145,8 +146,9 @@ TEST_F(VcanDriveTest, CandumpSeesWhatTheDriverSendsByteForByte) {
   EXPECT_EQ(seen[0], "421#01");
   EXPECT_EQ(seen[1], "111#0000000000000000");
   EXPECT_NE(std::find(seen.begin(), seen.end(), "111#0064000000000000"), seen.end());
-  EXPECT_EQ(seen[seen.size() - 2], "111#0000000000000000");
-  EXPECT_EQ(seen.back(), "421#00");
+  EXPECT_EQ(seen[seen.size() - 3], "111#0000000000000000");
+  EXPECT_EQ(seen[seen.size() - 2], "421#00");
+  EXPECT_EQ(seen.back().substr(0, 9), "121#01000") << "the lamp is off";
 }
 
 TEST_F(VcanDriveTest, NothingIsSentBeforeStart) {
@@ -171,6 +173,22 @@ TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) 
   EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
   EXPECT_TRUE(driver_->pilot().Start(Now()).is_accepted);
   EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+}
+
+TEST_F(VcanDriveTest, AnAdapterThatComesBackUnderAnotherNameIsNotDriven) {
+  StartDriving();
+  RunBeside("ip link del vcan0");
+  EXPECT_EQ(Reason(), StopReason::kBusDown);
+  RunBeside("ip link add dev vcan9 type vcan && ip link set vcan9 up");
+  Run(1);
+  EXPECT_FALSE(driver_->pilot().Start(Now()).is_accepted) << "vcan0 is not there";
+  EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
+  // The names of the simulated chassis' and of the driver's interface are the same again.
+  RunBeside("ip link del vcan9 && ip link add dev vcan0 type vcan && ip link set vcan0 up");
+  EXPECT_TRUE(RunUntil(5, [&] { return driver_->pilot().Start(Now()).is_accepted; }));
+  EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+  PrintRow("`ip link del vcan0`, and the adapter is back as vcan9", "before `ip` has ended",
+           "its name is vcan0 again; start");
 }
 
 TEST_F(VcanDriveTest, GarbageWrongLengthsAndAFloodDoNotDisturbTheDrive) {

@@ -41,14 +41,15 @@ enum class StopReason {
   kMapStale,           ///< map -> odom is no longer told
   kTilt,
   kOutsideFence,
-  kOperatorLost,     ///< no operator heartbeat
-  kHeldUp,           ///< chassis_node itself did not run for too long
-  kRemoteLost,       ///< the chassis has lost its remote control
-  kForeignCommands,  ///< another driver sends motion commands on the bus
-  kRunaway,          ///< the tracks run faster than commanded
-  kTrackJammed,      ///< a track is commanded to run and stands
-  kFeedbackFrozen,   ///< the chassis repeats itself
-  kMotorFault,       ///< a motor driver reports a fault, or a motor draws too much
+  kOperatorLost,      ///< no operator heartbeat
+  kHeldUp,            ///< chassis_node itself did not run for too long
+  kRemoteLost,        ///< the chassis has lost its remote control
+  kForeignCommands,   ///< another driver sends motion commands on the bus
+  kRunaway,           ///< the tracks run faster than commanded
+  kTrackJammed,       ///< a track is commanded to run and stands
+  kFeedbackFrozen,    ///< the chassis repeats itself
+  kMotorFault,        ///< a motor driver reports a fault, or a motor draws too much
+  kVelocityConflict,  ///< two sources command velocities
 };
 
 /// A reason and what it measures, such as "off the tracks by 0.52 m (allowed 0.10 m)".

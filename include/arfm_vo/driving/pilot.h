@@ -36,8 +36,8 @@ class Pilot {
   Reply SetRoute(Route route);
   void CancelRoute();
   /// A velocity of the base, to be renewed within velocity_timeout_s. Refused while there is a
-  /// route, and where it is not finite.
-  Reply SetVelocity(double now_s, const PlanarMotion& motion);
+  /// route, and where it is not finite. Blocks where another `source` moves the rover at that time.
+  Reply SetVelocity(double now_s, const PlanarMotion& motion, const std::string& source = "");
   /// A person has confirmed the pose that the map shows: its uncertainty counts from here. Refused
   /// while the rover moves and without a pose.
   Reply SetDatum();
@@ -82,6 +82,7 @@ class Pilot {
   void EndRoute(GoalOutcome outcome, const Fault& fault = {});
   void Report(GoalOutcome outcome, const Fault& fault);
   bool IsVelocityFresh(double now_s) const;
+  bool IsMovedByAnother(double now_s, const std::string& source) const;
   bool IsInLongStandby() const;
   RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
@@ -110,6 +111,7 @@ class Pilot {
   std::optional<GoalController> route_;
   std::optional<RoverPose> predicted_;
   PlanarMotion velocity_, motion_;
+  std::string velocity_source_;
   double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
   double commanded_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
   std::optional<double> standby_since_s_;

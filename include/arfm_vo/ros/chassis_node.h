@@ -43,7 +43,7 @@ class ChassisNode {
   void TakeRoute(const Message& message);
   void TakeGoal(const geometry_msgs::PoseStamped& goal) { TakeRoute(goal); }
   void TakePath(const nav_msgs::Path& path) { TakeRoute(path); }
-  void TakeVelocity(const geometry_msgs::Twist& twist);
+  void TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);
   void TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event);
   void TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event);
   void TakeOdometry(const nav_msgs::Odometry& odometry);

@@ -21,8 +21,8 @@ inline void RequireElement(bool is_so, const std::string& field, size_t index, c
 }
 
 /// Throws std::invalid_argument naming the element unless all values are finite.
-template <class Value>
-void RequireFinite(const std::vector<Value>& field, const std::string& name) {
+template <class Values>
+void RequireFinite(const Values& field, const std::string& name) {
   for (size_t i = 0; i < field.size(); ++i)
     RequireElement(std::isfinite(field[i]), name, i, "is not a finite number");
 }

@@ -1,0 +1,132 @@
+"""Faults of the chassis and of the bus to it."""
+import random
+import struct
+import time
+
+import bus_tap as bus
+from fault import Fault
+from ports import find_bus_port
+
+
+def set_byte(identifier, index, value):
+    def change(frame):
+        if frame.id == identifier:
+            frame.bytes[index] = value
+        return frame
+    return change
+
+
+def run_away(frame):
+    if frame.id == bus.MOTION_STATE:
+        frame.bytes[:4] = struct.pack(">hh", 200, 0)
+    return frame
+
+
+class Hold:
+    """The first bytes of the odometer stand: those of the left track, or of both."""
+
+    def __init__(self, size):
+        self.size, self.first = size, None
+
+    def __call__(self, frame):
+        if frame.id == bus.ODOMETER:
+            self.first = self.first or bytes(frame.bytes[:self.size])
+            frame.bytes[:self.size] = self.first
+        return frame
+
+
+class Repeat:
+    """Every message is as its first."""
+
+    def __init__(self):
+        self.first = {}
+
+    def __call__(self, frame):
+        frame.bytes = bytearray(self.first.setdefault(frame.id, bytes(frame.bytes)))
+        return frame
+
+
+def heal(campaign):
+    campaign.heal_bus()
+    time.sleep(0.5)
+
+
+def clear(campaign):
+    heal(campaign)
+    campaign.rover.call("chassis_node/clear_errors")
+
+
+def fuzz(campaign):
+    engine = random.Random(1)
+    for _ in range(3000):
+        identifier = engine.randrange(0x400, 0x800)
+        campaign.tap.inject(bus.make_frame(identifier, engine.randbytes(engine.randrange(9))))
+
+
+def flood(campaign):
+    for i in range(20000):
+        campaign.tap.inject(bus.make_frame(0x3FF, [1, 2, 3]))
+        if i % 160 == 0:
+            time.sleep(0.02)
+
+
+def come_back_as_another(campaign):
+    """The CAN adapter is pulled and put in again, and has become can1: another port of UDP."""
+    campaign.tap.unplug()
+    time.sleep(0.5)
+    campaign.tap.plug(find_bus_port(campaign.tap.driver_port + 2))
+
+
+def come_back_as_itself(campaign):
+    campaign.tap.unplug()
+    campaign.tap.plug(campaign.tap.driver_port)
+    time.sleep(1)
+
+
+def is_not_startable(campaign):
+    return not campaign.rover.call("chassis_node/start").success
+
+
+def storm(campaign):
+    """The bus goes off and comes back 50 times."""
+    for _ in range(50):
+        frame = bus.make_frame(0, [])
+        frame.kind = bus.BUS_OFF
+        campaign.tap.inject(frame)
+        time.sleep(0.02)
+
+
+def bus_faults():
+    def changed(change):
+        return lambda campaign: campaign.obey(change() if isinstance(change, type) else change)
+
+    def held(size):
+        return lambda campaign: campaign.obey(Hold(size))
+    state = bus.SYSTEM_STATE
+    return [
+        Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),
+        Fault("chassis fault", changed(set_byte(state, 0, 2)), "chassis reports a fault", clear),
+        Fault("under-voltage fault", changed(set_byte(state, 4, 1)), "chassis reports a fault", clear),
+        Fault("remote control takes over", changed(set_byte(state, 1, 3)), "remote control has the rover", heal),
+        Fault("remote control is lost", changed(set_byte(state, 4, 4)), "chassis has lost its remote control", heal),
+        Fault("chassis falls into standby", changed(set_byte(state, 1, 0)), "chassis takes no commands over CAN", heal),
+        Fault("chassis falls silent", changed(lambda frame: None), "chassis is silent", heal, 0.5),
+        Fault("track odometer falls silent", changed(lambda frame: None if frame.id == bus.ODOMETER else frame),
+              "chassis is silent", heal, 0.5),
+        Fault("system state falls silent", changed(lambda frame: None if frame.id == state else frame),
+              "chassis is silent", heal, 0.5),
+        Fault("motor driver reports a fault", changed(set_byte(bus.MOTOR_STATUS[0], 5, 0x44)),
+              "motor or its driver reports a fault", heal),
+        Fault("tracks run away at 0.2 m/s", changed(run_away), "tracks run faster than commanded", heal, 0.2),
+        Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
+        Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
+              "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
+        Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
+        Fault("another driver sends 0x111", lambda c: c.tap.inject(bus.make_frame(0x111, [0] * 8)),
+              "another driver commands the chassis", lambda c: time.sleep(1.2)),
+        Fault("CAN adapter is pulled and comes back as can1 (another UDP port)", come_back_as_another, "CAN bus is down or chassis is silent",
+              come_back_as_itself, 0.5, is_well=is_not_startable),
+        Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),
+        Fault("3000 fuzzed frames of foreign identifiers", fuzz, "drives on"),
+        Fault("flood of 20000 foreign frames", flood, "drives on"),
+    ]

@@ -1,0 +1,126 @@
+"""Wrong operators, goals, velocities and poses: messages and services."""
+import subprocess
+import threading
+import time
+
+import rospy
+from arfm_vo.msg import OdometryStatus
+from fault import BRIEFLY_UNCERTAIN, Fault
+from geometry_msgs.msg import PoseStamped, Twist
+from machine_faults import unburden
+from nav_msgs.msg import Odometry, Path
+from std_msgs.msg import Bool
+
+NAN = float("nan")
+
+
+def operator_faults():
+    def operator(is_there):
+        def act(campaign):
+            campaign.rover.has_operator = is_there
+            time.sleep(0.5 if is_there else 0)
+        return act
+
+    def second_velocity(campaign):
+        """Of another node, as fast as the first; it begins when its first message comes."""
+        is_begun = threading.Event()
+
+        def take(twist):
+            if twist.linear.x < 0 and not is_begun.is_set():
+                campaign.begin()
+                is_begun.set()
+        listener = rospy.Subscriber("cmd_vel", Twist, take)
+        campaign.burden = [subprocess.Popen(["rostopic", "pub", "-r", "20", "/cmd_vel", "geometry_msgs/Twist",
+                                             "{linear: {x: -0.1}}"], stdout=subprocess.DEVNULL)]
+        if not is_begun.wait(30):
+            raise RuntimeError("rostopic pub publishes nothing")
+        listener.unregister()
+
+    def emergency(is_set):
+        return lambda c: c.rover.emergency.publish(Bool(is_set))
+
+    def foreign_release(campaign):
+        campaign.rover.emergency.publish(Bool(True))
+        campaign.command("rostopic pub -1 /emergency_stop std_msgs/Bool 'data: false'")
+        if campaign.rover.call("chassis_node/start").success:
+            campaign.rover.status.reason = "started in spite of the emergency stop"
+
+    no_frame = Fault("goal cancelled", lambda c: c.rover.call("chassis_node/cancel"), "-")
+    return [
+        Fault("stop service called", lambda c: c.rover.call("chassis_node/stop"), "stopped by hand"),
+        no_frame,
+        Fault("two nodes publish cmd_vel", second_velocity, "two nodes command velocities", unburden, by_velocity=True),
+        Fault("operator heartbeat ceases", operator(False), "no operator heartbeat", operator(True), 0.9),
+        Fault("software emergency stop", emergency(True), "software emergency stop is set", emergency(False)),
+        Fault("another publisher clears the emergency stop", foreign_release, "software emergency stop is set",
+              emergency(False)),
+    ]
+
+
+def wrong_odometry(stamp=None, variance=1e-4):
+    message = Odometry()
+    message.header.frame_id = "odom"
+    message.header.stamp = stamp if stamp is not None else rospy.Time.now()
+    message.pose.covariance = [variance if i % 7 == 0 else 0 for i in range(36)]
+    message.pose.pose.orientation.w = 1
+    return message
+
+
+def end_of_time():
+    return rospy.Time(0xFFFFFFFF, 999999999)
+
+
+def far_path(campaign):
+    path = Path()
+    path.header.frame_id, path.header.stamp = "map", rospy.Time.now()
+    for _ in range(10000):
+        pose = PoseStamped()
+        pose.pose.orientation.w = 1
+        path.poses.append(pose)
+    campaign.publish("waypoints", path)
+
+
+def many(make, topic, count=2000):
+    def inject(campaign):
+        for _ in range(count):
+            campaign.publish(topic, make())
+    return inject
+
+
+def second_status(campaign):
+    campaign.publish("status", OdometryStatus(epoch=7))
+
+
+def second_odometry(campaign):
+    odometry = wrong_odometry()
+    campaign.publish("odom", odometry)
+    campaign.transform("odom", "base_link", 30, odometry.header.stamp)
+
+
+def message_faults():
+    twist = Twist()
+    twist.linear.x = NAN
+    uncertain, contradiction = BRIEFLY_UNCERTAIN, "pose contradicts the tracks"
+    settle = lambda c: time.sleep(1)  # noqa: E731
+    return [
+        Fault("a second node tells odom and odom -> base_link 30 m off", second_odometry, contradiction, settle),
+        Fault("a second node tells map -> odom 3 m off", lambda c: c.transform("map", "odom", 3, rospy.Time.now() + rospy.Duration(0.5)),
+              "map frame has jumped", settle),
+        Fault("tf odom -> base_link is not a number", lambda c: c.transform("odom", "base_link", NAN), "drives on"),
+        Fault("tf odom -> base_link of the end of time", lambda c: c.transform("odom", "base_link", 30, end_of_time()), "drives on"),
+        Fault("odom of the end of time", lambda c: c.publish("odom", wrong_odometry(end_of_time(), NAN)), "drives on"),
+        Fault("odom with a covariance that is not a number", lambda c: c.publish("odom", wrong_odometry(variance=NAN)), uncertain, settle),
+        Fault("odom with a covariance of 9999", lambda c: c.publish("odom", wrong_odometry(variance=9999)), uncertain, settle),
+        Fault("a second node tells status", second_status, "odometry has started anew", settle),
+        Fault("goal that is not a number", lambda c: c.rover.send_goal(NAN), "drives on"),
+        Fault("goal 60 m away", lambda c: c.rover.send_goal(60), "drives on"),
+        Fault("goal of a minute ago", lambda c: c.rover.send_goal(-3, stamp=rospy.Time.now() - rospy.Duration(60)), "drives on"),
+        Fault("goal without a stamp", lambda c: c.rover.send_goal(-3, stamp=rospy.Time()), "drives on"),
+        Fault("goal in an unknown frame", lambda c: c.rover.send_goal(1, frame="moon"), "drives on"),
+        Fault("path of 10000 waypoints", far_path, "drives on"),
+        Fault("cmd_vel while there is a goal", lambda c: c.publish("cmd_vel", Twist()), "drives on"),
+        Fault("cmd_vel that is not a number", lambda c: c.publish("cmd_vel", twist), "drives on"),
+        Fault("flood of 2000 goals without a stamp", many(PoseStamped, "goal"), "drives on"),
+        Fault("flood of 2000 velocities", many(Twist, "cmd_vel"), "drives on"),
+        Fault("clear_errors while driving", lambda c: c.rover.call("chassis_node/clear_errors"), "drives on"),
+    ]

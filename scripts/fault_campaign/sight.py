@@ -1,0 +1,119 @@
+"""Where the rover is told to be, beside where it truly is."""
+import bisect
+import math
+
+import rospy
+from nav_msgs.msg import Odometry
+from tf2_msgs.msg import TFMessage
+
+MAX_ERROR_M, MAX_ERROR_RAD = 0.10, math.radians(10)  # of a pose that is right
+KEPT = 3000
+
+
+def planar(place, rotation):
+    """(x, y, heading) of a position and a quaternion."""
+    x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
+    return place.x, place.y, math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
+
+
+def wrap(angle):
+    return math.atan2(math.sin(angle), math.cos(angle))
+
+
+def compose(a_from_b, b_from_c):
+    sine, cosine = math.sin(a_from_b[2]), math.cos(a_from_b[2])
+    return (a_from_b[0] + cosine * b_from_c[0] - sine * b_from_c[1], a_from_b[1] + sine * b_from_c[0] + cosine * b_from_c[1],
+            wrap(a_from_b[2] + b_from_c[2]))
+
+
+def relative(a_from_b, a_from_c):
+    """b_from_c."""
+    dx, dy = a_from_c[0] - a_from_b[0], a_from_c[1] - a_from_b[1]
+    sine, cosine = math.sin(a_from_b[2]), math.cos(a_from_b[2])
+    return cosine * dx + sine * dy, cosine * dy - sine * dx, wrap(a_from_c[2] - a_from_b[2])
+
+
+class Sight:
+    """What tf and the odometry tell, and the truth, since the mark."""
+
+    def __init__(self, way_m):
+        self.way_m = way_m  # of the tracks, now
+        self.truths, self.seen = {}, {}  # places by stamp
+        self.edges = {"odom": (0, 0, 0), "base_link": (0, 0, 0)}  # of tf, by the child frame
+        self.told = []  # (stamp, map_from_base, way)
+        self.mark_s = 0.0
+        rospy.Subscriber("base_truth", Odometry, lambda truth: self.note(self.truths, truth))
+        rospy.Subscriber("odom", Odometry, self.take_odometry)
+        rospy.Subscriber("/tf", TFMessage, self.take_transforms, queue_size=100)
+
+    @staticmethod
+    def note(places, message):
+        pose = message.pose.pose
+        places[message.header.stamp.to_sec()] = planar(pose.position, pose.orientation)
+        while len(places) > KEPT:
+            del places[next(iter(places))]
+
+    def take_odometry(self, message):
+        is_known = message.pose.covariance[0] < 1  # a pose that is lost has thousands
+        if is_known and message._connection_header["callerid"] == "/pose_node":
+            self.note(self.seen, message)
+
+    def take_transforms(self, message):
+        for transform in message.transforms:
+            edge = planar(transform.transform.translation, transform.transform.rotation)
+            if transform.child_frame_id not in self.edges or not all(map(math.isfinite, edge)):
+                continue
+            self.edges[transform.child_frame_id] = edge
+            stamp = transform.header.stamp.to_sec() if transform.child_frame_id == "base_link" else None
+            if stamp is None and self.told:
+                stamp = self.told[-1][0]  # the map has moved under the last pose
+            if stamp is not None:
+                self.told.append((stamp, compose(self.edges["odom"], self.edges["base_link"]), self.way_m()))
+
+    def mark(self):
+        """From here on."""
+        self.mark_s = rospy.get_time() - 1
+        del self.told[:-1]
+
+    def truth_at(self, stamp):
+        stamps = sorted(self.truths)
+        i = bisect.bisect_left(stamps, stamp - 1e-6)
+        if i < len(stamps) and abs(stamps[i] - stamp) < 1e-3:
+            return self.truths[stamps[i]]
+        if not 0 < i < len(stamps):
+            return None
+        before, after = self.truths[stamps[i - 1]], self.truths[stamps[i]]
+        share = (stamp - stamps[i - 1]) / (stamps[i] - stamps[i - 1])
+        way = relative(before, after)
+        return compose(before, tuple(share * part for part in way))
+
+    def is_wrong(self, told, reference):
+        """Whether the pose is off the truth since the reference; one of no known time is nobody's."""
+        truths = [self.truth_at(stamp) for stamp in (reference[0], told[0])]
+        if None in truths:
+            return False
+        error = relative(relative(*truths), relative(reference[1], told[1]))
+        return math.hypot(*error[:2]) > MAX_ERROR_M or abs(error[2]) > MAX_ERROR_RAD
+
+    def wrong_way_m(self, end_way_m):
+        """How far the tracks have gone since the mark while the newest pose that was told was wrong."""
+        told = list(self.told)
+        if not told:
+            return 0.0
+        ends_m = [later[2] for later in told[1:]] + [end_way_m]
+        return sum(abs(end_m - pose[2]) for pose, end_m in zip(told, ends_m) if self.is_wrong(pose, told[0]))
+
+    def error_m(self):
+        """By how much the way between the first and the last pose of the odometry differs from the true one."""
+        stamps = [stamp for stamp in sorted(self.seen) if stamp >= self.mark_s]
+        if len(stamps) < 2 or not self.truths:
+            return 0.0
+        ways = []
+        for places in self.seen, self.truths:
+            ends = [places[min(list(places), key=lambda other: abs(other - stamp))] for stamp in (stamps[0], stamps[-1])]
+            ways.append(math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
+        return abs(ways[0] - ways[1])
+
+    def distance_m(self):
+        """From where the drive began."""
+        return math.hypot(*next(reversed(self.truths.values()))[:2]) if self.truths else 0.0
