@@ -92,6 +92,7 @@ MISTAKES = [
     ("float image", change("left/image_rect", make_float), REPLAY, "32FC1"),
     ("wrong size", change("right/image_rect", narrow), REPLAY, "differ in size"),
     ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
+    ("mistyped launch argument", None, REPLAY + "base_fram:=robot", "is base_frame:= meant"),
     ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
     ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "display"),
     ("wrong bag", without("image_rect", "camera_info"), REPLAY, "its cameras are none"),
@@ -163,12 +164,14 @@ def find_session(leader):
     return [int(pid) for pid, command in rows if "roslaunch" in command or "rosbag" in command]
 
 
+def give_up(*_):
+    raise TimeoutError
+
+
 def main():
     if {"--help", "-h"} & set(sys.argv):
         print(__doc__)
         return
-    def give_up(*_):
-        raise TimeoutError
     signal.signal(signal.SIGALRM, give_up)
     rows, num_late = [], 0
     for mistake, edit, arguments, wanted in MISTAKES:
@@ -181,7 +184,8 @@ def main():
             print(rows[-1], flush=True)
     with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
         page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
-                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: with the time to render its pictures).\n\n"
+                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: "
+                   "with the time to render its pictures).\n\n"
                    "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
     sys.exit(num_late > 0)
 

@@ -70,13 +70,9 @@ class ReplayTest(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def launch_file(self, path):
-        return self.launch(path, package=())
-
     def launch(self, *arguments, limit_s=100, package=("arfm_vo",)):
         """The exit code and the console of roslaunch, called in the test's folder and ended after a time."""
-        environment = {**os.environ, "PWD": self.folder,
-                       "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+        environment = {**os.environ, "PWD": self.folder, "ROS_MASTER_URI": f"http://localhost:{free_port()}"}
         run = subprocess.run(
             ["bash", "-c", '. "$0/devel/setup.bash" && exec timeout -s INT "$@"', BUILD_DIR, str(limit_s),
              "roslaunch", *package, *arguments], env=environment, cwd=self.folder, text=True,
@@ -176,7 +172,7 @@ class ReplayTest(unittest.TestCase):
         launch = os.path.join(self.folder, "late.launch")
         with open(launch, "w") as file:
             file.write(LATE_LISTENER % {"folder": self.folder, "bag": FIXTURE})
-        code, console = self.launch_file(launch)
+        code, console = self.launch(launch, package=())
         self.assertEqual(code, 0, console)
         self.assertIn("36 pairs, 0 images without partner", console)
         with rosbag.Bag(os.path.join(self.folder, "synchronized.bag")) as bag:
@@ -196,6 +192,13 @@ class ReplayTest(unittest.TestCase):
         console = self.refuse("bag:=left.bag")
         self.assertIn("has no topic /stereo/right/image_rect", console)
         self.assertIn("its cameras are /stereo/left/camera_info, /stereo/left/image_rect", console)
+
+    def test_each_launch_file_refuses_an_argument_that_it_has_not(self):
+        self.assertIn("no argument base_fram:= (is base_frame:= meant?)", self.refuse("bag:=" + FIXTURE, "base_fram:=a"))
+        for name in sorted(os.listdir(os.path.join(SOURCE_DIR, "launch"))):
+            code, console = self.launch(name, "sequence:=.", "bag:=" + FIXTURE, "no_such:=1", limit_s=60)
+            self.assertNotEqual(code, 0, console)
+            self.assertRegex(console, name + " has no argument (sequence|bag|no_such):=")
 
     def test_a_damaged_bag_is_refused(self):
         with open(FIXTURE, "rb") as source, open(os.path.join(self.folder, "half.bag"), "wb") as bag:
@@ -227,10 +230,9 @@ class ReplayTest(unittest.TestCase):
             for topic, message, stamp in source.read_messages():
                 for robot in ("/a", "/b") if "ground_truth" not in topic else ():
                     bag.write(robot + topic, message, stamp)
-        launch = TWO_ROBOTS % {"folder": self.folder}
         with open(os.path.join(self.folder, "both.launch"), "w") as file:
-            file.write(launch)
-        code, console = self.launch_file(os.path.join(self.folder, "both.launch"))
+            file.write(TWO_ROBOTS % {"folder": self.folder})
+        code, console = self.launch("both.launch", package=())
         self.assertEqual(code, 0, console)
         rows = []
         for robot in "a", "b":

@@ -175,7 +175,7 @@ class SimulationTest(unittest.TestCase):
     def test_an_operator_beats_until_the_terminal_is_gone_and_stops_the_rover(self):
         beats_s = []
         rospy.Subscriber("operator_heartbeat", Empty, lambda _: beats_s.append(time.monotonic()))
-        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator.py"], stdin=subprocess.PIPE,
+        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator_heartbeat.py"], stdin=subprocess.PIPE,
                                     stdout=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(operator.wait)
         self.addCleanup(operator.terminate)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Tells chassis_node that a person attends the rover: an operator heartbeat at 2 Hz while this runs in a terminal.
 
-Usage: operator.py     Enter stops the rover; Ctrl-C, or closing the terminal, ends the heartbeat, and the rover stops
+Usage: operator_heartbeat.py     Enter stops the rover; Ctrl-C, or closing the terminal, ends the heartbeat, and the rover stops
 """
 import select
 import signal
