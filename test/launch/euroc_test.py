@@ -4,22 +4,18 @@
 Usage: euroc_test.py BUILD_DIR SOURCE_DIR
 """
 import os
-import socket
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 import rosbag
 import yaml
+from launch_case import FIXTURE, SOURCE_DIR, LaunchCase
 from sensor_msgs.msg import Imu
 
-BUILD_DIR, SOURCE_DIR = sys.argv[1:3]
 sys.path.insert(0, os.path.join(SOURCE_DIR, "scripts"))
 import euroc_camera_info  # noqa: E402  (beside the other scripts)
 
-FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
 # T_BS of the dataset's own V1 sequences.
 BODY_FROM_CAM0 = [[0.0148655429818, -0.999880929698, 0.00414029679422, -0.0216401454975],
                   [0.999557249008, 0.0149672133247, 0.025715529948, -0.064676986768],
@@ -29,14 +25,7 @@ BODY_FROM_CAM1 = [[0.0125552670891, -0.999755099723, 0.0182237714554, -0.0198435
                   [-0.0253898008918, 0.0179005838253, 0.999517347078, 0.00786212447038], [0, 0, 0, 1]]
 
 
-class EurocTest(unittest.TestCase):
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory(prefix="arfm_vo_euroc_")
-        self.folder = self.directory.name
-
-    def tearDown(self):
-        self.directory.cleanup()
-
+class EurocTest(LaunchCase):
     def write_sensor(self, name, body_from_eye, intrinsics, distortion, resolution):
         with open(os.path.join(self.folder, name), "w") as file:
             yaml.safe_dump({"sensor_type": "camera", "camera_model": "pinhole", "rate_hz": 20, "resolution": resolution,
@@ -58,17 +47,8 @@ class EurocTest(unittest.TestCase):
         return [self.write_sensor("cam0.yaml", BODY_FROM_CAM0, intrinsics, [0.0] * 4, [480, 360]),
                 self.write_sensor("cam1.yaml", right, intrinsics, [0.0] * 4, [480, 360])]
 
-    def run_shell(self, *command):
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            master = f"http://localhost:{probe.getsockname()[1]}"
-        run = subprocess.run(["bash", "-c", '. "$0/devel/setup.bash" && exec timeout -s INT 100 "$@"', BUILD_DIR, *command],
-                             env={**os.environ, "PWD": self.folder, "ROS_MASTER_URI": master}, cwd=self.folder, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        return run.returncode, run.stdout
-
     def add_infos(self, *files):
-        return self.run_shell(os.path.join(SOURCE_DIR, "scripts", "euroc_camera_info.py"), "euroc.bag", *files, "stereo.bag")
+        return self.run_command(os.path.join(SOURCE_DIR, "scripts", "euroc_camera_info.py"), "euroc.bag", *files, "stereo.bag")
 
     def test_the_rectification_is_that_which_is_published_for_the_dataset(self):
         resolution = [752, 480]
@@ -86,8 +66,8 @@ class EurocTest(unittest.TestCase):
         code, said = self.add_infos(*self.write_fixture())
         self.assertEqual(code, 0, said)
         self.assertIn("36 left, 36 right images", said)
-        code, console = self.run_shell(
-            "roslaunch", "arfm_vo", "replay.launch", "rviz:=false", "end_delay_s:=3", "bag:=stereo.bag", "rectify:=true",
+        code, console = self.launch(
+            "replay.launch", "rviz:=false", "end_delay_s:=3", "bag:=stereo.bag", "rectify:=true",
             "left_image:=/cam0/image_raw", "right_image:=/cam1/image_raw", "left_info:=/cam0/camera_info",
             "right_info:=/cam1/camera_info")
         self.assertEqual(code, 0, console)
