@@ -94,7 +94,7 @@ MISTAKES = [
     ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
     ("mistyped launch argument", None, REPLAY + "base_fram:=robot", "is base_frame:= meant"),
     ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
-    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "display"),
+    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "no display, give rviz:=false"),
     ("wrong bag", without("image_rect", "camera_info"), REPLAY, "its cameras are none"),
     ("compressed images only", compress, REPLAY, "holds compressed images only"),
     ("second instance", None, "odometry.launch & sleep 4; roslaunch arfm_vo odometry.launch",
