@@ -102,7 +102,7 @@ MISTAKES = [
     ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': "),
     ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye: "),
     ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head': "),
-    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 3 --width 640 > /dev/null; " + PROGRAMS +
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 1 --width 320 > /dev/null; " + PROGRAMS +
      "calibrate_stereo board --board 9x6 --square 0.10 --output out", "9x6"),
 ]
 
