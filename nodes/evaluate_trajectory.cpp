@@ -74,7 +74,7 @@ void Evaluate(const std::string& estimate_path, const std::string& truth_path,
                                            "KITTI file (12 numbers): give two of one kind");
   (is_tum ? ReadTumPairs : ReadKittiPairs)(estimate_path, truth_path, estimate, truth);
   const TrajectoryError error = ComputeTrajectoryError(truth, estimate);
-  if (!plot_path.empty()) PlotTrajectory(RebaseToFirst(estimate), RebaseToFirst(truth), plot_path);
+  if (!plot_path.empty()) PlotTrajectory({estimate, {}, truth}, plot_path);
   std::cout << "frames: " << truth.size() << "\n" << FormatTrajectoryError(error);
 }
 

@@ -8,7 +8,8 @@ int main(int argc, char** argv) {
           R"(The world around the other nodes: simulated chassis, head, terrain and stereo camera.
 
 in    status, odom, goal_report
-out   /clock, stereo/left|right/image_rect, stereo/left|right/camera_info, base_truth (nav_msgs/Odometry))"))
+out   /clock, stereo/left|right/image_rect, stereo/left|right/camera_info, base_truth (nav_msgs/Odometry),
+      terrain (visualization_msgs/Marker))"))
     return 0;
   ros::init(argc, argv, "simulator_node");
   const ros::NodeHandle node;  // outlives what throws: without one nothing is logged

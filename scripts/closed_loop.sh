@@ -70,4 +70,9 @@ TEXT
 mapfile -t pictures < <(find "$work" -name 'drive_*.png' | sort | tail -4)
 montage "${pictures[@]}" -tile 2x2 -geometry 500x634+4+4 -quality 80 "$work/drives.jpg"
 mv "$work/driving.md" "$work/drives.jpg" docs/
+{
+  echo "$(count reached) of $goals goals, $(rows | awk '{ print $2 }' | sort -n | awk 'NR == 1 { printf "%.0f to ", $1 } END { printf "%.0f", $1 }') m away, were reached, the farthest $(most 4) m beside"
+  echo "(at most $(rows | awk '$4 / $5 > m { m = $4 / $5 } END { printf "%.2f", m }') of what is allowed: 1 % and 5 cm), by sight alone and with $(sum 14) stops on the way, in"
+  echo "$(sum 13 | awk '{ printf "%.0f", $1 / 60 }') minutes: [docs/driving.md](docs/driving.md)."
+} | scripts/readme_section.py README.md closed_loop
 [ "$(count within_allowed_error)" -eq $goals ] || { echo "closed_loop: not all goals were reached well" >&2; exit 1; }

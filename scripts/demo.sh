@@ -21,12 +21,14 @@ targets=(arfm_node pose_node ba_node truth_path_node camera_mount_node evaluate_
 if [ -d "$input" ]; then targets+=(kitti_to_bag); fi
 scripts/build.sh "${targets[@]}"
 export PATH=/usr/bin:$PATH
-set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
+build=${BUILD_DIR:-_b}
+set +u; . "$build/devel/setup.sh"; set -u
+programs=$build/devel/lib/arfm_vo  # (rosrun asks which where there is another build folder)
 export ROS_MASTER_URI=http://localhost:${ROS_MASTER_PORT:-11911}
 mkdir -p "$output"
 output=$(realpath "$output")
 if [ -d "$input" ]; then
-  rosrun arfm_vo kitti_to_bag "$input" "$output/input.bag"
+  "$programs/kitti_to_bag" "$input" "$output/input.bag"
   input=$output/input.bag
 fi
 input=$(realpath "$input")
@@ -34,7 +36,7 @@ rm -f "$output"{,/keyframes}/{poses,tracked}*.txt "$output"{,/keyframes}/traject
 roslaunch arfm_vo replay.launch bag:="$input" rviz:=false trajectory_dir:="$output" trajectory_of_camera:=true
 [ -s "$output/trajectory.tum" ] || { echo "demo: the nodes saved no trajectory" >&2; exit 1; }
 if scripts/pair_with_truth.py "$output/trajectory.tum" "$input" "$output"; then
-  rosrun arfm_vo evaluate_trajectory "$output/estimate.txt" "$output/truth.txt" \
+  "$programs/evaluate_trajectory" "$output/estimate.txt" "$output/truth.txt" \
     --plot "$output/trajectory.png"
   echo "picture: $output/trajectory.png"
 fi

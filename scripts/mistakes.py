@@ -92,8 +92,9 @@ MISTAKES = [
     ("float image", change("left/image_rect", make_float), REPLAY, "32FC1"),
     ("wrong size", change("right/image_rect", narrow), REPLAY, "differ in size"),
     ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
+    ("mistyped launch argument", None, REPLAY + "base_fram:=robot", "is base_frame:= meant"),
     ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
-    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "display"),
+    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "no display, give rviz:=false"),
     ("wrong bag", without("image_rect", "camera_info"), REPLAY, "its cameras are none"),
     ("compressed images only", compress, REPLAY, "holds compressed images only"),
     ("second instance", None, "odometry.launch & sleep 4; roslaunch arfm_vo odometry.launch",
@@ -101,7 +102,7 @@ MISTAKES = [
     ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': "),
     ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye: "),
     ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head': "),
-    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 3 --width 640 > /dev/null; " + PROGRAMS +
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 1 --width 320 > /dev/null; " + PROGRAMS +
      "calibrate_stereo board --board 9x6 --square 0.10 --output out", "9x6"),
 ]
 
@@ -160,12 +161,14 @@ def find_session(leader):
     return [int(pid) for pid, command in rows if "roslaunch" in command or "rosbag" in command]
 
 
+def give_up(*_):
+    raise TimeoutError
+
+
 def main():
     if {"--help", "-h"} & set(sys.argv):
         print(__doc__)
         return
-    def give_up(*_):
-        raise TimeoutError
     signal.signal(signal.SIGALRM, give_up)
     rows, num_late = [], 0
     for mistake, edit, arguments, wanted in MISTAKES:
@@ -178,7 +181,8 @@ def main():
             print(rows[-1], flush=True)
     with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
         page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
-                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: with the time to render its pictures).\n\n"
+                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: "
+                   "with the time to render its pictures).\n\n"
                    "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
     sys.exit(num_late > 0)
 

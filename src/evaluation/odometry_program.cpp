@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "arfm_vo/calibration/learned_correction_file.h"
+#include "arfm_vo/configuration/learned_correction_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/evaluation/odometry_run.h"

@@ -26,7 +26,8 @@ std::string WriteFiles(const OdometryRun& run, const fs::path& folder) {
   WriteWholeFile(folder / "timing.csv", FormatTiming(run));
   const PathComparison comparison = CompareWithTruth(run, run.trajectory);
   try {
-    PlotTrajectory(comparison.estimate, comparison.truth, folder / "trajectory.png");
+    PlotTrajectory({comparison.estimate, comparison.is_tracked, comparison.truth},
+                   folder / "trajectory.png");
   } catch (const std::runtime_error& error) {
     return std::string("no trajectory.png: ") + error.what();
   }

@@ -40,6 +40,7 @@ PathComparison CompareWithTruth(const OdometryRun& run, const Trajectory& trajec
   for (size_t i = 0; i < trajectory.size(); ++i) {
     if (has_truth && !run.truth[i]) continue;
     comparison.estimate.push_back(trajectory[i].world_from_camera);
+    comparison.is_tracked.push_back(trajectory[i].is_tracked);
     if (has_truth) comparison.truth.push_back(*run.truth[i]);
   }
   return comparison;

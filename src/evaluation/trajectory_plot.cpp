@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/odometry/kitti_metric.h"
@@ -36,13 +37,32 @@ std::string FormatSquareRange(const std::vector<Rigid3>& path, const std::vector
   return text;
 }
 
+std::string FormatPoint(const Rigid3& pose) {
+  return FormatNumber(pose.translation.x()) + " " + FormatNumber(pose.translation.z()) + "\n";
+}
+
 /// A gnuplot data block of positions seen from above: x right, z forward.
 std::string FormatBlock(const std::string& name, const std::vector<Rigid3>& path) {
   std::string block = "$" + name + " << END\n";
-  for (const Rigid3& pose : path) {
-    block += FormatNumber(pose.translation.x()) + " " + FormatNumber(pose.translation.z()) + "\n";
-  }
+  for (const Rigid3& pose : path) block += FormatPoint(pose);
   return block + "END\n";
+}
+
+/// Data blocks of the tracked parts of the path and of the interpolated ones between them; an empty
+/// line ends a part. The second one is empty where there are none.
+std::pair<std::string, std::string> FormatParts(const PlottedPath& path) {
+  std::string tracked, interpolated;
+  for (size_t i = 0; i < path.estimate.size(); ++i) {
+    const bool is_gap =
+        i > 0 && !path.is_tracked.empty() && !(path.is_tracked[i - 1] && path.is_tracked[i]);
+    if (is_gap) {
+      interpolated += FormatPoint(path.estimate[i - 1]) + FormatPoint(path.estimate[i]) + "\n";
+      tracked += "\n";
+    }
+    tracked += FormatPoint(path.estimate[i]);
+  }
+  if (!interpolated.empty()) interpolated = "$interpolated << END\n" + interpolated + "END\n";
+  return {"$estimate << END\n" + tracked + "END\n", interpolated};
 }
 
 std::string FormatErrorBlock(const std::vector<Rigid3>& estimate,
@@ -56,32 +76,34 @@ std::string FormatErrorBlock(const std::vector<Rigid3>& estimate,
   return block + "END\n";
 }
 
-std::string MakeScript(const std::vector<Rigid3>& estimate, const std::vector<Rigid3>& truth,
-                       const std::string& png_path) {
+}  // namespace
+
+std::string WritePlotScript(const PlottedPath& path, const std::string& png_path) {
+  PlottedPath laid = path;
+  laid.estimate = RebaseToFirst(path.estimate);
+  if (!path.truth.empty()) laid.truth = RebaseToFirst(path.truth);
+  const auto [tracked, interpolated] = FormatParts(laid);
   std::string script = "set terminal pngcairo size 1400,700 font ',12'\nset output " +
-                       Quote(png_path) + "\nset grid\nset key top left\n" +
-                       FormatBlock("estimate", estimate);
-  const std::string from_above =
-      FormatSquareRange(estimate, truth) +
-      "set size square\nset title 'From above'\nset xlabel 'x right, m'\n"
-      "set ylabel 'z forward, m'\n"
-      "plot $estimate with lines lw 2 lc rgb '#1f77b4' title 'estimate'";
-  if (truth.empty()) return script + from_above + "\n";
-  return script + FormatBlock("truth", truth) + FormatErrorBlock(estimate, truth) +
+                       Quote(png_path) + "\nset grid\nset key top left\n" + tracked + interpolated;
+  std::string from_above = FormatSquareRange(laid.estimate, laid.truth) +
+                           "set size square\nset title 'From above'\nset xlabel 'x right, m'\n"
+                           "set ylabel 'z forward, m'\nplot ";
+  if (!laid.truth.empty()) from_above += "$truth with lines lw 5 lc rgb '#f0b0b0' title 'truth', ";
+  from_above += "$estimate with lines lw 2 lc rgb '#1f77b4' title 'estimate'";
+  if (!interpolated.empty())
+    from_above +=
+        ", $interpolated with lines dt 2 lw 2 lc rgb '#1f77b4' title 'lost: interpolated'";
+  if (laid.truth.empty()) return script + from_above + "\n";
+  return script + FormatBlock("truth", laid.truth) + FormatErrorBlock(laid.estimate, laid.truth) +
          "set multiplot layout 1,2\n" + from_above +
-         ", $truth with lines dt 2 lw 2 lc rgb '#d62728' title 'truth'\n"
-         "set size nosquare\nset autoscale\nset title 'Error of the position'\n"
+         "\nset size nosquare\nset autoscale\nset title 'Error of the position'\n"
          "set xlabel 'distance driven, m'\nset ylabel 'error, m'\nset yrange [0:*]\n"
          "plot $error with lines lw 2 lc rgb '#2ca02c' notitle\nunset multiplot\n";
 }
 
-}  // namespace
-
-void PlotTrajectory(const std::vector<Rigid3>& estimate, const std::vector<Rigid3>& truth,
-                    const std::string& png_path) {
-  if (estimate.empty()) throw std::runtime_error("nothing to draw");
-  const std::string script =
-      MakeScript(RebaseToFirst(estimate), truth.empty() ? truth : RebaseToFirst(truth), png_path);
+void PlotTrajectory(const PlottedPath& path, const std::string& png_path) {
+  if (path.estimate.empty()) throw std::runtime_error("nothing to draw");
+  const std::string script = WritePlotScript(path, png_path);
   const auto old_handler = std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be missing or fail early
   FILE* gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
   if (gnuplot) std::fwrite(script.data(), 1, script.size(), gnuplot);

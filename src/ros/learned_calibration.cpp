@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "arfm_vo/calibration/learned_correction_file.h"
+#include "arfm_vo/configuration/learned_correction_file.h"
 
 namespace arfm_vo {
 namespace {

@@ -11,6 +11,7 @@
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/pose_message.h"
+#include "arfm_vo/ros/terrain_marker.h"
 
 namespace arfm_vo {
 namespace {
@@ -58,9 +59,15 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       stereo_(ros::NodeHandle(node, "stereo")),
       clock_(node.advertise<rosgraph_msgs::Clock>("/clock", 10)),
       truth_(node.advertise<nav_msgs::Odometry>("base_truth", 10)),
+      ground_(node.advertise<visualization_msgs::Marker>(
+          "terrain", 1, [this](const auto& subscriber) { ShowTerrain(subscriber); })),
       status_subscriber_(node.subscribe("status", 10, &SimulatorNode::TakeStatus, this)),
       odometry_subscriber_(node.subscribe("odom", 10, &SimulatorNode::TakeOdometry, this)),
       report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)) {}
+
+void SimulatorNode::ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const {
+  subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
+}
 
 void SimulatorNode::Run() {
   if (!head_) PublishFixedMount();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "arfm_vo/calibration/learned_correction_file.h"
+#include "arfm_vo/configuration/learned_correction_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/datasets/kitti_calibration.h"

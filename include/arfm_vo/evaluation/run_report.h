@@ -10,6 +10,7 @@ namespace arfm_vo {
 /// where none is, all estimates and no truth.
 struct PathComparison {
   std::vector<Rigid3> estimate, truth;  ///< world_from_camera
+  std::vector<bool> is_tracked;         ///< [estimate]
 };
 PathComparison CompareWithTruth(const OdometryRun& run, const Trajectory& trajectory);
 

@@ -87,6 +87,7 @@ class SimulatorNode {
   }
   void TakeOdometry(const nav_msgs::Odometry& odometry);
   void TakeReport(const GoalReport& report);
+  void ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const;
   void SavePicture() const;
   ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_); }
 
@@ -106,7 +107,7 @@ class SimulatorNode {
   ros::Time odometry_done_, pair_stamp_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   StereoPublisher stereo_;
-  ros::Publisher clock_, truth_;
+  ros::Publisher clock_, truth_, ground_;
   ros::Subscriber status_subscriber_, odometry_subscriber_, report_subscriber_;
 };
 

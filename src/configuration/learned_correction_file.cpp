@@ -1,4 +1,4 @@
-#include "arfm_vo/calibration/learned_correction_file.h"
+#include "arfm_vo/configuration/learned_correction_file.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
