@@ -203,6 +203,7 @@ void Session::StartEpoch() {
     pose.world_from_camera = map_.map_from_world() * pose.world_from_camera;
     closed_.push_back(pose);
   }
+  BoundFrames(closed_);
   if (base_.has_world()) map_.Adjust(log_.MapFromWorld());
   log_ = TrajectoryLog(num_frames_);
   offer_.reset();

@@ -1,19 +1,36 @@
 #include "arfm_vo/odometry/trajectory_log.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 namespace arfm_vo {
 
 void TrajectoryLog::Add(const OdometryUpdate& update, const LocalMap& map) {
   for (const Keyframe& keyframe : map.keyframes()) {
     const auto [place, is_new] = keyframes_.try_emplace(keyframe.id);
-    if (is_new) place->second.frame = first_frame_ + frames_.size();
+    if (is_new) place->second.frame = first_frame_ + num_frames_;
     place->second.camera_from_world = keyframe.camera_from_world;
   }
   if (!update.pose.IsMeasured() || map.keyframes().empty()) return AddLost(update.stamp_s);
   const Keyframe& keyframe = map.keyframes().back();
-  frames_.push_back({update.stamp_s, true, keyframe.id,
-                     update.pose.camera_from_world * keyframe.camera_from_world.Inverse()});
+  Push({update.stamp_s, true, keyframe.id,
+        update.pose.camera_from_world * keyframe.camera_from_world.Inverse()});
+}
+
+void TrajectoryLog::Push(const Frame& frame) {
+  frames_.push_back(frame);
+  ++num_frames_;
+  if (frames_.size() <= kMaxFramesKept) return;
+  BoundFrames(frames_);
+  std::set<KeyframeId> needed;
+  for (const Frame& kept : frames_) needed.insert(kept.keyframe);
+  const size_t recent = num_frames_ - kMaxFramesKept / 2;  // an adjustment may still come for these
+  for (auto place = keyframes_.begin(); place != keyframes_.end();) {
+    const bool is_needed =
+        place->second.frame >= first_frame_ + recent || needed.count(place->first);
+    place = is_needed ? std::next(place) : keyframes_.erase(place);
+  }
 }
 
 void TrajectoryLog::Apply(const MapUpdate& update) {

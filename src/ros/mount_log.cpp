@@ -1,6 +1,7 @@
 #include "arfm_vo/ros/mount_log.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace arfm_vo {
 namespace {
@@ -16,6 +17,9 @@ void MountLog::Add(double stamp_s, const Rigid3& base_from_camera) {
     if (change.translation.norm() < kNoise_m && change.Angle() < kNoise_rad) return;
   }
   base_from_camera_[stamp_s] = base_from_camera;
+  if (base_from_camera_.size() <= kMaxFramesKept) return;
+  auto place = base_from_camera_.begin();  // as BoundFrames
+  for (size_t i = 0; i < kMaxFramesKept / 4; ++i) place = base_from_camera_.erase(std::next(place));
 }
 
 Rigid3 MountLog::At(double stamp_s) const {

@@ -42,6 +42,30 @@ TEST_F(TrajectoryLogTest, GivesThePosesAsTheyWereWithoutCorrection) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(Z(i), i, 1e-12);
 }
 
+TEST_F(TrajectoryLogTest, OfADriveOfManyHoursOlderFramesAreThinned) {
+  for (size_t i = 4; i < 3 * kMaxFramesKept; ++i) {
+    const bool is_keyframe = i % 100'000 == 0;
+    if (is_keyframe || i % 50 == 1) {
+      Pass(1. * i, 1. * i, is_keyframe);
+    } else {
+      log_.AddLost(1. * i);
+    }
+  }
+  const Trajectory trajectory = log_.Poses();
+  EXPECT_LE(trajectory.size(), kMaxFramesKept);
+  EXPECT_GT(trajectory.size(), kMaxFramesKept / 2);
+  EXPECT_EQ(log_.FrameOf(map_.keyframes().back().id), 5 * 100'000u);
+  double last_s = -1;
+  for (const TrajectoryPose& pose : trajectory) {
+    EXPECT_GT(pose.stamp_s, last_s);
+    last_s = pose.stamp_s;
+    if (!pose.is_tracked) continue;
+    EXPECT_NEAR(pose.world_from_camera.translation.z(), pose.stamp_s, 1e-6);
+  }
+  EXPECT_EQ(last_s, 3 * kMaxFramesKept - 1);
+  EXPECT_EQ(trajectory[0].stamp_s, 0) << "where the drive began";
+}
+
 TEST_F(TrajectoryLogTest, AFrameMovesWithItsKeyframe) {
   map_.MoveKeyframe(map_.keyframes().back().id, AtZ(2.5));
   OdometryUpdate lost;

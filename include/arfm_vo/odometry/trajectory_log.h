@@ -12,7 +12,7 @@
 namespace arfm_vo {
 
 /// Remembers each frame of one epoch relative to its keyframe, so that what is found out later
-/// about the keyframe moves the frame too.
+/// about the keyframe moves the frame too. Of a long drive BoundFrames keeps fewer.
 class TrajectoryLog {
  public:
   /// `first_frame` numbers the frames.
@@ -22,7 +22,7 @@ class TrajectoryLog {
   void Add(const OdometryUpdate& update, const LocalMap& map);
 
   /// Takes a frame of which there is no pose.
-  void AddLost(double stamp_s) { frames_.push_back({stamp_s, false, 0, Rigid3()}); }
+  void AddLost(double stamp_s) { Push({stamp_s, false, 0, Rigid3()}); }
 
   /// Takes what a global adjustment found; the newest one counts.
   void Apply(const MapUpdate& update);
@@ -51,7 +51,9 @@ class TrajectoryLog {
     std::optional<Rigid3> camera_from_map;
   };
 
-  size_t first_frame_;
+  void Push(const Frame& frame);
+
+  size_t first_frame_, num_frames_ = 0;
   std::vector<Frame> frames_;
   std::map<KeyframeId, KeyframePlace> keyframes_;
 };
