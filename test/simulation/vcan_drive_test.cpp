@@ -63,6 +63,7 @@ class VcanDriveTest : public ::testing::Test {
     PilotOptions options;
     options.velocity_needs_pose = false;
     options.operator_watch.is_required = false;
+    options.max_tick_gap_s = 60;  // an emulated machine on a busy one holds this process up
     driver_ = std::make_unique<ChassisDriver>(
         options, std::make_unique<NotingBus>(OpenCanBus("vcan0", ChassisLink::Filters()), &sent_));
     chassis_ = std::make_unique<SimulatedChassis>(OpenCanBus("vcan0", {{0x000, 0x200}}),
@@ -178,7 +179,7 @@ TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) 
 TEST_F(VcanDriveTest, AnAdapterThatComesBackUnderAnotherNameIsNotDriven) {
   StartDriving();
   RunBeside("ip link del vcan0");
-  EXPECT_EQ(Reason(), StopReason::kBusDown);
+  EXPECT_TRUE(RunUntil(5, [&] { return Reason() == StopReason::kBusDown; }));
   RunBeside("ip link add dev vcan9 type vcan && ip link set vcan9 up");
   Run(1);
   EXPECT_FALSE(driver_->pilot().Start(Now()).is_accepted) << "vcan0 is not there";
