@@ -9,6 +9,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kHalfSide_m = 30, kCell_m = 0.5;
+constexpr double kSunk_m = 0.05;  // what lies on the ground stays visible
 
 }  // namespace
 
@@ -26,7 +27,7 @@ visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid
     marker.points.emplace_back();
     marker.points.back().x = x;
     marker.points.back().y = y;
-    marker.points.back().z = terrain.Height(x, y);
+    marker.points.back().z = terrain.Height(x, y) - kSunk_m;
     const float light = static_cast<float>(std::clamp(terrain.Sunlight(x, y), 0.0, 2.0));
     marker.colors.emplace_back();
     marker.colors.back().r = 0.15f + 0.20f * light;
