@@ -13,7 +13,8 @@ export PATH=/usr/bin:$PATH
 # shellcheck disable=SC1091
 set +u; . "${BUILD_DIR:-_b}/devel/setup.sh"; set -u
 # A master of its own, so that no other ROS on the machine is disturbed.
-export ROS_MASTER_URI=http://localhost:$(scripts/ports.py)
+port=$(scripts/ports.py)
+export ROS_MASTER_URI=http://localhost:$port
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 
