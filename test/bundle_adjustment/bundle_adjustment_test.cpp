@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -167,6 +168,19 @@ TEST(BundleAdjustment, StandsTenPercentGrossOutliersAndNamesThem) {
     }
     EXPECT_LT(num_missed, 0.05 * num_outliers);
     EXPECT_LT(num_false, 0.05 * scene.is_outlier.size());
+  }
+}
+
+TEST(BundleAdjustment, HasFiniteCovariancesWhereTheLossGivesUpAllObservations) {
+  CorridorScene scene = MakeCorridor({});
+  for (BundleObservation& observation : scene.problem.observations) observation.sigma_px /= 100;
+  BundleOptions options;
+  options.loss = LossKind::kTukey;
+  options.with_point_covariance = true;
+  const BundleResult result = AdjustBundle(scene.problem, options);
+  EXPECT_TRUE(std::isfinite(result.covariance_factor));
+  for (const Eigen::Matrix3d& covariance : result.point_covariances) {
+    EXPECT_TRUE(covariance.allFinite());
   }
 }
 

@@ -98,6 +98,19 @@ TEST_F(FrameTrackerTest, KeypointsAloneDoToo) {
   ExpectNear(tracked.pose.camera_from_world, truth_, 0.05);
 }
 
+TEST_F(FrameTrackerTest, AFewPatchesAreNoBetterThanTheKeypointsThatAgreed) {
+  const StereoImages images = wall_.Render(1, truth_);
+  const StereoFrame frame = frontend_.Process(images);
+  const cv::Rect corner(200, 200, 60, 40);
+  StereoImages mostly_dark = wall_.RenderDark(1);
+  images.left(corner).copyTo(mostly_dark.left(corner));
+  images.right(corner).copyTo(mostly_dark.right(corner));
+  const TrackedFrame tracked = FrameTracker(camera_, {}).Track(frame, mostly_dark, map_, truth_);
+  ASSERT_TRUE(tracked.pose.IsTracked());
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.05);
+  EXPECT_GT(tracked.pose.num_inliers, 50) << "those of the keypoints";
+}
+
 TEST_F(FrameTrackerTest, SaysThatItIsLostInTheDarkAndElsewhere) {
   const StereoImages dark = wall_.RenderDark(1);
   const FrameTracker tracker(camera_, {});
