@@ -9,8 +9,9 @@
 namespace arfm_vo {
 namespace {
 
-/// A right row that is further from where the correction has it tells of the rig, not of the point.
-constexpr double kMaxRowPx = 1;
+/// A right row that is further from where the correction has it, its noise apart, tells of the rig,
+/// not of the point.
+constexpr double kMaxRowPx = 1, kMaxRowSigmas = 5;
 
 /// The observation's pixels, the right row where the correction has it if it is far from there.
 Eigen::Vector4d PixelsOf(const StereoCamera& camera, const StereoCorrection& correction,
@@ -19,7 +20,8 @@ Eigen::Vector4d PixelsOf(const StereoCamera& camera, const StereoCorrection& cor
   if (!observation.has_right) return pixels;
   const double expected = pixels.y() + correction.AtRight(camera, pixels.tail<2>()).y() -
                           correction.AtLeft(camera, pixels.head<2>()).y();
-  if (std::abs(pixels.w() - expected) > kMaxRowPx) pixels.w() = expected;
+  const double most = kMaxRowPx + kMaxRowSigmas * observation.sigma_px;
+  if (std::abs(pixels.w() - expected) > most) pixels.w() = expected;
   return pixels;
 }
 

@@ -49,6 +49,7 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   if (pose.update.can_start && !pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
       (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
     StartEpoch();
+    is_map_doubtful_ = true;
     Track(frame, images, base_from_camera, pose);
   }
   pose.text = ToString(pose.update.pose.status);
@@ -143,8 +144,10 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     if (last_) {
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
-      new_map_ = NewMap{
-          *last_, pose.odom_from_base, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
+      if (is_map_doubtful_) {
+        new_map_ = NewMap{
+            *last_, pose.odom_from_base, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
+      }
     }
   }
   DoubtNewMap(pose);
@@ -209,6 +212,8 @@ void Session::StartEpoch() {
   offer_.reset();
   if (odometry_) odometry_->Reset();
   base_.StartEpoch();
+  is_map_doubtful_ = false;
+  new_map_.reset();
   motion_.StartWorld();
   num_unknown_ = 0;
   ++epoch_;

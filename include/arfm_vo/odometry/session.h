@@ -101,8 +101,9 @@ class Session {
   std::optional<MapUpdate> offer_;  // of this epoch
   BaseMotion base_;
   DriftCovariance drift_;
-  MotionModel motion_;           // of the base in the odometry's world
-  std::optional<Tracked> last_;  // measured
+  MotionModel motion_;            // of the base in the odometry's world
+  std::optional<Tracked> last_;   // measured
+  bool is_map_doubtful_ = false;  // begun after a loss
   std::optional<NewMap> new_map_;
   std::optional<double> lost_since_s_;
   int num_unknown_ = 0;  // good pairs in a row that the map does not know
