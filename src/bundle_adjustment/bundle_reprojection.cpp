@@ -1,7 +1,8 @@
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 #include <Eigen/LU>
-#include <cmath>
+
+#include "arfm_vo/geometry/screw_motion.h"
 
 namespace arfm_vo {
 namespace {
@@ -10,16 +11,6 @@ constexpr double kMinDepth = 1e-3;     ///< m
 constexpr double kBehindCamera = 1e5;  ///< sigma, the error of a point that cannot be seen
 
 }  // namespace
-
-Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega) {
-  const double angle = omega.norm();
-  const Eigen::Matrix3d skew = Skew(omega);
-  if (angle < 1e-4) {
-    return Eigen::Matrix3d::Identity() + skew / 2 + skew * skew / 6;
-  }
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / (angle * angle) * skew +
-         (angle - std::sin(angle)) / (angle * angle * angle) * skew * skew;
-}
 
 Eigen::Matrix<double, 4, 6> ReprojectionTerm::ByPose() const {
   Eigen::Matrix<double, 4, 6> by_pose;

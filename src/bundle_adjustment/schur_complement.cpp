@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "arfm_vo/base/pacer.h"
+#include "arfm_vo/geometry/screw_motion.h"
 #include "normal_equations.h"
 
 namespace arfm_vo {

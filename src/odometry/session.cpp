@@ -145,8 +145,7 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
       if (is_map_doubtful_) {
-        new_map_ = NewMap{
-            *last_, pose.odom_from_base, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
+        new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
       }
     }
   }
@@ -167,7 +166,7 @@ void Session::DoubtNewMap(SessionUpdate& pose) {
   if (new_map_->doubt.Follow(stamp_s, pose.odom_from_base)) {
     // It may as well have gone on as before.
     const Tracked& before = new_map_->before;
-    drift_.StartEpoch(new_map_->odom_from_base, before.covariance,
+    drift_.StartEpoch(new_map_->doubt.odom_from_start(), before.covariance,
                       GapCovariance(before.twist, stamp_s - before.stamp_s));
     if (pose.update.pose.IsTracked()) {
       pose.update.pose.status = PoseStatus::kDegraded;

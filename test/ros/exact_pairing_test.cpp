@@ -68,10 +68,18 @@ TEST_F(ExactPairingTest, IncompleteOnesOfALaterTimeKeepNoOthersOut) {
   EXPECT_THAT(paired_s_, ElementsAre(1, 2, 3));
 }
 
-TEST_F(ExactPairingTest, AfterASpellOfTheOtherTopicOnePairIsLost) {
+TEST_F(ExactPairingTest, NoPairIsLostWhereAnOldOneComesAgain) {
+  AddImage(1), AddInfo(1);
+  AddInfo(2), AddInfo(1);  // the image of 2 is on its way
+  AddImage(2), AddImage(1);
+  AddImage(3), AddInfo(3);
+  EXPECT_THAT(paired_s_, ElementsAre(1, 2, 1, 3));
+}
+
+TEST_F(ExactPairingTest, AfterASpellOfTheOtherTopicNoPairIsLost) {
   for (int i = 0; i < 10; ++i) AddInfo(4e9 + i);
   for (const double stamp_s : {1, 2, 3}) AddImage(stamp_s), AddInfo(stamp_s);
-  EXPECT_THAT(paired_s_, ElementsAre(2, 3));
+  EXPECT_THAT(paired_s_, ElementsAre(1, 2, 3));
 }
 
 }  // namespace

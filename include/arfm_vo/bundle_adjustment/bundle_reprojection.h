@@ -6,10 +6,6 @@
 
 namespace arfm_vo {
 
-/// Jl with Exp(omega + d) = Exp(Jl d) Exp(omega) to first order, and ExpSE3(omega, v) =
-/// (Exp(omega), Jl v) (Chirikjian 2012, 10.86).
-Eigen::Matrix3d LeftJacobianSO3(const Eigen::Vector3d& omega);
-
 /// The reprojection error of a stereo observation of point X by pose (R, t), px / sigma:
 ///   r = (p + l(p) - (u_left, v_left), q + d(q) - (u_right, v_right)) / sigma
 ///   x = R X + t,  p = pi(x),  q = pi(x - (b, 0, 0))

@@ -17,6 +17,8 @@ class NewMapDoubt {
   bool Follow(double stamp_s, const Rigid3& odom_from_base);
   /// Whether nothing more can be told.
   bool IsOver() const { return is_over_; }
+  /// Where the map began.
+  const Rigid3& odom_from_start() const { return odom_from_start_; }
 
  private:
   double stamp_s_;

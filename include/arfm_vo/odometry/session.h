@@ -76,7 +76,6 @@ class Session {
   };
   struct NewMap {
     Tracked before;  ///< the last pose in the map before
-    Rigid3 odom_from_base;
     NewMapDoubt doubt;
   };
   void PrepareFor(const StereoCamera& camera);

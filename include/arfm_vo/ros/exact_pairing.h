@@ -3,59 +3,53 @@
 #include <ros/time.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/shared_ptr.hpp>
+#include <deque>
 #include <functional>
-#include <map>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
 namespace arfm_vo {
 
-/// Brings together messages of exactly one stamp, one of each topic. As message_filters' ExactTime,
-/// but where the stamps of a topic go back, what waits is forgotten: ExactTime keeps the newest
-/// stamps, and a few incomplete sets that lie ahead keep all others out until their time comes.
+/// Brings together messages of exactly one stamp, one of each topic. Stamps may go back: what waits
+/// is in the order in which it came. (message_filters' ExactTime keeps the newest stamps: a few
+/// incomplete sets that lie ahead keep all others out until their time comes.)
 template <class... Messages>
 class ExactPairing {
  public:
-  using Set = std::tuple<boost::shared_ptr<const Messages>...>;
   using Callback = std::function<void(const boost::shared_ptr<const Messages>&...)>;
 
-  /// At most `max_waiting` incomplete sets wait.
+  /// At most `max_waiting` messages of each topic wait for the others.
   ExactPairing(size_t max_waiting, Callback callback)
       : max_waiting_(max_waiting), callback_(std::move(callback)) {}
 
-  template <size_t topic>
-  void Add(const std::tuple_element_t<topic, Set>& message) {
-    const ros::Time stamp = message->header.stamp;
-    // Another topic may have gone back before and be ahead by some messages: these wait on.
-    if (stamp < last_[topic] && stamp < newest_ && waiting_.count(stamp) == 0) {
-      waiting_.clear();
-      newest_ = stamp;
-    }
-    last_[topic] = stamp;
-    newest_ = std::max(newest_, stamp);
-    Set& set = waiting_[stamp];
-    std::get<topic>(set) = message;
-    if (IsWhole(set)) {
-      const Set whole = set;
-      waiting_.erase(waiting_.begin(), waiting_.upper_bound(stamp));
-      std::apply(callback_, whole);
-    } else if (waiting_.size() > max_waiting_) {
-      waiting_.erase(waiting_.begin());
-    }
+  template <size_t topic, class Message>
+  void Add(const boost::shared_ptr<const Message>& message) {
+    auto& own = std::get<topic>(waiting_);
+    own.push_back(message);
+    if (own.size() > max_waiting_) own.pop_front();
+    std::apply([&](auto&... queues) { CallWhereWhole(message->header.stamp, queues...); },
+               waiting_);
   }
 
  private:
-  static bool IsWhole(const Set& set) {
-    return std::apply([](const auto&... messages) { return (messages && ...); }, set);
+  template <class Queue>
+  static auto Find(Queue& queue, const ros::Time& stamp) {
+    return std::find_if(queue.begin(), queue.end(),
+                        [&](const auto& message) { return message->header.stamp == stamp; });
+  }
+  template <class... Queues>
+  void CallWhereWhole(const ros::Time& stamp, Queues&... queues) {
+    if (((Find(queues, stamp) == queues.end()) || ...)) return;
+    const std::tuple set(*Find(queues, stamp)...);
+    (queues.erase(queues.begin(), std::next(Find(queues, stamp))), ...);
+    std::apply(callback_, set);
   }
 
   const size_t max_waiting_;
   const Callback callback_;
-  std::map<ros::Time, Set> waiting_;
-  std::array<ros::Time, sizeof...(Messages)> last_;  // stamp of each topic
-  ros::Time newest_;                                 // stamp since they went back
+  std::tuple<std::deque<boost::shared_ptr<const Messages>>...> waiting_;
 };
 
 }  // namespace arfm_vo
