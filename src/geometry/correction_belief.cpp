@@ -20,6 +20,8 @@ constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,
 constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
 /// Of the radial coefficients, px in the corners.
 constexpr double kRadialSigmaPx = 3;
+/// Of both images' focal length: what calibrations after Zhang say of themselves.
+constexpr double kFocalLengthSigma = 1e-3;
 /// The pixels above are of a camera with this focal length: what a calibration is off by are
 /// angles.
 constexpr double kFocalLengthPx = 700;
@@ -81,6 +83,9 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
                                                                           kRadialSigmaPx);
   belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
+  const double corner_px = 0.5 * std::hypot(camera.width, camera.height);
+  belief.covariance.diagonal()[kNumTerms + RadialBasis::kFocalLength] =
+      std::pow(kFocalLengthSigma * corner_px, 2);
   return belief;
 }
 

@@ -31,6 +31,10 @@ constexpr double kModelSigmaPx = 0.05;
 constexpr double kContradictionPx = 0.5;
 constexpr int kMaxContradictions = 10;
 
+/// The focal length of both images shows in turns: after so much more turning the correction is
+/// learnt anew from all keyframes.
+constexpr double kTellingTurn_rad = 0.5;
+
 constexpr double kAdjustmentGrowth = 1.5;
 
 /// How sure the motion between two keyframes is when a loop is shared out among them.
@@ -68,8 +72,12 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
   CheckCorrection(keyframe);
   const int newest = num_keyframes();
-  store_.keyframes.push_back({keyframe.id, keyframe.camera_from_world * map_from_odom_.Inverse(),
-                              keyframe.observations, FirstLandmark(keyframe)});
+  const Rigid3 camera_from_map = keyframe.camera_from_world * map_from_odom_.Inverse();
+  if (newest > 0) {
+    turned_rad_ += (camera_from_map * store_.keyframes.back().camera_from_map.Inverse()).Angle();
+  }
+  store_.keyframes.push_back(
+      {keyframe.id, camera_from_map, keyframe.observations, FirstLandmark(keyframe)});
   for (const LandmarkRecord& landmark : keyframe.landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];
     point.x_in_map = map_from_odom_ * landmark.x_in_world;
@@ -87,7 +95,10 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
   if (options_.loops.enabled) {
     if (const auto loop = detector_.Detect(store_, correction_.mean)) Close(*loop);
   }
-  if (num_keyframes() <= options_.NumMoving()) return;
+  if (num_keyframes() <= options_.NumMoving()) {
+    is_learning_ |= options_.learn_correction && turned_rad_ > learnt_at_rad_ + kTellingTurn_rad;
+    return;
+  }
   is_learning_ = false;  // a drive that did not tell more so far: the rest would count twice
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
@@ -225,6 +236,7 @@ void GlobalMap::LearnCorrection(const BundleResult& result) {
   correction_ = {result.correction, kTrackCorrelation * result.correction_covariance};
   correction_.covariance.diagonal().array() += kModelSigmaPx * kModelSigmaPx;
   is_learning_ = !IsKnown(correction_, camera_);
+  learnt_at_rad_ = turned_rad_;
 }
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {

@@ -19,7 +19,7 @@ Coefficients MakeDisplacement() {
   coefficients[0] = 0.2;
   coefficients[3] = 0.15;
   coefficients[6] = -0.1;
-  coefficients.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField) << 2, -1;
+  coefficients.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField) << 2, -1, 0.5;
   constexpr int kRows = StereoCorrection::kNumPlacing;
   coefficients[kRows] = -0.3;
   coefficients[kRows + 1] = 0.2;
@@ -37,8 +37,9 @@ CorridorOptions MakeOptions(const Coefficients& displacement) {
   CorridorOptions corridor;
   corridor.num_poses = 12;
   corridor.num_points = 800;
-  corridor.noise_px = 0.2;  // what aligned patches have
-  corridor.num_fixed = 1;   // two would tell the scale
+  corridor.turn_rad = 0.05;  // straight ways do not tell the focal length
+  corridor.noise_px = 0.2;   // what aligned patches have
+  corridor.num_fixed = 1;    // two would tell the scale
   corridor.correction.coefficients_px = displacement;
   return corridor;
 }
@@ -56,6 +57,7 @@ TEST(SelfCalibration, FindsTheDisplacementOfTheRightImageFromNoisyImagesAlone) {
   CorridorOptions corridor = MakeOptions(truth);
   corridor.num_poses = 24;
   corridor.num_points = 1600;
+  corridor.turn_rad = 0.07;
   const BundleResult result = Calibrate(corridor);
   EXPECT_LT(SquaredDistance(result, truth), ChiSquareQuantile(StereoCorrection::kSize, 0.99));
   for (int i = 0; i < StereoCorrection::kSize; ++i) {

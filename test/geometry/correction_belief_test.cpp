@@ -67,10 +67,10 @@ TEST(CorrectionBelief, LargestRadialIsThatOfTheTermsTogether) {
   CorrectionBelief belief = CorrectionBelief::Isotropic(0.5);
   EXPECT_EQ(belief.LargestRadial().largest_px, 0);
   constexpr int kFirst = StereoCorrection::kNumField;
-  belief.mean.coefficients_px.segment<2>(kFirst) << -4, 0;
-  EXPECT_NEAR(belief.LargestRadial().largest_px, -4, 1e-12);  // in the corners
-  EXPECT_NEAR(belief.LargestRadial().sigma_px, 0.5, 1e-12);
-  belief.mean.coefficients_px.segment<2>(kFirst) << 0, 8;
+  belief.mean.coefficients_px.segment<3>(kFirst) << -4, 0, 1;
+  EXPECT_NEAR(belief.LargestRadial().largest_px, -3, 1e-12);  // in the corners
+  EXPECT_NEAR(belief.LargestRadial().sigma_px, std::sqrt(0.5), 1e-12);
+  belief.mean.coefficients_px.segment<3>(kFirst) << 0, 8, 0;
   const double r2 = 0.6;  // where r^5 - r^3 is least
   EXPECT_NEAR(belief.LargestRadial().largest_px, 8 * std::sqrt(r2) * r2 * (r2 - 1), 0.02);
 }

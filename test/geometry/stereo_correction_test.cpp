@@ -82,7 +82,7 @@ TEST(StereoCorrection, SlopesOfRadialTermsAgreeWithNumericOnes) {
   constexpr double kStep = 1e-4;
   for (int k = 0; k < 2; ++k) {
     const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
-    const Eigen::Matrix2d numeric =
+    const Eigen::Matrix<double, 2, RadialBasis::kNumTerms> numeric =
         (RadialBasis(kCamera, pixel + step).values - RadialBasis(kCamera, pixel - step).values) /
         (2 * kStep);
     for (int i = 0; i < RadialBasis::kNumTerms; ++i) {
@@ -96,7 +96,7 @@ TEST(StereoCorrection, NominalPixelsUndoTheDisplacement) {
   correction.coefficients_px.setLinSpaced(-0.5, 0.6);
   correction.coefficients_px.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField)
       << 2,
-      -1;
+      -1, 0.5;
   for (const double z : {2.0, 10.0, 1000.0}) {
     const Eigen::Vector3d x(0.5 * z, -0.1 * z, z);
     const Eigen::Vector4d seen = ProjectStereo4(kCamera, correction, x);

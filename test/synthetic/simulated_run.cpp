@@ -41,6 +41,7 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
   Stopwatch stopwatch;
   for (const TrajectoryPose& pose : odometry.Finish()) run.final.push_back(pose.world_from_camera);
   run.num_loops = odometry.num_loops();
+  run.learnt = odometry.correction().value_or(CorrectionBelief());
   run.finish_s = 1e-3 * stopwatch.LapMs();
   return run;
 }

@@ -23,6 +23,7 @@ struct SimulatedRun {
   int num_untracked = 0, num_lost = 0;                   ///< of them without any pose
   int num_keyframes = 0, num_loops = 0;
   std::optional<EyeSkew> skew;          ///< as the last frame had it
+  CorrectionBelief learnt;              ///< at the end
   uint32_t epoch = 0;                   ///< of the last frame; the first is 1
   double odometry_s = 0, finish_s = 0;  ///< wall time; without the simulation
 

@@ -120,6 +120,22 @@ TEST(SimulatedRun, NeesOfTheFirst20MetresIsWithinItsBoundsWithAWrongCalibration)
   EXPECT_LT(sum, ChiSquareQuantile(6 * kRuns, 0.975));
 }
 
+/// Three of its standard deviations before the drive: turns tell what straight ways do not.
+TEST(SimulatedRun, AFocalLengthThatIsWrongIsLearntInTurns) {
+  constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+  const double sigma_px =
+      std::sqrt(CorrectionBelief::OfCalibration(kCamera).covariance(kFocalLength, kFocalLength));
+  SimulatedRunOptions options;
+  options.is_calibrated = false;
+  options.simulator.noise_px = 0.2;
+  options.simulator.displacement.coefficients_px[kFocalLength] = 3 * sigma_px;
+  const auto learnt = [&](const std::vector<Rigid3>& path) {
+    return RunSimulated(kCamera, path, options, {}).learnt.mean.coefficients_px[kFocalLength];
+  };
+  EXPECT_LT(learnt(BentPath(20)), sigma_px);  // straight
+  EXPECT_GT(learnt(BentPath(100)), 1.5 * sigma_px);
+}
+
 /// A drive of 110 frames; then the camera is back where it was at frame 10, far out of the local
 /// map.
 SimulatedRun DriveAndBeCarriedBack(const OdometryOptions& options) {

@@ -28,16 +28,18 @@ struct ImageBasis {
   }
 };
 
-/// Radial distortion about the principal point: displacements by r^3 (k1 of Brown and Conrady), 1
-/// px in the corners for each px of its coefficient, and by r^5 - r^3, zero there (k2, mostly).
+/// Radial displacements about the principal point: by r^3 (k1 of Brown and Conrady), 1 px in the
+/// corners for each px of its coefficient, by r^5 - r^3, zero there (k2, mostly), and by r, which
+/// is another focal length.
 struct RadialBasis {
-  static constexpr int kNumTerms = 2;
+  static constexpr int kNumTerms = 3;
+  static constexpr int kFocalLength = 2;            ///< the term by r
   Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
   std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
 
   /// What the terms displace at a squared distance of r2 from the centre, over the distance; r is 1
   /// in the corners.
-  static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2}; }
+  static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2, 1}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
     const double width = camera.width, height = camera.height;
@@ -45,7 +47,7 @@ struct RadialBasis {
     const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
     const double r2 = p.squaredNorm();
     const auto gain = Gains(r2);
-    const double slope[kNumTerms] = {2, 4 * r2 - 2};
+    const double slope[kNumTerms] = {2, 4 * r2 - 2, 0};
     for (int i = 0; i < kNumTerms; ++i) {
       values.col(i) = gain[i] * p;
       by_pixel[i] =
@@ -66,7 +68,7 @@ struct StereoCorrection {
   static constexpr int kNumPlacing = kNumField + kNumRadial;
   using Coefficients = Eigen::Matrix<double, kSize, 1>;
 
-  /// Ten of the right image's u, two radial ones of both images, ten of the right image's v.
+  /// Ten of the right image's u, three radial ones of both images, ten of the right image's v.
   Coefficients coefficients_px = Coefficients::Zero();
 
   bool IsZero() const { return coefficients_px.isZero(0); }

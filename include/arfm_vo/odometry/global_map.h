@@ -48,7 +48,8 @@ int NextAdjustment(int num_keyframes, int num_moving);
 
 /// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
 /// Adjustments find the stereo correction too until it is known better than any single observation
-/// is trusted; from then on it is held, and learnt anew only where the rows contradict it.
+/// is trusted; from then on it is held, and learnt anew only where the rows contradict it, or where
+/// the camera has turned so much more that the focal length shows.
 class GlobalMap {
  public:
   /// `correction`: what is known of it before.
@@ -98,6 +99,8 @@ class GlobalMap {
   CorrectionBelief prior_;       ///< of the correction, without the keyframes
   CorrectionBelief correction_;  ///< with them
   bool is_learning_;             ///< the correction is free
+  double turned_rad_ = 0;        ///< sum over the keyframes' rotations
+  double learnt_at_rad_ = 0;     ///< when the correction was learnt
   int num_contradictions_ = 0;   ///< keyframes in a row whose rows contradict the correction
   int first_telling_ = 0;        ///< right images of keyframes before are of another correction
 };
