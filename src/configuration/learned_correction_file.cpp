@@ -36,7 +36,8 @@ std::vector<double> ReadList(const YAML::Node& file, const char* key, size_t siz
   const std::string name = path + ": " + key;
   const YAML::Node node = file[key];
   Require(node && node.IsSequence() && node.size() == size,
-          name + " must be a list of " + std::to_string(size) + " numbers");
+          name + " must be a list of " + std::to_string(size) +
+              " numbers: delete the file if another version has written it");
   std::vector<double> values;
   for (const YAML::Node& value : node) {
     const std::vector<double> number = ParseNumbers(value.Scalar(), name);
