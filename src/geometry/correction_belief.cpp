@@ -26,6 +26,11 @@ constexpr double kFocalLengthSigma = 1e-3;
 /// angles.
 constexpr double kFocalLengthPx = 700;
 
+/// Distance of the corners from the centre.
+double CornerPx(const StereoCamera& camera) {
+  return 0.5 * std::hypot(camera.width, camera.height);
+}
+
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
 
 /// Displacement (du, dv) of a pixel by a unit of each error.
@@ -83,27 +88,33 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
                                                                           kRadialSigmaPx);
   belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
-  const double corner_px = 0.5 * std::hypot(camera.width, camera.height);
   belief.covariance.diagonal()[kNumTerms + RadialBasis::kFocalLength] =
-      std::pow(kFocalLengthSigma * corner_px, 2);
+      std::pow(kFocalLengthSigma * CornerPx(camera), 2);
   return belief;
 }
 
 CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
 
-CorrectionBelief::Radial CorrectionBelief::LargestRadial() const {
+CorrectionBelief::Estimate CorrectionBelief::LargestRadial() const {
   constexpr int kSteps = 20;
-  Radial radial;
+  Estimate radial;
   for (int i = 1; i <= kSteps; ++i) {
     const double r = double(i) / kSteps;
     const auto by_coefficients = (r * RadialBasis::Gains(r * r)).eval();
     const double off = by_coefficients.dot(mean.coefficients_px.segment<kNumRadial>(kNumTerms));
-    if (std::abs(off) < std::abs(radial.largest_px)) continue;
+    if (std::abs(off) < std::abs(radial.mean)) continue;
     radial = {off, std::sqrt(by_coefficients.dot(
                        covariance.block<kNumRadial, kNumRadial>(kNumTerms, kNumTerms) *
                        by_coefficients))};
   }
   return radial;
+}
+
+CorrectionBelief::Estimate CorrectionBelief::FocalLengthExcess(const StereoCamera& camera) const {
+  constexpr int kIndex = kNumTerms + RadialBasis::kFocalLength;
+  const double corner_px = CornerPx(camera);
+  return {mean.coefficients_px[kIndex] / corner_px,
+          std::sqrt(covariance(kIndex, kIndex)) / corner_px};
 }
 
 double CorrectionBelief::MaxColumnSigma(const StereoCamera& camera) const {

@@ -30,6 +30,11 @@ GlobalMapOptions Paced(GlobalMapOptions options, double max_time_share) {
   return options;
 }
 
+/// By how much at least, at three standard deviations.
+double SurelyOff(const CorrectionBelief::Estimate& estimate) {
+  return std::abs(estimate.mean) - 3 * estimate.sigma;
+}
+
 }  // namespace
 
 void BaNodeOptions::Check() const {
@@ -178,18 +183,19 @@ std::optional<MapUpdate> BaNode::Adjust() {
 }
 
 void BaNode::TellOfCalibration(const CorrectionBelief& learnt) {
-  constexpr double kWarnPx = 1, kSignificant = 3;
+  constexpr double kWarnPx = 1, kWarnShare = 1e-3;
   figures_.columns_sigma_px = learnt.MaxColumnSigma(map_.camera());
-  figures_.radial = learnt.LargestRadial();
+  const auto& radial_px = figures_.radial_px = learnt.LargestRadial();
+  const auto& excess = figures_.focal_length_excess = learnt.FocalLengthExcess(map_.camera());
   told_.Set(figures_);
-  const auto& [off_px, sigma_px] = figures_.radial;
-  const double surely_off_px = std::abs(off_px) - kSignificant * sigma_px;
-  if (told_to_calibrate_ || learnt.mean.IsZero() || surely_off_px < kWarnPx) return;
+  const bool is_off = SurelyOff(radial_px) > kWarnPx || SurelyOff(excess) > kWarnShare;
+  if (told_to_calibrate_ || !is_off) return;
   told_to_calibrate_ = true;
   ROS_WARN(
-      "both images are off radially by up to %.1f px (sigma %.1f), which is made up for: "
-      "calibrate the cameras anew, with the board in the corners too",
-      off_px, sigma_px);
+      "both images are off radially by up to %.1f px (sigma %.1f), their focal length by %.2f %% "
+      "(sigma %.2f), which is made up for: calibrate the cameras anew, with the board in the "
+      "corners too",
+      radial_px.mean, radial_px.sigma, 100 * excess.mean, 100 * excess.sigma);
 }
 
 void BaNode::PublishMap() {
@@ -244,7 +250,9 @@ void BaNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
   status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
   status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
-              figures.radial.largest_px, figures.radial.sigma_px);
+              figures.radial_px.mean, figures.radial_px.sigma);
+  status.addf("calibration: focal length of both images off by (%)", "%.2f, sigma %.2f",
+              100 * figures.focal_length_excess.mean, 100 * figures.focal_length_excess.sigma);
 }
 
 }  // namespace arfm_vo

@@ -65,14 +65,28 @@ TEST(CorrectionBelief, BothCornersOfACalibrationMayBeOffBySomePixels) {
 
 TEST(CorrectionBelief, LargestRadialIsThatOfTheTermsTogether) {
   CorrectionBelief belief = CorrectionBelief::Isotropic(0.5);
-  EXPECT_EQ(belief.LargestRadial().largest_px, 0);
+  EXPECT_EQ(belief.LargestRadial().mean, 0);
   constexpr int kFirst = StereoCorrection::kNumField;
   belief.mean.coefficients_px.segment<3>(kFirst) << -4, 0, 1;
-  EXPECT_NEAR(belief.LargestRadial().largest_px, -3, 1e-12);  // in the corners
-  EXPECT_NEAR(belief.LargestRadial().sigma_px, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(belief.LargestRadial().mean, -3, 1e-12);  // in the corners
+  EXPECT_NEAR(belief.LargestRadial().sigma, std::sqrt(0.5), 1e-12);
   belief.mean.coefficients_px.segment<3>(kFirst) << 0, 8, 0;
   const double r2 = 0.6;  // where r^5 - r^3 is least
-  EXPECT_NEAR(belief.LargestRadial().largest_px, 8 * std::sqrt(r2) * r2 * (r2 - 1), 0.02);
+  EXPECT_NEAR(belief.LargestRadial().mean, 8 * std::sqrt(r2) * r2 * (r2 - 1), 0.02);
+}
+
+TEST(CorrectionBelief, FocalLengthExcessIsAShareOfIt) {
+  StereoCamera longer = kCamera;
+  longer.fx *= 1.002;
+  longer.fy *= 1.002;
+  CorrectionBelief belief = CorrectionBelief::OfCalibration(kCamera);
+  EXPECT_NEAR(belief.FocalLengthExcess(kCamera).sigma, 1e-3, 1e-12);
+  const double corner_px = 0.5 * std::hypot(kCamera.width, kCamera.height);
+  belief.mean.coefficients_px[StereoCorrection::kNumField + RadialBasis::kFocalLength] =
+      0.002 * corner_px;
+  EXPECT_NEAR(belief.FocalLengthExcess(kCamera).mean, 0.002, 1e-12);
+  const Eigen::Vector3d x(3, -1, 10);
+  EXPECT_LT((ProjectStereo4(kCamera, belief.mean, x) - ProjectStereo4(longer, {}, x)).norm(), 1e-9);
 }
 
 /// A roll of 1 mrad: rows by 0.6 px at the edges, columns by 0.2 px at top and bottom.

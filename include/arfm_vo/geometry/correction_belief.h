@@ -31,12 +31,14 @@ struct CorrectionBelief {
   }
   /// Largest standard deviation of the columns' displacement over the image, px.
   double MaxColumnSigma(const StereoCamera& camera) const;
-  /// Largest radial displacement of both images between centre and corners, px (negative: towards
-  /// the centre), and its standard deviation.
-  struct Radial {
-    double largest_px = 0, sigma_px = 0;
+  struct Estimate {
+    double mean = 0, sigma = 0;
   };
-  Radial LargestRadial() const;
+  /// Largest radial displacement of both images between centre and corners, px; negative: towards
+  /// the centre.
+  Estimate LargestRadial() const;
+  /// How much longer the focal length of both images is, as a share of it.
+  Estimate FocalLengthExcess(const StereoCamera& camera) const;
 };
 
 }  // namespace arfm_vo

@@ -67,7 +67,7 @@ class BaNode {
     double cost = 0;
     double last_ms = 0, longest_ms = 0;
     double columns_sigma_px = 0;
-    CorrectionBelief::Radial radial;
+    CorrectionBelief::Estimate radial_px, focal_length_excess;
     Rigid3 map_from_odom;
   };
 
