@@ -60,6 +60,8 @@ def pilot():
     file = "src/driving/pilot.cpp"
     return [Protection(name, file, old, new) for name, old, new in (
         ("an emergency stop belongs to its source", "emergency_sources_.erase(source);", "emergency_sources_.clear();"),
+        ("the 65th emergency stop counts", 'emergency_sources_.insert(is_room ? source : "further nodes");',
+         "if (is_room) emergency_sources_.insert(source);"),
         ("no start with a fault", 'if (const auto fault = FindStartFault(now_s)) return {false, "not started: " + InWords(*fault)};', ""),
         ("goals have limits", "!flaw.empty()", "false"),
         ("no goals while blocked", 'if (state_ == DriveState::kBlocked)\n'
