@@ -139,7 +139,7 @@ def try_protections(text):
     sources = {}
     changes = []
     for protection in PROTECTIONS:
-        if text in protection.name:
+        if text in protection.name or text in protection.file:
             source = sources.setdefault(protection.file, Source(ROOT, protection.file, len(sources)))
             changes.append(source.protect(protection))
     suites = {suite for change in changes for suite in change.suites}
@@ -190,7 +190,7 @@ def tell_sample(folder, sampled, seed, num_possible):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", choices=sorted(FOLDERS), metavar="FOLDER", help=" ".join(sorted(FOLDERS)))
-    parser.add_argument("--only", default="", help="protections whose name holds this")
+    parser.add_argument("--only", default="", help="protections whose name or file holds this")
     parser.add_argument("--rules-only", action="store_true", help="no protections")
     parser.add_argument("--sample", type=int, default=0, help="of the changes by rule")
     parser.add_argument("--seed", type=int, default=1, help="of the sample")

@@ -60,6 +60,8 @@ def pilot():
     file = "src/driving/pilot.cpp"
     return [Protection(name, file, old, new) for name, old, new in (
         ("an emergency stop belongs to its source", "emergency_sources_.erase(source);", "emergency_sources_.clear();"),
+        ("the 65th emergency stop counts", 'emergency_sources_.insert(is_room ? source : "further nodes");',
+         "if (is_room) emergency_sources_.insert(source);"),
         ("no start with a fault", 'if (const auto fault = FindStartFault(now_s)) return {false, "not started: " + InWords(*fault)};', ""),
         ("goals have limits", "!flaw.empty()", "false"),
         ("no goals while blocked", 'if (state_ == DriveState::kBlocked)\n'
@@ -71,7 +73,7 @@ def pilot():
         ("the velocity is forgotten at a stop", "reason_ = StopReason::kStopped;\n  detail_.clear();\n"
          "  velocity_s_ = kNeverCommanded_s;", "reason_ = StopReason::kStopped;\n  detail_.clear();"),
         ("a velocity that is not finite is refused", "!motion.IsFinite()", "false"),
-        ("two nodes do not command velocities", "if (IsMovedByAnother(now_s, source)) {", "if (false) {"),
+        ("two nodes do not command velocities", "IsMovedByAnother(now_s, source)", "false"),
         ("a velocity that streams on is no new command",
          "if (state_ != DriveState::kPaused && state_ != DriveState::kWarning) commanded_s_ = now_s;", "commanded_s_ = now_s;"),
         ("no velocity beside a goal", 'if (route_) return {false, "velocity refused: a goal is being driven to"};', ""),

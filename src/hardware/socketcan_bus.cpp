@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <system_error>
 
 namespace arfm_vo {
@@ -47,6 +48,17 @@ void SetFilters(int socket, const CanFilters& filters) {
   SetOption(socket, SOL_CAN_RAW, CAN_RAW_FILTER, raw.data(), raw.size() * sizeof(can_filter));
 }
 
+/// 0 and errno where there is no such interface. Not by if_nametoindex(): of an interface that is
+/// missing, the kernel runs modprobe twice where root asks, and the caller waits for it.
+int IndexOf(const std::string& interface) {
+  const std::unique_ptr<struct if_nameindex, void (*)(struct if_nameindex*)> all(
+      ::if_nameindex(), ::if_freenameindex);
+  for (const auto* one = all.get(); one && one->if_index != 0; ++one)
+    if (interface == one->if_name) return static_cast<int>(one->if_index);
+  errno = ENODEV;
+  return 0;
+}
+
 }  // namespace
 
 SocketCanBus::SocketCanBus(const std::string& interface, CanFilters filters)
@@ -61,7 +73,7 @@ FileDescriptor SocketCanBus::Open() const {
   if (!socket.IsOpen()) fail("the kernel gives no CAN socket (udp:LOCAL:PEER needs none)");
   sockaddr_can address{};
   address.can_family = AF_CAN;
-  address.can_ifindex = static_cast<int>(::if_nametoindex(interface_.c_str()));
+  address.can_ifindex = IndexOf(interface_);
   if (address.can_ifindex == 0) fail("no such interface");
   SetFilters(socket.Get(), filters_);
   // A short queue: commands that cannot go out at once must not go out late.
@@ -73,6 +85,7 @@ FileDescriptor SocketCanBus::Open() const {
 }
 
 bool SocketCanBus::Reopen() {
+  if (IndexOf(interface_) == 0) return false;
   try {
     socket_ = Open();
   } catch (const std::system_error&) {

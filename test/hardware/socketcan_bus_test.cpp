@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "hardware/await_frame.h"
 
@@ -114,6 +116,22 @@ TEST_F(SocketCanTest, AnInterfaceThatIsTakenAwayAndMadeAgainIsSurvived) {
   EXPECT_EQ(bus.Send(kFrame), CanSendStatus::kSent);
   RawSocket().Write(0x211);
   EXPECT_EQ(AwaitFrame(bus).id, 0x211u);
+}
+
+TEST_F(SocketCanTest, AnInterfaceThatIsGoneIsLookedForWithoutModprobe) {
+  // The kernel's modprobe is a script meanwhile, which leaves a file behind.
+  const std::string script = ::testing::TempDir() + "noting_modprobe", note = script + "_ran";
+  std::ofstream(script) << "#!/bin/sh\ntouch " << note << "\n";
+  ASSERT_TRUE(RunsWell("chmod +x " + script + " && rm -f " + note));
+  SocketCanBus bus("vcan0");
+  ASSERT_TRUE(RunsWell("ip link del vcan0"));
+  ASSERT_TRUE(RunsWell("echo " + script + " > /proc/sys/kernel/modprobe"));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(bus.Send(kFrame), CanSendStatus::kDown);
+  EXPECT_FALSE(std::filesystem::exists(note));
+  EXPECT_EQ(::if_nametoindex("vcan0"), 0u);
+  EXPECT_TRUE(std::filesystem::exists(note)) << "this test would not notice it";
+  ASSERT_TRUE(RunsWell("echo /sbin/modprobe > /proc/sys/kernel/modprobe"));
+  ASSERT_TRUE(RunsWell("ip link add vcan0 type vcan && ip link set vcan0 up"));
 }
 
 TEST_F(SocketCanTest, NothingIsSentFromBusOffToRestart) {
