@@ -16,7 +16,7 @@ ARGUMENTS = ("left_image:=", "right_image:=", "left_info:=", "right_info:=")
 def find_fault(path, wanted):
     """What keeps the bag from being replayed, in words; empty where nothing does."""
     if not os.path.isfile(path):
-        return "no such file"
+        return "no such file (a path is that of the folder you call roslaunch in)"
     try:
         with rosbag.Bag(path) as bag:
             topics = {name: kind.msg_type for name, kind in bag.get_type_and_topic_info()[1].items()}
@@ -32,8 +32,10 @@ def find_fault(path, wanted):
         return f"holds compressed images only ({wanted[0]}/compressed): decompress it with image_transport republish"
     cameras = sorted(name for name, kind in topics.items()
                      if kind in ("sensor_msgs/Image", "sensor_msgs/CompressedImage", "sensor_msgs/CameraInfo"))
-    return (f"has no topic {', '.join(topic for _, topic in missing)}; its cameras are "
-            f"{', '.join(cameras) or 'none'}: give stereo:=, or {' '.join(argument for argument, _ in missing)}")
+    if not cameras:
+        return "holds neither images nor camera_info: is it the right bag? (rosbag info lists its topics)"
+    return (f"has no topic {', '.join(topic for _, topic in missing)}; its cameras are {', '.join(cameras)}: "
+            f"give stereo:=, or {' '.join(argument for argument, _ in missing)}")
 
 
 def main():

@@ -73,37 +73,37 @@ PROGRAMS = BUILD + "/devel/lib/arfm_vo/"
 REPLAY = "replay.launch rviz:=false bag:=input.bag "
 LIVE = ("odometry.launch & sleep 3; rosbag play --quiet input.bag & "
         "wait %1")  # as beside a camera of one's own
-# (mistake, change of the bag, arguments of roslaunch, what the console must say)
+# (mistake, change of the bag, arguments of roslaunch, the thing and the remedy that one line of the console must name)
 MISTAKES = [
-    ("no such bag", None, "replay.launch rviz:=false bag:=none.bag", "none.bag: no such file"),
-    ("damaged bag", "half", REPLAY, "cannot be read"),
-    ("wrong namespace", None, REPLAY + "stereo:=/cam", "its cameras are /stereo/left"),
-    ("one eye in the bag", without("right/image_rect"), REPLAY, "has no topic /stereo/right/image_rect"),
-    ("no camera_info in the bag", without("left/camera_info"), REPLAY, "has no topic /stereo/left/camera_info"),
+    ("no such bag", None, "replay.launch rviz:=false bag:=none.bag", "none.bag: no such file", "path is that of the folder"),
+    ("damaged bag", "half", REPLAY, "input.bag: cannot be read", "rosbag reindex"),
+    ("wrong namespace", None, REPLAY + "stereo:=/cam", "its cameras are /stereo/left", "give stereo:="),
+    ("one eye in the bag", without("right/image_rect"), REPLAY, "has no topic /stereo/right/image_rect", "right_image:="),
+    ("no camera_info in the bag", without("left/camera_info"), REPLAY, "has no topic /stereo/left/camera_info", "left_info:="),
     ("raw images", lambda topic, message: (topic.replace("image_rect", "image_raw"), message), REPLAY,
-     "give rectify:=true"),
-    ("no camera runs", None, "odometry.launch", "no image is published at all"),
-    ("stamps 2 ms apart", change("right/image_rect", delay), REPLAY, "2.000 ms apart"),
-    ("no tf to the camera", None, LIVE, "base_from_camera:="),
-    ("baseline in mm", scale_baseline(1000), REPLAY, "calibrated in mm"),
-    ("baseline 0", scale_baseline(0), REPLAY, "without a baseline there is no scale"),
-    ("wrong sign of the baseline", scale_baseline(-1), REPLAY, "left and right are swapped"),
-    ("swapped eyes", swap, REPLAY, "are left and right swapped"),
-    ("float image", change("left/image_rect", make_float), REPLAY, "32FC1"),
-    ("wrong size", change("right/image_rect", narrow), REPLAY, "differ in size"),
-    ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture"),
-    ("mistyped launch argument", None, REPLAY + "base_fram:=robot", "is base_frame:= meant"),
-    ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "unknown"),
-    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "no display, give rviz:=false"),
-    ("wrong bag", without("image_rect", "camera_info"), REPLAY, "its cameras are none"),
-    ("compressed images only", compress, REPLAY, "holds compressed images only"),
+     "raw images (/stereo/left/image_raw)", "give rectify:=true"),
+    ("no camera runs", None, "odometry.launch", "/stereo/left/image_rect", "start the camera or the bag"),
+    ("stamps 2 ms apart", change("right/image_rect", delay), REPLAY, "2.000 ms apart", "approx_sync:=true"),
+    ("no tf to the camera", None, LIVE, "tf base_link <- left_camera_optical", "base_from_camera:="),
+    ("baseline in mm", scale_baseline(1000), REPLAY, "baseline of 200 m", "Give the calibration lengths in m"),
+    ("baseline 0", scale_baseline(0), REPLAY, "P[3] is 0", "calibrate the cameras as a stereo pair"),
+    ("wrong sign of the baseline", scale_baseline(-1), REPLAY, "baseline of -0.2 m", "exchange their topics"),
+    ("swapped eyes", swap, REPLAY, "P[3] is", "exchange their topics"),
+    ("float image", change("left/image_rect", make_float), REPLAY, "32FC1", "publish mono8"),
+    ("wrong size", change("right/image_rect", narrow), REPLAY, "/stereo/right/image_rect is ", "set the camera to the size it was calibrated at"),
+    ("black images", change("image_rect", darken), REPLAY, "dark, blurred or without texture", "light, exposure, lens cap"),
+    ("mistyped launch argument", None, REPLAY + "base_fram:=robot", "base_fram:=", "is base_frame:= meant"),
+    ("mistyped parameter", "config", REPLAY + "config:=config.yaml", "frontend.no_such_key: unknown key", "known here"),
+    ("no display", None, REPLAY.replace("rviz:=false", "rviz:=true"), "no display", "give rviz:=false"),
+    ("wrong bag", without("image_rect", "camera_info"), REPLAY, "neither images nor camera_info", "is it the right bag"),
+    ("compressed images only", compress, REPLAY, "holds compressed images only", "image_transport republish"),
     ("second instance", None, "odometry.launch & sleep 4; roslaunch arfm_vo odometry.launch",
-     "registered with same name"),
-    ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': "),
-    ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye: "),
-    ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head': "),
-    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 1 --width 320 > /dev/null; " + PROGRAMS +
-     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "9x6"),
+     "/pose_node runs already", "namespace:="),
+    ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': ", "can:="),
+    ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye (", "stereo_camera_node --list"),
+    ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head' (", "port:= names it"),
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 6 --width 320 > /dev/null; " + PROGRAMS +
+     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "a board of 9x6", "wrong board size? The images seem to show"),
 ]
 
 
@@ -124,7 +124,7 @@ def write_input(folder, edit):
         file.write("{left_device: /dev/no_left_eye, right_device: /dev/no_right_eye}\n")
 
 
-def watch(folder, arguments, wanted):
+def watch(folder, arguments, *wanted):
     """The console's line and the time to it since the nodes started (or since the call, where none does), s."""
     environment = {**os.environ, "PWD": folder, "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
     environment.pop("DISPLAY", None)
@@ -140,7 +140,7 @@ def watch(folder, arguments, wanted):
         for line in run.stdout:
             if "started with pid" in line and "master" not in line and not is_started:
                 start, is_started = time.monotonic(), True
-            if wanted.lower() in line.lower():
+            if all(text.lower() in line.lower() for text in wanted):
                 found = (re.sub(r"\x1b\[\d*m|\[ *(WARN|INFO|ERROR|FATAL)\] \[[\d., ]*\]: ", "", line).strip(),
                          time.monotonic() - start)
                 break
@@ -171,17 +171,17 @@ def main():
         return
     signal.signal(signal.SIGALRM, give_up)
     rows, num_late = [], 0
-    for mistake, edit, arguments, wanted in MISTAKES:
+    for mistake, edit, arguments, thing, remedy in MISTAKES:
         with tempfile.TemporaryDirectory(prefix="arfm_vo_mistake_") as folder:
             write_input(folder, edit)
-            found = watch(folder, arguments, wanted)
+            found = watch(folder, arguments, thing, remedy)
             text, time_s = found or ("NOTHING", float("inf"))
             num_late += time_s > LIMIT_S
             rows.append(f"| {mistake} | {text.replace(folder, '.').replace('|', '/')} | {time_s:.1f} |")
             print(rows[-1], flush=True)
     with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
         page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
-                   "fixture; the time is from the start of the nodes, or from\nthe call where none is started (of a board: "
+                   "fixture and checks that one line names\nthe thing and the remedy; the time is from the start of the nodes, or from\nthe call where none is started (of a board: "
                    "with the time to render its pictures).\n\n"
                    "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
     sys.exit(num_late > 0)

@@ -21,6 +21,13 @@ namespace {
   throw std::system_error(error, std::generic_category(), what);
 }
 
+[[noreturn]] void FailToOpen(int error, const std::string& path) {
+  const std::string advice = error == EACCES   ? "is this user in the group dialout?"
+                             : error == ENOTTY ? "give port:= the name of a serial line"
+                                               : "is it plugged in? port:= names it";
+  Fail(error, "serial port '" + path + "' (" + advice + ")");
+}
+
 speed_t ToSpeed(int baud) {
   static constexpr std::pair<int, speed_t> kSpeeds[] = {
       {1200, B1200},   {2400, B2400},   {4800, B4800},   {9600, B9600},
@@ -35,9 +42,9 @@ speed_t ToSpeed(int baud) {
 SerialPort::SerialPort(const std::string& path, int baud) : path_(path) {
   const speed_t speed = ToSpeed(baud);
   fd_ = FileDescriptor(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd_.IsOpen()) Fail(errno, "serial port '" + path + "'");
+  if (!fd_.IsOpen()) FailToOpen(errno, path);
   termios settings{};
-  if (::tcgetattr(fd_.Get(), &settings) != 0) Fail(errno, "serial port '" + path + "'");
+  if (::tcgetattr(fd_.Get(), &settings) != 0) FailToOpen(errno, path);
   ::cfmakeraw(&settings);
   settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | PARENB | CRTSCTS);
   settings.c_cflag |= CS8 | CLOCAL | CREAD;

@@ -70,11 +70,13 @@ FileDescriptor SocketCanBus::Open() const {
                             "CAN interface '" + interface_ + "': " + what);
   };
   FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (!socket.IsOpen()) fail("the kernel gives no CAN socket (udp:LOCAL:PEER needs none)");
+  if (!socket.IsOpen())
+    fail("the kernel gives no CAN socket (modprobe can_raw; can:=udp:LOCAL:PEER needs none)");
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = IndexOf(interface_);
-  if (address.can_ifindex == 0) fail("no such interface");
+  if (address.can_ifindex == 0)
+    fail("there is none (is the adapter plugged in? can:= names it, ip link lists them)");
   SetFilters(socket.Get(), filters_);
   // A short queue: commands that cannot go out at once must not go out late.
   const int send_buffer_bytes = 1;  // raised by the kernel to its least, a few frames

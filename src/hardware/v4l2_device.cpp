@@ -51,12 +51,20 @@ bool SetWhiteBalance(int fd, int kelvin) {
   return SetControl(fd, V4L2_CID_WHITE_BALANCE_TEMPERATURE, kelvin);
 }
 
+[[noreturn]] void FailToOpen(int error, const std::string& path) {
+  const std::string advice = error == EACCES
+                                 ? "is this user in the group video?"
+                                 : "is it plugged in? left_device and right_device name the "
+                                   "cameras, stereo_camera_node --list shows which there are";
+  throw std::system_error(error, std::generic_category(), path + " (" + advice + ")");
+}
+
 }  // namespace
 
 V4l2Device::V4l2Device(const std::string& path, const VideoOptions& options)
     : path_(path), fd_(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) {
   options.Check();
-  if (!fd_.IsOpen()) throw std::system_error(errno, std::generic_category(), path_);
+  if (!fd_.IsOpen()) FailToOpen(errno, path_);
   CheckCapabilities();
   int input = options.input;
   if (input >= 0) CallV4l2(fd_.Get(), VIDIOC_S_INPUT, &input, path_, "has no such input");

@@ -103,6 +103,8 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   Stopwatch stopwatch;
   if (!AcceptStamp(pair.left->header.stamp)) return;
   PrepareFrontend(pair);
+  CheckSize(*pair.left, *pair.left_info, topics_.left_image);
+  CheckSize(*pair.right, *pair.right_info, topics_.right_image);
   const StereoImages images{pair.left->header.stamp.toSec(),
                             ToGrey(pair.left, topics_.left_image, window_),
                             ToGrey(pair.right, topics_.right_image, window_)};

@@ -20,7 +20,9 @@ std::string WhatToDoWhenLost(const StereoFrame& frame, const SessionUpdate& pose
   std::snprintf(counts, sizeof counts, "%zu features, %zu stereo points, %d of the map found; ",
                 num_features, num_points, pose.update.pose.num_matches);
   if (num_features < 100)
-    return std::string(counts) + "is the image dark, blurred or without texture?";
+    return std::string(counts) +
+           "is the image dark, blurred or without texture (light, exposure, "
+           "lens cap)?";
   if (num_points * 10 < num_features)
     return std::string(counts) +
            "left and right do not fit: are the images rectified (rectify:=true), the eyes not "

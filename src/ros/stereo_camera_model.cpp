@@ -45,22 +45,24 @@ StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
   CheckEye(right, "right");
   Require(left.width == right.width && left.height == right.height,
           Join("camera_info: the left image is ", left.width, "x", left.height, ", the right one ",
-               right.width, "x", right.height));
+               right.width, "x", right.height, ": both must publish one size"));
   CheckSameValue(left.P[0], right.P[0], "fx");
   CheckSameValue(left.P[5], right.P[5], "fy");
   CheckSameValue(left.P[2], right.P[2], "cx");
   CheckSameValue(left.P[6], right.P[6], "cy");
   Require(std::abs(left.P[3]) < 1e-6 * left.P[0],
           Join("left camera_info: P[3] is ", left.P[3],
-               ", must be 0: it belongs into the right one (are left and right swapped?)"));
+               ", must be 0: it belongs into the right one (are left and right swapped? Then "
+               "exchange their topics)"));
   const double baseline_m = -right.P[3] / right.P[0];
   Require(baseline_m != 0,
           "right camera_info: P[3] is 0, must be -fx * baseline: without a baseline there is no "
           "scale (calibrate the cameras as a stereo pair)");
   Require(baseline_m > 0, Join("right camera_info: P[3] gives a baseline of ", baseline_m,
-                               " m: left and right are swapped"));
+                               " m: left and right are swapped: exchange their topics"));
   Require(baseline_m < 10, Join("right camera_info: P[3] gives a baseline of ", baseline_m,
-                                " m: it must be below 10 m (was it calibrated in mm?)"));
+                                " m: it must be below 10 m (was it calibrated in mm? Give the "
+                                "calibration lengths in m)"));
   const StereoCamera camera{left.P[0],
                             left.P[5],
                             left.P[2],
@@ -70,6 +72,15 @@ StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
                             static_cast<int>(left.height)};
   camera.Check();
   return camera;
+}
+
+void CheckSize(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info,
+               const std::string& topic) {
+  Require(image.width == info.width && image.height == info.height,
+          Join(topic, " is ", image.width, "x", image.height, ", its camera_info says ", info.width,
+               "x", info.height,
+               ": set the camera to the size it was calibrated at, or calibrate "
+               "it at this one"));
 }
 
 }  // namespace arfm_vo

@@ -14,7 +14,11 @@ inline double HeldMemoryMb() {
 #ifdef __SANITIZE_ADDRESS__
   return static_cast<double>(__sanitizer_get_current_allocated_bytes()) / 1e6;
 #else
-  const struct mallinfo2 memory = mallinfo2();
+#if __GLIBC_PREREQ(2, 33)
+  const auto memory = mallinfo2();
+#else
+  const auto memory = mallinfo();  // right below 2 GB
+#endif
   return static_cast<double>(memory.uordblks + memory.hblkhd) / 1e6;
 #endif
 }

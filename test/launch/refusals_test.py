@@ -38,6 +38,31 @@ class RefusalsTest(LaunchCase):
             bag.write(source.read(1000000))
         self.assertIn("half.bag: cannot be read", self.refuse("bag:=half.bag"))
 
+    def test_a_second_odometry_of_the_same_name_is_refused_and_the_first_goes_on(self):
+        code, console = self.run_command("bash", "-c", """set -m
+            roslaunch arfm_vo odometry.launch > /dev/null &
+            until rosnode ping -c 1 /pose_node 2>&1 | grep -q reply; do sleep 0.5; done
+            roslaunch arfm_vo odometry.launch 2>&1
+            roslaunch --nodes arfm_vo odometry.launch namespace:=/second
+            rosnode ping -c 1 /pose_node
+            kill -INT %1; wait""")
+        self.assertIn("/pose_node runs already on http", console)
+        self.assertIn("/second/pose_node", console)
+        self.assertIn("xmlrpc reply from", console)
+        self.assertEqual(code, 0, console)
+
+    def test_a_name_that_a_killed_node_left_to_the_master_may_be_taken(self):
+        code, console = self.run_command("bash", "-c", """set -m
+            roscore > /dev/null 2>&1 &
+            until rosnode list > /dev/null 2>&1; do sleep 0.5; done
+            rostopic pub -r 10 /there std_msgs/Empty __name:=pose_node > /dev/null & pid=$!
+            until rosnode ping -c 1 /pose_node 2>&1 | grep -q reply; do sleep 0.5; done
+            check_running.py / pose_node || echo "refused while it runs"
+            kill -9 $pid; rosnode list
+            check_running.py / pose_node && echo "taken"
+            kill -INT %1; wait""".replace("check_running.py", os.path.join(SOURCE_DIR, "scripts", "check_running.py")))
+        self.assertRegex(console, "(?s)/pose_node runs already on .*refused while it runs.*/pose_node.*\ntaken")
+
     def test_a_mistyped_parameter_ends_the_replay_and_is_named(self):
         with open(os.path.join(self.folder, "config.yaml"), "w") as file:
             file.write("frontend: {no_such_key: 1}\n")

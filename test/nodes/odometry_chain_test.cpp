@@ -284,7 +284,7 @@ TEST_F(OdometryChain, RefusesWrongImagesAndGoesOn) {
   StereoMessages narrow = MakePair(0);
   narrow.right.width -= 8;
   publisher_.Publish(narrow);
-  ExpectDiagnostic("arfm_node", DiagnosticStatus::ERROR, "differ in size");
+  ExpectDiagnostic("arfm_node", DiagnosticStatus::ERROR, "its camera_info says");
   StereoMessages without_baseline = MakePair(0);
   without_baseline.right_info.P[3] = 0;
   publisher_.Publish(without_baseline);

@@ -62,6 +62,16 @@ TEST(StereoCameraModel, RefusesSizesThatDifferAndNoSize) {
   ExpectRefused("size", [](auto& left, auto& right) { left.width = right.width = 0; });
 }
 
+TEST(StereoCameraModel, AnImageHasTheSizeThatItsCameraInfoTells) {
+  sensor_msgs::Image image;
+  image.width = kRight.width;
+  image.height = kRight.height;
+  CheckSize(image, kRight, "/right");
+  image.width -= 8;
+  EXPECT_INVALID(CheckSize(image, kRight, "/right"),
+                 "/right is 1218x370, its camera_info says 1226x370");
+}
+
 TEST(StereoCameraModel, RefusesBinningAndRegionsOfInterest) {
   ExpectRefused("binning", [](auto& left, auto&) { left.binning_x = 2; });
   ExpectRefused("region", [](auto&, auto& right) { right.roi.x_offset = 8; });

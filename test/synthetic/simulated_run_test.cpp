@@ -104,7 +104,7 @@ TEST(SimulatedRun, NeesOfTheFirst20MetresIsWithinItsBoundsWithAWrongCalibration)
   double sum = 0;
   for (int run_number = 0; run_number < kRuns; ++run_number) {
     StereoCorrection::Coefficients draw;
-    for (double& value : draw) value = normal(engine);
+    for (int i = 0; i < draw.size(); ++i) draw[i] = normal(engine);
     draw = root.matrixL() * draw;
     StereoCorrection& displacement = options.simulator.displacement;
     Eigen::Matrix<double, 2 * StereoCorrection::kNumField, 1> field;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <string>
 
 #include "arfm_vo/geometry/stereo_camera.h"
 
@@ -13,5 +16,10 @@ namespace arfm_vo {
 /// sizes that differ, left and right swapped, no baseline, a baseline in mm.
 StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
                               const sensor_msgs::CameraInfo& right);
+
+/// Throws std::invalid_argument, with the image's topic, where an image has not the size that its
+/// camera_info tells.
+void CheckSize(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info,
+               const std::string& topic);
 
 }  // namespace arfm_vo
