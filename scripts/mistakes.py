@@ -102,8 +102,8 @@ MISTAKES = [
     ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': ", "can:="),
     ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye (", "stereo_camera_node --list"),
     ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head' (", "port:= names it"),
-    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 6 --width 640 > /dev/null; echo started with pid; " + PROGRAMS +
-     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "a board of 9x6", "wrong board size? The images seem to show"),
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 1 --width 320 > /dev/null; echo started with pid; " + PROGRAMS +
+     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "a board of 9x6", "are these its inner corners"),
 ]
 
 
