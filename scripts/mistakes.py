@@ -102,8 +102,8 @@ MISTAKES = [
     ("no CAN interface", None, "chassis.launch can:=can9", "CAN interface 'can9': ", "can:="),
     ("no camera", "config", "camera.launch config:=$PWD/camera.yaml", "/dev/no_left_eye (", "stereo_camera_node --list"),
     ("no serial line", None, "pan_tilt.launch port:=/dev/no_head", "serial port '/dev/no_head' (", "port:= names it"),
-    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 6 --width 320 > /dev/null; " + PROGRAMS +
-     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "a board of 9x6", "wrong board size? The images seem to show"),
+    ("wrong board", None, PROGRAMS + "render_board_set board --pairs 1 --width 320 > /dev/null; echo started with pid; " + PROGRAMS +
+     "calibrate_stereo board --board 9x6 --square 0.10 --output out", "a board of 9x6", "are these its inner corners"),
 ]
 
 
@@ -180,9 +180,9 @@ def main():
             rows.append(f"| {mistake} | {text.replace(folder, '.').replace('|', '/')} | {time_s:.1f} |")
             print(rows[-1], flush=True)
     with open(os.path.join(ROOT, "docs", "mistakes.md"), "w") as page:
-        page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the "
-                   "fixture and checks that one line names\nthe thing and the remedy; the time is from the start of the nodes, or from\nthe call where none is started (of a board: "
-                   "with the time to render its pictures).\n\n"
+        page.write("# What the console says of mistakes\n\nMade by `scripts/mistakes.py`, which makes each on the fixture and "
+                   "checks that one line names the thing and the\nremedy; the time is from the start of the nodes, or from "
+                   "the call where none is started.\n\n"
                    "| mistake | console | s |\n|---|---|---|\n" + "\n".join(rows) + "\n")
     sys.exit(num_late > 0)
 

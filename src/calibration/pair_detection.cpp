@@ -83,9 +83,9 @@ void CheckBoardSize(const std::vector<ImagePair>& files, const Chessboard& board
                           " pairs, at least " + std::to_string(min_pairs) + " are needed";
     const bool differs = seen && cv::Size(std::max(board.columns, board.rows),
                                           std::min(board.columns, board.rows)) != *seen;
-    if (differs)
-      message +=
-          "; wrong board size? The images seem to show " + ToString(*seen) + " inner corners";
+    message += differs ? "; wrong board size? The images seem to show " + ToString(*seen) +
+                             " inner corners"
+                       : "; are these its inner corners, and is the whole board in each picture?";
     throw CalibrationError(message);
   }
   if (seen && IsPartOf(board.Size(), *seen))

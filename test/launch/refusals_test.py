@@ -53,9 +53,9 @@ class RefusalsTest(LaunchCase):
 
     def test_a_name_that_a_killed_node_left_to_the_master_may_be_taken(self):
         code, console = self.run_command("bash", "-c", """set -m
-            roscore > /dev/null 2>&1 &
+            roscore -p ${ROS_MASTER_URI##*:} > /dev/null 2>&1 &
             until rosnode list > /dev/null 2>&1; do sleep 0.5; done
-            rostopic pub -r 10 /there std_msgs/Empty __name:=pose_node > /dev/null & pid=$!
+            /usr/bin/python3 -c 'import rospy; rospy.init_node("pose_node"); rospy.spin()' & pid=$!
             until rosnode ping -c 1 /pose_node 2>&1 | grep -q reply; do sleep 0.5; done
             check_running.py / pose_node || echo "refused while it runs"
             kill -9 $pid; rosnode list
