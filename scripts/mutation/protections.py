@@ -138,6 +138,7 @@ def nodes():
         Protection("a clock that stands stops the rover", node, "!sighting || is_clock_stalled", "!sighting", ("clock_stall",)),
         Protection("a map frame that is no longer told stops", node,
                    "sighting->MapAge(ros::Time::now()) > options_.max_map_age_s", "false", NODE),
+        Protection("velocities are told by their nodes", node, "event.getPublisherName()", "std::string()", NODE),
         Protection("a latched heartbeat does not count", node, "!IsLatched(event)", "true", NODE),
         Protection("errors are cleared at rest only", node, 'if (!is_at_rest) return {false, "not sent: the rover moves"};', "", NODE),
         Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(message.header, ros::Time::now());", "", NODE),
