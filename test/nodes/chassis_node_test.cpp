@@ -2,6 +2,7 @@
 #include <arfm_vo/GoalReport.h>
 #include <arfm_vo/OdometryStatus.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
@@ -66,6 +67,7 @@ class World {
   World()
       : chassis_(OpenChassisBus(), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
         goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
+        velocity_(node_.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
         emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
         odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
         odometry_status_(node_.advertise<OdometryStatus>("status", 1)),
@@ -87,6 +89,7 @@ class World {
       if (has_clock_ && ros::Time::isSimTime()) TellTime();
       if (has_clock_ && Now() >= sight_due_s_) See();
       if (Now() >= heartbeat_due_s_) Beat();
+      if (velocity_mps_ != 0 && Now() >= velocity_due_s_) SendVelocity();
       ros::spinOnce();
       ros::WallDuration(0.002).sleep();
     }
@@ -155,6 +158,7 @@ class World {
   Rigid3 odom_from_world_;
   std::optional<ros::Time> goal_stamp_;
   double variance_m2_ = 1e-4;
+  double velocity_mps_ = 0;  // told on cmd_vel where it is not 0
 
  private:
   std::unique_ptr<CanBus> OpenChassisBus() {
@@ -195,6 +199,12 @@ class World {
     heartbeat_due_s_ = Now() + 0.4;
     if (has_operator_) heartbeat_.publish(std_msgs::Empty());
   }
+  void SendVelocity() {
+    velocity_due_s_ = Now() + 0.05;
+    geometry_msgs::Twist twist;
+    twist.linear.x = velocity_mps_;
+    velocity_.publish(twist);
+  }
   void CountBeat(const std_msgs::Empty&) { ++num_heartbeats_; }
   void TellTime() const {
     rosgraph_msgs::Clock time;
@@ -208,11 +218,11 @@ class World {
   void TakeReport(const GoalReport& report) { reports_.push_back(report); }
 
   ros::NodeHandle node_;
-  ros::Publisher goal_, emergency_stop_, odom_, odometry_status_, heartbeat_, clock_;
+  ros::Publisher goal_, velocity_, emergency_stop_, odom_, odometry_status_, heartbeat_, clock_;
   ros::Subscriber heartbeat_subscriber_, status_subscriber_, report_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
   bool has_status_ = false;
-  double sight_due_s_ = 0, heartbeat_due_s_ = 0;
+  double sight_due_s_ = 0, heartbeat_due_s_ = 0, velocity_due_s_ = 0;
 };
 
 // A loaded machine delays test and node alike; the fault table measures without it.
@@ -228,12 +238,16 @@ class ChassisNodeTest : public ::testing::Test {
   static bool Moves() {
     return world_->RunUntil([] { return world_->log_.last.forward_mps > 0.09; });
   }
-  /// A machine that holds one of us up for a second stops the rover: then once more.
   static void DriveFarAhead() {
+    Drive([] { world_->SendGoal(40, 0); });
+  }
+  /// A machine that holds one of us up for a second stops the rover: then once more.
+  template <class Command>
+  static void Drive(Command&& command) {
     bool moves = false;
     for (int i = 0; i < 5 && !moves; ++i) {
       if (!world_->RunUntil([] { return world_->Call("start").success; })) break;
-      world_->SendGoal(40, 0);
+      command();
       moves = world_->RunUntil([] { return world_->log_.last.forward_mps > 0.09; }, 12);
     }
     ASSERT_TRUE(moves) << world_->status_.state_text << ": " << world_->status_.reason;
@@ -481,6 +495,23 @@ TEST_F(ChassisNodeTest, ALatchedHeartbeatIsNobody) {
   }));
   ::pclose(stranger);
   world_->has_operator_ = true;
+}
+
+TEST_F(ChassisNodeTest, VelocitiesOfTwoNodesBlock) {
+  Drive([] { world_->velocity_mps_ = 0.1; });
+  FILE* stranger = ::popen(
+      "timeout 60 rostopic pub __name:=stranger -r 5 /cmd_vel geometry_msgs/Twist "
+      "'{linear: {x: 0.05}}'",
+      "r");
+  ASSERT_NE(stranger, nullptr);
+  EXPECT_TRUE(Says("two nodes command velocities")) << world_->status_.reason;
+  EXPECT_NE(world_->status_.detail.find(ros::this_node::getName()), std::string::npos)
+      << world_->status_.detail;
+  EXPECT_TRUE(world_->RunUntil([] { return world_->log_.last.IsZero(); }));
+  world_->velocity_mps_ = 0;
+  ASSERT_EQ(::kill(PidOf("/stranger"), SIGINT), 0);
+  ::pclose(stranger);
+  world_->Run(1);  // chassis and operator were silent meanwhile
 }
 
 TEST_F(ChassisNodeTest, LosingItsTerminalLeavesTheRoverStandingInStandby) {
