@@ -138,7 +138,7 @@ def nodes():
         Protection("a clock that stands stops the rover", node, "!sighting || is_clock_stalled", "!sighting", ("clock_stall",)),
         Protection("a map frame that is no longer told stops", node,
                    "sighting->MapAge(ros::Time::now()) > options_.max_map_age_s", "false", NODE),
-        Protection("velocities are told by their nodes", node, 
+        Protection("velocities are told by their nodes", node,
                    "driver_.pilot().SetVelocity(clock_.Now(), motion, event.getPublisherName())",
                    "driver_.pilot().SetVelocity(clock_.Now(), motion)", NODE),
         Protection("a latched heartbeat does not count", node, "!IsLatched(event)", "true", NODE),
