@@ -95,10 +95,10 @@ void GlobalMap::Add(const KeyframeRecord& keyframe) {
   if (options_.loops.enabled) {
     if (const auto loop = detector_.Detect(store_, correction_.mean)) Close(*loop);
   }
-  if (num_keyframes() <= options_.NumMoving()) {
+  if (num_keyframes() <= options_.max_keyframes) {
     is_learning_ |= options_.learn_correction && turned_rad_ > learnt_at_rad_ + kTellingTurn_rad;
-    return;
   }
+  if (num_keyframes() <= options_.NumMoving()) return;
   is_learning_ = false;  // a drive that did not tell more so far: the rest would count twice
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
