@@ -3,7 +3,6 @@
 
 Usage: check_running.py NAMESPACE NODE      called by odometry.launch; exit status 1 where such a node answers
 """
-import os
 import socket
 import sys
 import xmlrpc.client
@@ -30,7 +29,7 @@ def main():
         sys.exit(__doc__)
     name = rosgraph.names.ns_join(sys.argv[1], sys.argv[2])
     if is_running(name):
-        sys.exit(f"ERROR: {name} runs already on {os.environ['ROS_MASTER_URI']}: end it first, or give this one a "
+        sys.exit(f"ERROR: {name} runs already on {rosgraph.get_master_uri()}: end it first, or give this one a "
                  "namespace:= of its own (a second robot)")
 
 

@@ -26,11 +26,6 @@ constexpr double kFocalLengthSigma = 1e-3;
 /// angles.
 constexpr double kFocalLengthPx = 700;
 
-/// Distance of the corners from the centre.
-double CornerPx(const StereoCamera& camera) {
-  return 0.5 * std::hypot(camera.width, camera.height);
-}
-
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
 
 /// Displacement (du, dv) of a pixel by a unit of each error.
@@ -89,7 +84,7 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
                                                                           kRadialSigmaPx);
   belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
   belief.covariance.diagonal()[kNumTerms + RadialBasis::kFocalLength] =
-      std::pow(kFocalLengthSigma * CornerPx(camera), 2);
+      std::pow(kFocalLengthSigma * RadialBasis::CornerPx(camera), 2);
   return belief;
 }
 
@@ -112,7 +107,7 @@ CorrectionBelief::Estimate CorrectionBelief::LargestRadial() const {
 
 CorrectionBelief::Estimate CorrectionBelief::FocalLengthExcess(const StereoCamera& camera) const {
   constexpr int kIndex = kNumTerms + RadialBasis::kFocalLength;
-  const double corner_px = CornerPx(camera);
+  const double corner_px = RadialBasis::CornerPx(camera);
   return {mean.coefficients_px[kIndex] / corner_px,
           std::sqrt(covariance(kIndex, kIndex)) / corner_px};
 }

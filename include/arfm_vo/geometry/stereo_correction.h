@@ -37,13 +37,17 @@ struct RadialBasis {
   Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
   std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
 
+  /// Distance of the corners from the centre, px: where r is 1.
+  static double CornerPx(const StereoCamera& camera) {
+    const double width = camera.width, height = camera.height;
+    return std::sqrt(width * width + height * height) / 2;
+  }
   /// What the terms displace at a squared distance of r2 from the centre, over the distance; r is 1
   /// in the corners.
   static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2, 1}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-    const double width = camera.width, height = camera.height;
-    const double inverse = 2 / std::sqrt(width * width + height * height);
+    const double inverse = 1 / CornerPx(camera);
     const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
     const double r2 = p.squaredNorm();
     const auto gain = Gains(r2);
