@@ -61,7 +61,7 @@ class GlobalMap {
   void Add(const KeyframeRecord& keyframe);
 
   /// Whether the newest keyframe calls for an adjustment: the more rarely the more there are, and
-  /// where it closed a loop.
+  /// where a loop contradicts the path.
   bool IsAdjustmentDue() const;
 
   /// Adjusts everything; where loops were closed since the last time, the path is bent onto them
