@@ -11,6 +11,7 @@ namespace {
 /// The position of each row in the order of elimination.
 std::vector<int> Order(const std::vector<int>& row_begin, const std::vector<int>& columns) {
   const int num_rows = static_cast<int>(row_begin.size()) - 1;
+  if (num_rows == 0) return {};
   std::vector<Eigen::Triplet<double>> triplets;
   for (int row = 0; row < num_rows; ++row) {
     for (int i = row_begin[row]; i < row_begin[row + 1]; ++i) {

@@ -3,8 +3,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kMaxDensePoses = 30;
-
 template <class Operation>
 void ForEachPart(ReducedSystem& a, const ReducedSystem& b, Operation&& operation) {
   for (size_t i = 0; i < a.blocks.size(); ++i) operation(a.blocks[i], b.blocks[i]);
@@ -37,49 +35,25 @@ ReducedSystem& ReducedSystem::operator-=(const ReducedSystem& other) {
 ReducedSolver::ReducedSolver(const BundleStructure& structure, int num_coefficients)
     : structure_(structure),
       num_coefficients_(num_coefficients),
-      is_dense_(structure.num_free_poses() <= kMaxDensePoses) {
-  if (is_dense_) {
-    dense_.setZero(size(), size());
-  } else {
-    poses_factor_.emplace(structure.row_begin, structure.columns);
-    border_.resize(size() - num_coefficients, num_coefficients);
-  }
-}
+      poses_factor_(structure.row_begin, structure.columns),
+      border_(6 * structure.num_free_poses(), num_coefficients) {}
 
 bool ReducedSolver::Factorize(const ReducedSystem& system) {
-  return is_dense_ ? FactorizeDense(system) : FactorizeBlocks(system);
-}
-
-bool ReducedSolver::FactorizeDense(const ReducedSystem& system) {
-  const int num_poses = structure_.num_free_poses();
-  for (int row = 0; row < num_poses; ++row) {
-    for (int i = structure_.row_begin[row]; i < structure_.row_begin[row + 1]; ++i) {
-      dense_.block<6, 6>(6 * row, 6 * structure_.columns[i]) = system.blocks[i];
-    }
-    dense_.block(6 * row, 6 * num_poses, 6, num_coefficients_) = system.border[row];
-  }
-  dense_.bottomRightCorner(num_coefficients_, num_coefficients_) = system.corner;
-  dense_factor_.compute(dense_.selfadjointView<Eigen::Upper>());
-  return dense_factor_.info() == Eigen::Success;
-}
-
-bool ReducedSolver::FactorizeBlocks(const ReducedSystem& system) {
-  if (!poses_factor_->Factorize(system.blocks)) return false;
+  if (!poses_factor_.Factorize(system.blocks)) return false;
   if (num_coefficients_ == 0) return true;
   for (int i = 0; i < structure_.num_free_poses(); ++i) {
     border_.middleRows<6>(6 * i) = system.border[i];
   }
-  poses_by_border_ = poses_factor_->Solve(border_);
+  poses_by_border_ = poses_factor_.Solve(border_);
   corner_factor_.compute(system.corner - border_.transpose() * poses_by_border_);
   return corner_factor_.info() == Eigen::Success;
 }
 
 Eigen::MatrixXd ReducedSolver::Solve(const Eigen::MatrixXd& right) const {
-  if (is_dense_) return dense_factor_.solve(right);
   Eigen::MatrixXd solution(right.rows(), right.cols());
   auto poses = solution.topRows(size() - num_coefficients_);
   auto correction = solution.bottomRows(num_coefficients_);
-  poses = poses_factor_->Solve(right.topRows(poses.rows()));
+  poses = poses_factor_.Solve(right.topRows(poses.rows()));
   if (num_coefficients_ == 0) return solution;
   correction =
       corner_factor_.solve(right.bottomRows(num_coefficients_) - border_.transpose() * poses);

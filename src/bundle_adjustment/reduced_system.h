@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <optional>
 #include <vector>
 
 #include "block_cholesky.h"
@@ -33,8 +32,7 @@ struct ReducedSystem {
   ReducedSystem& operator-=(const ReducedSystem& other);
 };
 
-/// Factorises reduced systems of one structure: dense where there are few poses, by blocks where
-/// there are many, the correction after the poses.
+/// Factorises reduced systems of one structure, the correction after the poses.
 class ReducedSolver {
  public:
   ReducedSolver(const BundleStructure& structure, int num_coefficients);
@@ -47,15 +45,9 @@ class ReducedSolver {
   int size() const { return 6 * structure_.num_free_poses() + num_coefficients_; }
 
  private:
-  bool FactorizeDense(const ReducedSystem& system);
-  bool FactorizeBlocks(const ReducedSystem& system);
-
   const BundleStructure& structure_;
   const int num_coefficients_;
-  const bool is_dense_;
-  Eigen::MatrixXd dense_;
-  Eigen::LLT<Eigen::MatrixXd> dense_factor_;
-  std::optional<BlockCholesky> poses_factor_;
+  BlockCholesky poses_factor_;
   Eigen::MatrixXd border_;           ///< [6 free poses x coefficients]
   Eigen::MatrixXd poses_by_border_;  ///< solved for it
   Eigen::LLT<Eigen::MatrixXd> corner_factor_;
