@@ -2,10 +2,10 @@
 
 namespace arfm_vo {
 
-bool HasAvx2AndFma() {
+bool HasAvx2() {
 #if defined(__x86_64__)
-  static const bool has_both = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has_both;
+  static const bool has_avx2 = __builtin_cpu_supports("avx2");
+  return has_avx2;
 #else
   return false;
 #endif

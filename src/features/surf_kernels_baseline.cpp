@@ -6,7 +6,7 @@ namespace arfm_vo {
 const SurfKernels kSurfKernelsBaseline = kKernels;
 
 const SurfKernels& ChooseSurfKernels() {
-  return HasAvx2AndFma() ? kSurfKernelsAvx2 : kSurfKernelsBaseline;
+  return HasAvx2() ? kSurfKernelsAvx2 : kSurfKernelsBaseline;
 }
 
 }  // namespace arfm_vo

@@ -28,7 +28,7 @@ struct PatchSums {
   float squared_gradients[3] = {};
 };
 
-/// The loops over samples, for one instruction set. Sets differ in the last bits.
+/// The loops over samples, for one instruction set. All give the same bits.
 struct PatchKernels {
   /// Interpolates kPatchSamples samples 1 px apart, the first at (x, y). False where they or the
   /// pixels around them lie outside the image.

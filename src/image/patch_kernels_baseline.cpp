@@ -6,7 +6,7 @@ namespace arfm_vo {
 const PatchKernels kPatchKernelsBaseline = kKernels;
 
 const PatchKernels& ChoosePatchKernels() {
-  return HasAvx2AndFma() ? kPatchKernelsAvx2 : kPatchKernelsBaseline;
+  return HasAvx2() ? kPatchKernelsAvx2 : kPatchKernelsBaseline;
 }
 
 }  // namespace arfm_vo

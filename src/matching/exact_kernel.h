@@ -29,7 +29,7 @@ struct ExactSearch {
 constexpr float kNoScore = -1e30f;
 
 /// Runs the search; of equal scores the lowest index wins. The two differ in the instructions
-/// they use and in rounding only.
+/// they use only: the bits are the same.
 void SearchExactlyBaseline(const ExactSearch& search);
 void SearchExactlyAvx2(const ExactSearch& search);
 /// True where this program has SearchExactlyAvx2 and this CPU can run it.

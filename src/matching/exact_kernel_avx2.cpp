@@ -1,4 +1,4 @@
-// Compiled with AVX2 and FMA where the compiler has them (see CMakeLists.txt).
+// Compiled with AVX2 where the compiler has them (see CMakeLists.txt).
 #if defined(__AVX2__)
 
 #include "arfm_vo/base/cpu.h"
@@ -8,7 +8,7 @@ namespace arfm_vo {
 
 void SearchExactlyAvx2(const ExactSearch& search) { SearchExactly(search); }
 
-bool CanSearchExactlyAvx2() { return HasAvx2AndFma(); }
+bool CanSearchExactlyAvx2() { return HasAvx2(); }
 
 }  // namespace arfm_vo
 

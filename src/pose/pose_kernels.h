@@ -32,7 +32,7 @@ struct PoseSums {
   double torque[3], force[3];
 };
 
-/// The loops over correspondences, for one instruction set. Sets differ in the last bits.
+/// The loops over correspondences, for one instruction set. All give the same bits.
 struct PoseKernels {
   /// Fills `information` with S^-1, S = variance I + J R P R^T J^T with P the covariance of the
   /// point and J the derivative of its projection; third row and column are 0 without a right

@@ -1,4 +1,4 @@
-// Compiled with AVX2 and FMA where the compiler has them (see CMakeLists.txt); elsewhere the same
+// Compiled with AVX2 where the compiler has them (see CMakeLists.txt); elsewhere the same
 // as the baseline.
 #include "pose_kernels.inl"
 

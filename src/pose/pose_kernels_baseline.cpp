@@ -6,7 +6,7 @@ namespace arfm_vo {
 const PoseKernels kPoseKernelsBaseline = kKernels;
 
 const PoseKernels& ChoosePoseKernels() {
-  return HasAvx2AndFma() ? kPoseKernelsAvx2 : kPoseKernelsBaseline;
+  return HasAvx2() ? kPoseKernelsAvx2 : kPoseKernelsBaseline;
 }
 
 }  // namespace arfm_vo

@@ -21,8 +21,7 @@ constexpr float ScaleOfFilter(float size) { return size * (1.2f / 9.0f); }
 /// At the pixel (x, y), for an odd multiple `size` of 3 with size / 2 pixels on each side of it.
 BoxHessian ComputeBoxHessian(const IntegralImage& integral, int x, int y, int size);
 
-/// Determinant of the Hessian, eq 3, of derivatives divided by the filter's area. The file that
-/// calls it must be compiled without contraction to fused operations, so that all paths agree.
+/// Determinant of the Hessian, eq 3, of derivatives divided by the filter's area.
 inline float ComputeDeterminant(const BoxHessian& sums, float inverse_area) {
   const float xx = static_cast<float>(sums.xx) * inverse_area;
   const float yy = static_cast<float>(sums.yy) * inverse_area;
