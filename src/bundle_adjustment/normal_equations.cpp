@@ -34,7 +34,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       solver_(structure, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
-      point_borders_(structure.tracks.size()),
+      point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
       point_rights_(structure.tracks.size()),
       point_inverses_(structure.tracks.size()) {
   if (num_coefficients_ > 0) prior_information_ = problem.correction_prior->Information();
@@ -68,7 +68,7 @@ void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
   for (int track = piece.first_track; track < piece.last_track; ++track) {
     pacer.Pause();
     point_blocks_[track].setZero();
-    point_borders_[track].setZero(3, num_coefficients_);
+    if (num_coefficients_ > 0) point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       LinearizeSighting(model, state, track, i, piece);

@@ -79,9 +79,9 @@ class NormalEquations {
   ReducedSystem reduced_;                                     ///< with the points eliminated
   std::vector<Eigen::Matrix<double, 6, 3>> sighting_blocks_;  ///< poses by points
   std::vector<Eigen::Matrix3d> point_blocks_;                 ///< points by points
-  std::vector<BorderMatrix<3>> point_borders_;                ///< points by correction
-  std::vector<Eigen::Vector3d> point_rights_;                 ///< of b
-  std::vector<Eigen::Matrix3d> point_inverses_;               ///< of the damped point blocks
+  std::vector<BorderMatrix<3>> point_borders_;   ///< points by correction, where it is free
+  std::vector<Eigen::Vector3d> point_rights_;    ///< of b
+  std::vector<Eigen::Matrix3d> point_inverses_;  ///< of the damped point blocks
 };
 
 }  // namespace arfm_vo

@@ -1,16 +1,12 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
-#include <optional>
 #include <vector>
 
+#include "block_cholesky.h"
 #include "bundle_structure.h"
 
 namespace arfm_vo {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr int kMaxCoefficients = StereoCorrection::kSize;
 /// Rows of poses or of points by columns of the correction: kMaxCoefficients, or none where it is
@@ -36,8 +32,7 @@ struct ReducedSystem {
   ReducedSystem& operator-=(const ReducedSystem& other);
 };
 
-/// Factorises reduced systems of one structure: dense where there are few poses, sparse with a
-/// fill-reducing order where there are many.
+/// Factorises reduced systems of one structure, the correction after the poses.
 class ReducedSolver {
  public:
   ReducedSolver(const BundleStructure& structure, int num_coefficients);
@@ -50,16 +45,12 @@ class ReducedSolver {
   int size() const { return 6 * structure_.num_free_poses() + num_coefficients_; }
 
  private:
-  bool FactorizeDense(const ReducedSystem& system);
-  bool FactorizeSparse(const ReducedSystem& system);
-
   const BundleStructure& structure_;
   const int num_coefficients_;
-  const bool is_dense_;
-  Eigen::MatrixXd dense_;
-  Eigen::LLT<Eigen::MatrixXd> dense_factor_;
-  Eigen::SparseMatrix<double> sparse_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Upper> sparse_factor_;
+  BlockCholesky poses_factor_;
+  Eigen::MatrixXd border_;           ///< [6 free poses x coefficients]
+  Eigen::MatrixXd poses_by_border_;  ///< solved for it
+  Eigen::LLT<Eigen::MatrixXd> corner_factor_;
 };
 
 }  // namespace arfm_vo

@@ -92,7 +92,8 @@ void NormalEquations::FindPointSteps(BundleStep& step) const {
   step.points.resize(structure_.tracks.size());
   const CornerVector correction = step.reduced.tail(num_coefficients_);
   for (size_t track = 0; track < structure_.tracks.size(); ++track) {
-    Eigen::Vector3d right = point_rights_[track] - point_borders_[track] * correction;
+    Eigen::Vector3d right = point_rights_[track];
+    if (num_coefficients_ > 0) right -= point_borders_[track] * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       const int pose = structure_.sightings[i].free_pose;
       if (pose == BundleStructure::kFixed) continue;

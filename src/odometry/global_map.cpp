@@ -5,7 +5,9 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/median.h"
+#include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 #include "arfm_vo/bundle_adjustment/pose_graph.h"
+#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {
@@ -34,6 +36,9 @@ constexpr int kMaxContradictions = 10;
 /// The focal length of both images shows in turns: after so much more turning the correction is
 /// learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
+
+/// Loops that agree with the path this far, by their own covariance, do not bend it.
+constexpr double kLoopProbability = 0.99;
 
 constexpr double kAdjustmentGrowth = 1.5;
 
@@ -144,10 +149,16 @@ LandmarkId GlobalMap::FirstLandmark(const KeyframeRecord& keyframe) const {
   return store_.landmarks.empty() ? 0 : store_.landmarks.rbegin()->first + 1;
 }
 
-/// What was seen before and again becomes one landmark, the older one.
+/// What was seen before and again becomes one landmark, the older one. The path need not be bent
+/// where the loop says what it says already.
 void GlobalMap::Close(const Loop& loop) {
   loops_.push_back(loop.constraint);
-  has_new_loops_ = true;
+  const PoseConstraint& c = loop.constraint;
+  const Eigen::Matrix<double, 6, 1> error =
+      LinearizeConstraint(c, store_.keyframes[c.first].camera_from_map,
+                          store_.keyframes[c.second].camera_from_map)
+          .residual;
+  has_new_loops_ |= error.dot(c.information * error) > ChiSquareQuantile(6, kLoopProbability);
   for (const auto& [first, second] : loop.same) {
     const auto old = store_.Find(first), seen = store_.Find(second);
     if (old->first >= seen->first) continue;
@@ -163,6 +174,11 @@ void GlobalMap::BendOntoLoops() {
   std::vector<Rigid3> poses;
   for (const MapStore::Keyframe& keyframe : store_.keyframes) {
     poses.push_back(keyframe.camera_from_map);
+  }
+  // An adjustment has found what the loops closed before it say, from more than they were.
+  for (size_t i = 0; i < num_adjusted_loops_; ++i) {
+    PoseConstraint& loop = loops_[i];
+    loop.second_from_first = poses[loop.second] * poses[loop.first].Inverse();
   }
   std::vector<PoseConstraint> constraints = loops_;
   for (int k = 0; k + 1 < num_keyframes(); ++k) {
@@ -250,6 +266,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   const BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
   if (is_learning_) LearnCorrection(result);
+  num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
   map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
   return update;

@@ -34,8 +34,20 @@ TEST(Dispute, DoesNotBelieveAContestedPoseOfNewPointsUntilOneIsProven) {
   EXPECT_TRUE(dispute.Judge(Pose(0), 3));
 }
 
-TEST(Dispute, DoesNotBelieveALeapHoweverManyPointsSaySo) {
+TEST(Dispute, BelievesALeapThatKnownPointsTellAndNobodyContests) {
   Dispute dispute;
+  EXPECT_TRUE(dispute.Judge(Pose(0, false), 40));
+  EXPECT_FALSE(dispute.IsWary());
+}
+
+TEST(Dispute, DoesNotBelieveALeapOfNewPoints) {
+  Dispute dispute;
+  EXPECT_FALSE(dispute.Judge(Pose(0, false), 3));
+}
+
+TEST(Dispute, DoesNotBelieveALeapAfterAContestHoweverManyPointsSaySo) {
+  Dispute dispute;
+  EXPECT_TRUE(dispute.Judge(Pose(0.8), 300));
   EXPECT_FALSE(dispute.Judge(Pose(0, false), 300));
   EXPECT_FALSE(dispute.Judge(Pose(0, false), 300));
 }

@@ -72,6 +72,15 @@ TEST(SimulatedRun, WhereAllIsFarTheHeadingIsKnownAndThePlaceIsSaidNotToBe) {
             3 * std::sqrt(run.covariances.back().diagonal().tail<3>().sum()));
 }
 
+/// Of 0.3 m between two pairs, as of a wheel on a stone.
+TEST(SimulatedRun, AJerkThatAllPointsTellOfIsBelieved) {
+  std::vector<Rigid3> path = BentPath(40);
+  for (size_t i = 25; i < path.size(); ++i) path[i].translation.y() += 0.3;
+  const SimulatedRun run = RunSimulated(kCamera, path, {}, OnlineOnly());
+  EXPECT_EQ(run.num_untracked, 0);
+  EXPECT_LT((run.online.back().translation - run.truth.back().translation).norm(), 0.1);
+}
+
 /// The covariance that odom carries is honest: the errors of many drives, each counted in its own
 /// standard deviations, spread as they should.
 TEST(SimulatedRun, NeesOfThePoseInOdomIsWithinItsBounds) {
@@ -208,6 +217,40 @@ TEST(LoopClosing, LessensTheDriftOfASecondRoundRepeatablyAndDoesNotMakeOdomJump)
     const Rigid3 fault = step(closed.truth).Inverse() * step(closed.online);
     ASSERT_LT(fault.translation.norm(), 0.05) << i;  // no jump
   }
+}
+
+struct LoopCount {
+  int num_loops = 0;
+  int num_unplanned = 0;  ///< adjustments that loops called for
+};
+
+LoopCount CountLoops(double noise_px) {
+  SimulatedRunOptions simulation;
+  simulation.simulator.noise_px = noise_px;
+  GlobalMapOptions options;
+  options.learn_correction = false;
+  options.loops.enabled = true;
+  GlobalMap map(kCamera, options, {});
+  LoopCount count;
+  int planned = 2;
+  for (const KeyframeRecord& keyframe :
+       RunSimulated(kCamera, TwoRounds(), simulation, OnlineOnly()).keyframes) {
+    map.Add(keyframe);
+    if (!map.IsAdjustmentDue()) continue;
+    count.num_unplanned += map.num_keyframes() < planned;
+    planned = NextAdjustment(map.num_keyframes(), options.NumMoving());
+    EXPECT_TRUE(map.Adjust());
+  }
+  count.num_loops = map.num_loops();
+  return count;
+}
+
+TEST(LoopClosing, LoopsThatAgreeWithThePathCallForNoAdjustment) {
+  const LoopCount agreeing = CountLoops(0.05), contradicting = CountLoops(1.5);
+  EXPECT_GT(agreeing.num_loops, 2);
+  EXPECT_EQ(agreeing.num_unplanned, 0);
+  EXPECT_GT(contradicting.num_loops, 2);
+  EXPECT_GT(contradicting.num_unplanned, 0);
 }
 
 TEST(LoopClosing, FindsNoLoopOnANewWay) {

@@ -30,9 +30,11 @@ class Dispute {
     const bool is_known = num_proven >= kMinProven;
     const bool is_denied =
         (!is_known && shares.suspect > kSuspect) || Deny(shares, is_open && is_doubtful_);
-    const bool is_proven = pose.is_plausible && !is_denied && is_known;
-    const double bound = IsWary() ? kContested / 2 : kContested;
-    if (pose.contest >= bound || !pose.is_plausible || is_denied) {
+    const bool is_contested = pose.contest >= (IsWary() ? kContested / 2 : kContested);
+    // A leap that known points tell, that nobody contests and did not a moment ago, was a jerk.
+    const bool is_plausible = pose.is_plausible || (is_known && !is_contested && !IsWary());
+    const bool is_proven = is_plausible && !is_denied && is_known;
+    if (is_contested || !is_plausible || is_denied) {
       BeWary();
       is_open = is_open || !is_proven;
     } else if (num_wary_ > 0) {

@@ -61,7 +61,7 @@ class GlobalMap {
   void Add(const KeyframeRecord& keyframe);
 
   /// Whether the newest keyframe calls for an adjustment: the more rarely the more there are, and
-  /// where it closed a loop.
+  /// where a loop contradicts the path.
   bool IsAdjustmentDue() const;
 
   /// Adjusts everything; where loops were closed since the last time, the path is bent onto them
@@ -94,15 +94,16 @@ class GlobalMap {
   Rigid3 map_from_odom_;
   LoopDetector detector_;
   std::vector<PoseConstraint> loops_;
-  bool has_new_loops_ = false;
-  int next_adjustment_ = 2;      ///< at this number of keyframes
-  CorrectionBelief prior_;       ///< of the correction, without the keyframes
-  CorrectionBelief correction_;  ///< with them
-  bool is_learning_;             ///< the correction is free
-  double turned_rad_ = 0;        ///< sum over the keyframes' rotations
-  double learnt_at_rad_ = 0;     ///< when the correction was learnt
-  int num_contradictions_ = 0;   ///< keyframes in a row whose rows contradict the correction
-  int first_telling_ = 0;        ///< right images of keyframes before are of another correction
+  size_t num_adjusted_loops_ = 0;  ///< the first ones, that an adjustment has taken in
+  bool has_new_loops_ = false;     ///< that contradict the path
+  int next_adjustment_ = 2;        ///< at this number of keyframes
+  CorrectionBelief prior_;         ///< of the correction, without the keyframes
+  CorrectionBelief correction_;    ///< with them
+  bool is_learning_;               ///< the correction is free
+  double turned_rad_ = 0;          ///< sum over the keyframes' rotations
+  double learnt_at_rad_ = 0;       ///< when the correction was learnt
+  int num_contradictions_ = 0;     ///< keyframes in a row whose rows contradict the correction
+  int first_telling_ = 0;          ///< right images of keyframes before are of another correction
 };
 
 }  // namespace arfm_vo
