@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/arfm_node.h"
 
+#include "arfm_vo/ros/arfm_node_options.h"
 #include "arfm_vo/ros/node_main.h"
 
 int main(int argc, char** argv) {

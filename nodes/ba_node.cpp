@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/ba_node.h"
 
+#include "arfm_vo/ros/ba_node_options.h"
 #include "arfm_vo/ros/node_main.h"
 
 int main(int argc, char** argv) {

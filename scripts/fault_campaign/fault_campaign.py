@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-sys.path[:0] = [str(folder) for folder in pathlib.Path(__file__).resolve().parents[:2]]
+sys.path[:0] = [str(folder) for folder in list(pathlib.Path(__file__).resolve().parents)[:2]]  # (no slices before Python 3.10)
 import bus_tap as bus  # noqa: E402
 import camera_tap  # noqa: E402
 import rospy  # noqa: E402

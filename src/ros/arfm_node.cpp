@@ -1,36 +1,80 @@
 #include "arfm_vo/ros/arfm_node.h"
 
-#include <algorithm>
-#include <boost/make_shared.hpp>
-#include <cmath>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <string>
 
 #include "arfm_vo/base/stopwatch.h"
-#include "arfm_vo/ros/conversions.h"
-#include "arfm_vo/ros/image_conversion.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/stereo_camera_model.h"
+#include "arfm_vo/ros/console_watch.h"
+#include "arfm_vo/ros/frontend_pipeline.h"
+#include "arfm_vo/ros/stamp_order.h"
+#include "arfm_vo/ros/wall_rate.h"
+#include "arfm_vo/ros/worker.h"
 
 namespace arfm_vo {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-void ArfmNodeOptions::Check() const {
-  algorithm.Check();
-  Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
-}
+class ArfmNode::Impl {
+ public:
+  Impl(ros::NodeHandle node, ros::NodeHandle private_node);
+  ~Impl();
+
+ private:
+  /// How the pairs since the start fared.
+  struct Figures {
+    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
+    std::string refusal;  ///< why the newest pair was refused; empty where it was not
+    int num_left = 0, num_right = 0, num_points = 0;
+    double ms = 0;
+    WallRate rate;
+    bool is_idle = true;  ///< nobody subscribes to features
+    StereoInputCounts input, input_before;
+  };
+
+  void Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  void Disconnect();
+  void ReportFigures();
+  void TellDrops(uint32_t num_pairs);
+  // On the worker's thread:
+  void Process(const StereoMessagePair& pair);
+  /// Says whether the pair is to be worked on; begins anew where time has jumped.
+  bool AcceptStamp(const ros::Time& stamp);
+  void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  const StereoTopics topics_;
+  // Of the thread that calls back:
+  StereoInputWatch input_watch_;
+  ConsoleWatch drop_watch_;
+  uint32_t num_dropped_before_ = 0;
+  // Of the worker's thread:
+  const std::unique_ptr<FrontendPipeline> pipeline_;
+  StampOrder stamps_;
+  Figures figures_;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  std::unique_ptr<StereoInput> input_;
+  ros::Publisher features_;
+  ros::WallTimer timer_;
+};
 
 ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : options_(ReadParameters<ArfmNodeOptions>(private_node)),
-      topics_(ResolveStereoTopics(node)),
-      learned_(options_.learned),
+    : impl_(std::make_unique<Impl>(node, private_node)) {}
+
+ArfmNode::~ArfmNode() = default;
+
+ArfmNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
+    : topics_(ResolveStereoTopics(node)),
+      pipeline_(MakeFrontendPipeline(private_node, topics_)),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
+      worker_(pipeline_->max_waiting_pairs(), [this](const std::exception& error) {
         ++figures_.num_refused;
         figures_.refusal = error.what();
         ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("stereo pairs", this, &ArfmNode::Report);
+  diagnostics_.add("stereo pairs", this, &Impl::Report);
   features_ = node.advertise<StereoFrameStamped>(
       "features", 2,
       [this, node, private_node](const ros::SingleSubscriberPublisher&) {
@@ -41,7 +85,7 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
                                 [this](const ros::WallTimerEvent&) { ReportFigures(); });
 }
 
-ArfmNode::~ArfmNode() {
+ArfmNode::Impl::~Impl() {
   worker_.RunAndWait([this] {
     TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
               std::to_string(worker_.num_dropped()) + " dropped, " +
@@ -49,18 +93,18 @@ ArfmNode::~ArfmNode() {
   });
 }
 
-void ArfmNode::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+void ArfmNode::Impl::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   if (input_) return;
   input_ = std::make_unique<StereoInput>(node, private_node, [this](const StereoMessagePair& pair) {
     worker_.PostLossy([this, pair] { Process(pair); });
   });
 }
 
-void ArfmNode::Disconnect() {
+void ArfmNode::Impl::Disconnect() {
   if (features_.getNumSubscribers() == 0) input_.reset();
 }
 
-void ArfmNode::ReportFigures() {
+void ArfmNode::Impl::ReportFigures() {
   const bool is_idle = !input_;
   if (is_idle) {
     input_watch_.Reset();
@@ -76,7 +120,7 @@ void ArfmNode::ReportFigures() {
   });
 }
 
-void ArfmNode::TellDrops(uint32_t num_pairs) {
+void ArfmNode::Impl::TellDrops(uint32_t num_pairs) {
   const uint32_t num_dropped = worker_.num_dropped();
   const bool has_dropped = num_dropped > num_dropped_before_;
   if (drop_watch_.IsDue(has_dropped ? "drops" : "", ros::WallTime::now().toSec()))
@@ -87,39 +131,22 @@ void ArfmNode::TellDrops(uint32_t num_pairs) {
   num_dropped_before_ = num_dropped;
 }
 
-void ArfmNode::CheckNotRaw(const StereoMessagePair& pair) const {
-  const std::vector<double>& distortion = pair.left_info->D;
-  const bool is_distorted =
-      std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0; });
-  if (is_distorted && topics_.left_image.find("image_raw") != std::string::npos)
-    ROS_WARN(
-        "%s is raw by its name, and its camera_info has distortion: where it is not rectified, "
-        "give "
-        "odometry.launch rectify:=true",
-        topics_.left_image.c_str());
-}
-
-void ArfmNode::Process(const StereoMessagePair& pair) {
+void ArfmNode::Impl::Process(const StereoMessagePair& pair) {
   Stopwatch stopwatch;
   if (!AcceptStamp(pair.left->header.stamp)) return;
-  PrepareFrontend(pair);
-  CheckSize(*pair.left, *pair.left_info, topics_.left_image);
-  CheckSize(*pair.right, *pair.right_info, topics_.right_image);
-  const StereoImages images{pair.left->header.stamp.toSec(),
-                            ToGrey(pair.left, topics_.left_image, window_),
-                            ToGrey(pair.right, topics_.right_image, window_)};
-  StageTimes stages;
-  const StereoFrame frame = frontend_->Process(images, &stages);
-  Publish(pair, frame, stages);
-  figures_.num_left = frame.features.size();
-  figures_.num_right = frame.num_right_keypoints;
-  figures_.num_points = static_cast<int>(frame.points.size());
+  const StereoFrameStampedPtr frame = pipeline_->Process(pair);
+  frame->pair_number = ++figures_.num_published;
+  frame->num_dropped_pairs = worker_.num_dropped();
+  figures_.num_left = static_cast<int>(frame->keypoint_x.size());
+  figures_.num_right = frame->num_right_keypoints;
+  figures_.num_points = static_cast<int>(frame->point_keypoint.size());
+  features_.publish(frame);
   figures_.refusal.clear();
   figures_.ms = stopwatch.LapMs();
   figures_.rate.Tick();
 }
 
-bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
+bool ArfmNode::Impl::AcceptStamp(const ros::Time& stamp) {
   const StampVerdict verdict = stamps_.Judge(stamp);
   if (verdict == StampVerdict::kStray) {
     ++figures_.num_strays;
@@ -128,36 +155,12 @@ bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
   }
   if (verdict == StampVerdict::kJumpBack) {
     ROS_WARN("time jumped back: starting anew");
-    frontend_.reset();
+    pipeline_->Reset();
   }
   return true;
 }
 
-void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
-  const StereoCamera camera = MakeStereoCamera(*pair.left_info, *pair.right_info);
-  if (frontend_ && camera == camera_) return;
-  frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
-  if (const auto known = learned_.ReadFor(camera)) frontend_->SetCorrection(*known);
-  camera_ = camera;
-  CheckNotRaw(pair);
-  ROS_INFO("stereo camera %dx%d, focal length %.1f px, baseline %.4f m", camera.width,
-           camera.height, camera.fx, camera.baseline_m);
-}
-
-void ArfmNode::Publish(const StereoMessagePair& pair, const StereoFrame& frame,
-                       const StageTimes& stages) {
-  const auto message = boost::make_shared<StereoFrameStamped>(ToMessage(frame, camera_));
-  message->header = pair.left->header;
-  message->pair_number = ++figures_.num_published;
-  message->num_dropped_pairs = worker_.num_dropped();
-  for (const auto& [name, ms] : stages) {
-    message->stage_names.push_back(name);
-    message->stage_ms.push_back(ms);
-  }
-  features_.publish(message);
-}
-
-void ArfmNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void ArfmNode::Impl::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string obstacle = figures_.input.Explain(figures_.input_before, topics_);
   if (figures_.is_idle)
     status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");

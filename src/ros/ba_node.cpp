@@ -1,258 +1,92 @@
 #include "arfm_vo/ros/ba_node.h"
 
-#include <arfm_vo/MapUpdateStamped.h>
-#include <nav_msgs/Path.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
 
-#include <algorithm>
-#include <boost/make_shared.hpp>
-
-#include "arfm_vo/base/process_usage.h"
-#include "arfm_vo/driving/route.h"
 #include "arfm_vo/ros/console_watch.h"
-#include "arfm_vo/ros/conversions.h"
-#include "arfm_vo/ros/landmark_cloud.h"
-#include "arfm_vo/ros/map_shift.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/pose_message.h"
+#include "arfm_vo/ros/map_pipeline.h"
 #include "arfm_vo/ros/trigger_service.h"
+#include "arfm_vo/ros/worker.h"
 
 namespace arfm_vo {
 
-using diagnostic_msgs::DiagnosticStatus;
+class BaNode::Impl {
+ public:
+  Impl(ros::NodeHandle node, ros::NodeHandle private_node);
+  ~Impl();
 
-namespace {
+ private:
+  void SendTransform();
 
-/// Without a new keyframe for so long, the newest ones are adjusted too, for the map as it is seen.
-const ros::WallDuration kSettled(3);
-
-GlobalMapOptions Paced(GlobalMapOptions options, double max_time_share) {
-  options.solver.max_time_share = std::min(options.solver.max_time_share, max_time_share);
-  return options;
-}
-
-/// By how much at least, at three standard deviations.
-double SurelyOff(const CorrectionBelief::Estimate& estimate) {
-  return std::abs(estimate.mean) - 3 * estimate.sigma;
-}
-
-}  // namespace
-
-void BaNodeOptions::Check() const {
-  algorithm.Check();
-  Require(!map_frame.empty(), "map_frame must not be empty");
-  Require(!odom_frame.empty(), "odom_frame must not be empty");
-  Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
-  Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
-  Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
-  Require(max_path_poses >= 2, "max_path_poses must be at least 2");
-}
+  const std::unique_ptr<MapPipeline> pipeline_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  nav_msgs::OdometryConstPtr newest_odometry_;
+  ros::Subscriber keyframes_, odometry_, stated_;
+  ros::ServiceServer save_;
+  ros::Time sent_;  // the newest transform's stamp
+  ros::WallTimer timer_;
+  ros::Timer tf_timer_;
+};
 
 BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : options_(ReadParameters<BaNodeOptions>(private_node)),
-      updates_(node.advertise<MapUpdateStamped>("map_update", 2)),
-      path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
-      landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
-      trajectory_output_(options_.trajectory_dir,
-                         NameTrajectoryFrame("base", options_.trajectory_of_camera)),
-      learned_(options_.learned),
-      map_(Paced(options_.algorithm.global, options_.max_time_share)),
+    : impl_(std::make_unique<Impl>(node, private_node)) {}
+
+BaNode::~BaNode() = default;
+
+BaNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
+    : pipeline_(MakeMapPipeline(node, private_node, [this] { return worker_.is_stopping(); })),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
-        ++figures_.num_refused;
-        figures_.refusal = error.what();
-        told_.Set(figures_);
+        pipeline_->CountRefused(error);
         ROS_ERROR_THROTTLE(5, "keyframe refused: %s", error.what());
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("global adjustment", [this](auto& status) { Report(status); });
-  keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,
-                                               [this](const KeyframeStampedConstPtr& keyframe) {
-                                                 worker_.Post([this, keyframe] { Add(*keyframe); });
-                                               });
+  diagnostics_.add("global adjustment", [this](auto& status) { pipeline_->Report(status); });
+  keyframes_ = node.subscribe<KeyframeStamped>(
+      "keyframe", 100, [this](const KeyframeStampedConstPtr& keyframe) {
+        worker_.Post([this, keyframe] { pipeline_->Add(*keyframe); });
+      });
   odometry_ = node.subscribe<nav_msgs::Odometry>(
       "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
   stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       "initialpose", 1, [this](const auto& stated) {
-        worker_.Post(
-            [this, stated, odometry = newest_odometry_] { PlaceRover(*stated, odometry); });
+        worker_.Post([this, stated, odometry = newest_odometry_] {
+          pipeline_->PlaceRover(*stated, odometry);
+        });
       });
-  save_ = OfferTrigger(private_node, "save_trajectory",
-                       [this] { return trajectory_output_.Save(trajectory_.Get()); });
+  save_ =
+      OfferTrigger(private_node, "save_trajectory", [this] { return pipeline_->SaveTrajectory(); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     diagnostics_.force_update();
-    worker_.PostLossy([this] { AdjustIfSettled(); });
+    worker_.PostLossy([this] { pipeline_->AdjustIfSettled(); });
   });
-  if (options_.publish_tf)
-    tf_timer_ = node.createTimer(ros::Duration(1 / options_.tf_rate_hz),
+  if (pipeline_->transform().publish_tf)
+    tf_timer_ = node.createTimer(ros::Duration(1 / pipeline_->transform().tf_rate_hz),
                                  [this](const ros::TimerEvent&) { SendTransform(); });
 }
 
-BaNode::~BaNode() {
-  if (!trajectory_output_.is_enabled()) return;
+BaNode::Impl::~Impl() {
+  if (!pipeline_->saves_at_end()) return;
   try {
-    TellAtEnd(trajectory_output_.Save(trajectory_.Get()));
+    TellAtEnd(pipeline_->SaveTrajectory());
   } catch (const std::exception& error) {
     TellAtEnd(std::string("ERROR: the keyframes are not saved: ") + error.what());
   }
 }
 
-void BaNode::Add(const KeyframeStamped& message) {
-  const PlacedKeyframe keyframe = FromMessage(message);
-  if (const auto known = learned_.ReadFor(keyframe.camera)) {
-    map_.SetCorrection(keyframe.camera, *known);
-  }
-  if (!map_.Add(keyframe)) {
-    ROS_WARN("the odometry started anew: the map is forgotten");
-    map_from_adjusted_ = Rigid3();
-    mounts_.Clear();
-  }
-  if (trajectory_output_.is_enabled())
-    mounts_.Add(keyframe.record.stamp_s, keyframe.base_from_camera);
-  newest_ = message.header;
-  is_dirty_ = true;
-  figures_.num_keyframes = map_.num_keyframes();
-  figures_.num_landmarks = map_.num_landmarks();
-  figures_.num_loops = map_.num_loops();
-  figures_.refusal.clear();
-  Tell();
-  settles_ = ros::WallTime::now() + kSettled;
-  if (!options_.algorithm.adjust_globally || !map_.IsAdjustmentDue()) return;
-  if (const std::optional<MapUpdate> update = Adjust()) {
-    const auto told = boost::make_shared<MapUpdateStamped>(ToMessage(*update));
-    told->header.stamp = newest_.stamp;
-    told->header.frame_id = options_.map_frame;
-    told->epoch = map_.epoch();
-    updates_.publish(told);
-  }
-}
-
-void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
-                        const nav_msgs::OdometryConstPtr& odometry) {
-  try {
-    Require(odometry != nullptr, "initialpose: there is no odom yet");
-    const Rigid3 odom_from_base = ToRigid3(odometry->pose.pose);
-    Require(FindGoalFlaw(odom_from_base).empty(), "initialpose: odom is no pose");
-    map_from_adjusted_ = FindMapShift(stated, options_.map_frame, MapFromOdom() * odom_from_base) *
-                         map_from_adjusted_;
-    ROS_WARN("the rover is stated to stand at x %.2f m, y %.2f m: the map frame moves",
-             stated.pose.pose.position.x, stated.pose.pose.position.y);
-  } catch (const std::invalid_argument& error) {
-    ROS_WARN("refused: %s", error.what());
-    return;
-  }
-  Tell();
-  PublishMap();
-}
-
-/// The odometry is not told: what it does must not depend on when its pairs come.
-void BaNode::AdjustIfSettled() {
-  if (is_dirty_ && options_.algorithm.adjust_globally && ros::WallTime::now() > settles_) Adjust();
-}
-
-void BaNode::Tell() {
-  figures_.map_from_odom = MapFromOdom();
-  told_.Set(figures_);
-  const Trajectory of_camera = map_.MakeTrajectory();
-  trajectory_.Set(options_.trajectory_of_camera ? of_camera : mounts_.OfBase(of_camera));
-}
-
-std::optional<MapUpdate> BaNode::Adjust() {
-  const ros::WallTime start = ros::WallTime::now();
-  is_dirty_ = false;
-  figures_.is_adjusting = true;
-  std::optional<MapUpdate> update = map_.Adjust([this](const BundleProgress& progress) {
-    figures_.iteration = progress.iteration;
-    figures_.cost = progress.cost;
-    told_.Set(figures_);
-    return !worker_.is_stopping();
-  });
-  ReturnFreeMemory();
-  const double seconds = (ros::WallTime::now() - start).toSec();
-  figures_.is_adjusting = false;
-  figures_.last_ms = 1e3 * seconds;
-  figures_.longest_ms = std::max(figures_.longest_ms, figures_.last_ms);
-  ++figures_.num_adjustments;
-  if (!update && map_.num_keyframes() > 1) ++figures_.num_failed;
-  Tell();
-  if (update) {
-    learned_.Write(update->correction);
-    TellOfCalibration(update->correction);
-    PublishMap();
-  }
-  return update;
-}
-
-void BaNode::TellOfCalibration(const CorrectionBelief& learnt) {
-  constexpr double kWarnPx = 1, kWarnShare = 1e-3;
-  figures_.columns_sigma_px = learnt.MaxColumnSigma(map_.camera());
-  const auto& radial_px = figures_.radial_px = learnt.LargestRadial();
-  const auto& excess = figures_.focal_length_excess = learnt.FocalLengthExcess(map_.camera());
-  told_.Set(figures_);
-  const bool is_off = SurelyOff(radial_px) > kWarnPx || SurelyOff(excess) > kWarnShare;
-  if (told_to_calibrate_ || !is_off) return;
-  told_to_calibrate_ = true;
-  ROS_WARN(
-      "both images are off radially by up to %.1f px (sigma %.1f), their focal length by %.2f %% "
-      "(sigma %.2f), which is made up for: calibrate the cameras anew, with the board in the "
-      "corners too",
-      radial_px.mean, radial_px.sigma, 100 * excess.mean, 100 * excess.sigma);
-}
-
-void BaNode::PublishMap() {
-  std_msgs::Header header;
-  header.stamp = newest_.stamp;
-  header.frame_id = options_.map_frame;
-  const std::vector<MapPose> poses = map_.BasePoses();
-  const size_t stride = 1 + poses.size() / options_.max_path_poses;
-  nav_msgs::Path path;
-  path.header = header;
-  for (size_t i = (poses.size() - 1) % stride; i < poses.size(); i += stride) {
-    path.poses.emplace_back();
-    path.poses.back().header.frame_id = options_.map_frame;
-    path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
-    path.poses.back().pose = ToPoseMessage(map_from_adjusted_ * poses[i].map_from_base);
-  }
-  path_.publish(path);
-  std::vector<LandmarkPoint> points = map_.Landmarks();
-  for (LandmarkPoint& point : points) point.x_in_map = map_from_adjusted_ * point.x_in_map;
-  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(points);
-  cloud.header = header;
-  landmarks_.publish(cloud);
-}
-
-void BaNode::SendTransform() {
+void BaNode::Impl::SendTransform() {
+  const MapTransformOptions& options = pipeline_->transform();
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ros::Time::now() + ros::Duration(options_.tf_tolerance_s);
+  transform.header.stamp = ros::Time::now() + ros::Duration(options.tf_tolerance_s);
   if (transform.header.stamp == sent_) return;  // simulated time jumped, and the timer catches up
   sent_ = transform.header.stamp;
-  transform.header.frame_id = options_.map_frame;
-  transform.child_frame_id = options_.odom_frame;
-  transform.transform = ToTransformMessage(told_.Get().map_from_odom);
+  transform.header.frame_id = options.map_frame;
+  transform.child_frame_id = options.odom_frame;
+  transform.transform = pipeline_->MapFromOdom();
   broadcaster_.sendTransform(transform);
-}
-
-void BaNode::Report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  const Figures figures = told_.Get();
-  if (!figures.refusal.empty())
-    status.summary(DiagnosticStatus::ERROR, "keyframe refused: " + figures.refusal);
-  else if (figures.num_failed > 0)
-    status.summaryf(DiagnosticStatus::WARN, "%d adjustments found no solution", figures.num_failed);
-  else
-    status.summary(DiagnosticStatus::OK, figures.is_adjusting ? "adjusting" : "waiting");
-  status.add("keyframes", figures.num_keyframes);
-  status.add("landmarks", figures.num_landmarks);
-  status.add("loops closed", figures.num_loops);
-  status.add("adjustments", figures.num_adjustments);
-  status.add("keyframes refused", figures.num_refused);
-  status.add("iteration", figures.iteration);
-  status.addf("cost", "%.1f", figures.cost);
-  status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
-  status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
-  status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
-  status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
-              figures.radial_px.mean, figures.radial_px.sigma);
-  status.addf("calibration: focal length of both images off by (%)", "%.2f, sigma %.2f",
-              100 * figures.focal_length_excess.mean, 100 * figures.focal_length_excess.sigma);
 }
 
 }  // namespace arfm_vo

@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/transforms.h"
 
+#include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>
 
 #include <chrono>

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,90 +1,24 @@
 #pragma once
 
-#include <arfm_vo/StereoFrameStamped.h>
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/ros.h>
+#include <ros/node_handle.h>
 
 #include <memory>
-#include <string>
-
-#include "arfm_vo/image/grey_window.h"
-#include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/ros/console_watch.h"
-#include "arfm_vo/ros/learned_calibration.h"
-#include "arfm_vo/ros/stamp_order.h"
-#include "arfm_vo/ros/stereo_input.h"
-#include "arfm_vo/ros/wall_rate.h"
-#include "arfm_vo/ros/worker.h"
 
 namespace arfm_vo {
-
-struct ArfmNodeOptions {
-  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
-  int max_waiting_pairs = 4;  ///< older ones are dropped
-  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
-
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    algorithm.VisitFields(visit);
-    visit("max_waiting_pairs", max_waiting_pairs);
-    learned.VisitFields(visit);
-  }
-};
 
 /// Rectified stereo pairs in, `features` out: layers image to reconstruction. Subscribes to the
 /// pairs only while somebody subscribes to `features`, so that a player which waits for subscribers
 /// waits for the whole chain.
 class ArfmNode {
  public:
-  /// Throws std::invalid_argument naming a wrong parameter.
+  /// Throws std::invalid_argument naming a wrong parameter (ArfmNodeOptions).
   ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node);
   /// Tells how many pairs came on the console.
   ~ArfmNode();
 
  private:
-  /// How the pairs since the start fared.
-  struct Figures {
-    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
-    std::string refusal;  ///< why the newest pair was refused; empty where it was not
-    int num_left = 0, num_right = 0, num_points = 0;
-    double ms = 0;
-    WallRate rate;
-    bool is_idle = true;  ///< nobody subscribes to features
-    StereoInputCounts input, input_before;
-  };
-
-  void Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  void Disconnect();
-  void ReportFigures();
-  void TellDrops(uint32_t num_pairs);
-  // On the worker's thread:
-  void Process(const StereoMessagePair& pair);
-  void CheckNotRaw(const StereoMessagePair& pair) const;
-  /// Says whether the pair is to be worked on; begins anew where time has jumped.
-  bool AcceptStamp(const ros::Time& stamp);
-  void PrepareFrontend(const StereoMessagePair& pair);
-  void Publish(const StereoMessagePair& pair, const StereoFrame& frame, const StageTimes& stages);
-  void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
-
-  const ArfmNodeOptions options_;
-  const StereoTopics topics_;
-  // Of the thread that calls back:
-  StereoInputWatch input_watch_;
-  ConsoleWatch drop_watch_;
-  uint32_t num_dropped_before_ = 0;
-  // Of the worker's thread:
-  StereoCamera camera_;
-  GreyWindow window_;
-  std::unique_ptr<StereoFrontend> frontend_;
-  LearnedCalibration learned_;
-  StampOrder stamps_;
-  Figures figures_;
-  diagnostic_updater::Updater diagnostics_;
-  Worker worker_;
-  std::unique_ptr<StereoInput> input_;
-  ros::Publisher features_;
-  ros::WallTimer timer_;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace arfm_vo

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <ros/time.h>
-#include <tf2/buffer_core.h>
 
 #include <optional>
 #include <string>
 
 #include "arfm_vo/geometry/rigid3.h"
+
+namespace tf2 {
+class BufferCore;
+}
 
 namespace arfm_vo {
 
