@@ -1,4 +1,5 @@
-// Loaded before the libraries (LD_PRELOAD): the code for every CPU runs, whatever this one can, and says so.
+// Loaded before the libraries (LD_PRELOAD): the code for every CPU runs, whatever this one can, and
+// says so.
 #include <cstdio>
 
 #include "arfm_vo/base/cpu.h"
