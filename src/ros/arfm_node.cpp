@@ -82,7 +82,13 @@ ArfmNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
       },
       [this](const ros::SingleSubscriberPublisher&) { Disconnect(); });
   timer_ = node.createWallTimer(ros::WallDuration(1),
-                                [this](const ros::WallTimerEvent&) { ReportFigures(); });
+                                [this, node, private_node](const ros::WallTimerEvent&) {
+                                  // A nodelet's queue takes nothing while the node is made, also
+                                  // not that who waited for features is connected.
+                                  if (features_.getNumSubscribers() > 0)
+                                    Connect(node, private_node);
+                                  ReportFigures();
+                                });
 }
 
 ArfmNode::Impl::~Impl() {
