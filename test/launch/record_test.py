@@ -119,7 +119,10 @@ def main():
                 check(pathlib.Path(folder))
             print("%s: passed" % check.__name__)
     finally:
-        rospy.signal_shutdown("done")
+        try:
+            rospy.signal_shutdown("done")
+        except AttributeError:
+            pass  # Debian 11: its rospy calls Thread.isAlive, which its Python 3.9 has no more
         master.terminate()
         master.wait()
 
