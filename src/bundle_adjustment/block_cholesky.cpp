@@ -9,13 +9,13 @@ namespace arfm_vo {
 namespace {
 
 /// The position of each row in the order of elimination.
-std::vector<int> Order(const std::vector<int>& row_begin, const std::vector<int>& columns) {
-  const int num_rows = static_cast<int>(row_begin.size()) - 1;
+std::vector<int> Order(const BlockPattern& blocks) {
+  const int num_rows = blocks.num_rows();
   if (num_rows == 0) return {};
   std::vector<Eigen::Triplet<double>> triplets;
   for (int row = 0; row < num_rows; ++row) {
-    for (int i = row_begin[row]; i < row_begin[row + 1]; ++i) {
-      triplets.emplace_back(row, columns[i], 1);
+    for (int i = blocks.row_begin[row]; i < blocks.row_begin[row + 1]; ++i) {
+      triplets.emplace_back(row, blocks.columns[i], 1);
     }
   }
   Eigen::SparseMatrix<double> pattern(num_rows, num_rows);
@@ -29,13 +29,20 @@ std::vector<int> Order(const std::vector<int>& row_begin, const std::vector<int>
 
 }  // namespace
 
-BlockCholesky::BlockCholesky(const std::vector<int>& row_begin, const std::vector<int>& columns)
-    : position_(Order(row_begin, columns)) {
+int BlockPattern::Find(int row, int column, int from) const {
+  // Neighbours on a path stand next to each other: a step or two, then a search.
+  if (columns[from] == column) return from;
+  const auto begin = columns.begin() + from + 1, end = columns.begin() + row_begin[row + 1];
+  if (*begin == column) return from + 1;
+  return static_cast<int>(std::lower_bound(begin, end, column) - columns.begin());
+}
+
+BlockCholesky::BlockCholesky(const BlockPattern& pattern) : position_(Order(pattern)) {
   std::vector<std::vector<int>> rows_of(position_.size());
   const auto for_each_block = [&](const auto& work) {
     for (size_t row = 0; row < position_.size(); ++row) {
-      for (int i = row_begin[row]; i < row_begin[row + 1]; ++i) {
-        work(position_[row], position_[columns[i]]);
+      for (int i = pattern.row_begin[row]; i < pattern.row_begin[row + 1]; ++i) {
+        work(position_[row], position_[pattern.columns[i]]);
       }
     }
   };

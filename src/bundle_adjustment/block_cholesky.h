@@ -8,17 +8,27 @@ namespace arfm_vo {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+/// The blocks of the upper triangle of a symmetric matrix that may not be zero, row by row:
+/// (row, columns[i]) for i in [row_begin[row], row_begin[row + 1]), ascending, the diagonal first.
+struct BlockPattern {
+  std::vector<int> row_begin = {0}, columns;
+
+  int num_rows() const { return static_cast<int>(row_begin.size()) - 1; }
+  /// The index of block (row, column) into `columns`; it must be there. `from` must not lie behind
+  /// it in its row.
+  int Find(int row, int column, int from) const;
+  int Find(int row, int column) const { return Find(row, column, row_begin[row]); }
+};
+
 /// Cholesky factors of symmetric matrices of 6 x 6 blocks, most of them zero, that share one
 /// pattern. Rows are taken in an order that leaves few blocks to fill in (approximate minimum
 /// degree).
 class BlockCholesky {
  public:
-  /// The blocks of the upper triangle that may not be zero, row by row: (row, columns[i]) for i in
-  /// [row_begin[row], row_begin[row + 1]), ascending, the diagonal first, whose upper triangle
-  /// counts.
-  BlockCholesky(const std::vector<int>& row_begin, const std::vector<int>& columns);
+  explicit BlockCholesky(const BlockPattern& pattern);
 
-  /// `blocks`: [columns]. Returns false where the matrix is not positive definite.
+  /// `blocks`: [columns of the pattern], of those on the diagonal the upper triangle. Returns false
+  /// where the matrix is not positive definite.
   bool Factorize(const std::vector<Matrix6d>& blocks);
   /// [6 rows x N], after Factorize.
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const;

@@ -70,29 +70,20 @@ void BundleStructure::FindBlocks(const BundleProblem& problem) {
     if (a != kFixed && b != kFixed) tied_to[std::min(a, b)].push_back(std::max(a, b));
   }
   std::vector<int> seen_by(num_free_poses(), kFixed);
-  row_begin.assign(1, 0);
   for (int row = 0; row < num_free_poses(); ++row) {
     const auto add = [&](int column) {
       if (column < row || seen_by[column] == row) return;
       seen_by[column] = row;
-      columns.push_back(column);
+      blocks.columns.push_back(column);
     };
     add(row);
     for (const int track : tracks_of[row]) {
       for (int k = tracks[track].first; k < tracks[track].last; ++k) add(sightings[k].free_pose);
     }
     for (const int column : tied_to[row]) add(column);
-    std::sort(columns.begin() + row_begin.back(), columns.end());
-    row_begin.push_back(static_cast<int>(columns.size()));
+    std::sort(blocks.columns.begin() + blocks.row_begin.back(), blocks.columns.end());
+    blocks.row_begin.push_back(static_cast<int>(blocks.columns.size()));
   }
-}
-
-int BundleStructure::FindBlock(int row, int column, int from) const {
-  // Neighbours on a path stand next to each other: a step or two, then a search.
-  if (columns[from] == column) return from;
-  const auto begin = columns.begin() + from + 1, end = columns.begin() + row_begin[row + 1];
-  if (*begin == column) return from + 1;
-  return static_cast<int>(std::lower_bound(begin, end, column) - columns.begin());
 }
 
 }  // namespace arfm_vo

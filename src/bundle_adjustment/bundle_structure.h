@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/bundle_problem.h"
+#include "block_cholesky.h"
 #include "bundle_selection.h"
 
 namespace arfm_vo {
@@ -28,16 +29,10 @@ struct BundleStructure {
   std::vector<int> free_pose;     ///< [poses] of the problem, or kFixed
   std::vector<int> pose_of_free;  ///< [free poses]
 
-  /// The blocks (row, column >= row) of the reduced camera matrix that may not be zero:
-  /// columns[row_begin[row]..row_begin[row + 1]), ascending, the diagonal first.
-  std::vector<int> row_begin, columns;
+  BlockPattern blocks;  ///< of the reduced camera matrix, free poses by free poses
 
   BundleStructure(const BundleProblem& problem, const BundleSelection& selection);
   int num_free_poses() const { return static_cast<int>(pose_of_free.size()); }
-  /// The index of block (row, column) into `columns`; it must be there. `from` must not lie behind
-  /// it in its row.
-  int FindBlock(int row, int column, int from) const;
-  int FindBlock(int row, int column) const { return FindBlock(row, column, row_begin[row]); }
 
  private:
   void SortObservations(const BundleProblem& problem, const BundleSelection& selection);

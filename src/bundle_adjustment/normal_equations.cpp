@@ -31,7 +31,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       num_threads_(options.num_threads),
       max_time_share_(options.max_time_share),
       num_coefficients_(selection.num_free_coefficients()),
-      solver_(structure, num_coefficients_),
+      solver_(structure.blocks, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
       point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
@@ -51,7 +51,7 @@ double NormalEquations::Linearize(const BundleState& state) {
   rotations_.clear();
   for (const Rigid3& pose : state.camera_from_world) rotations_.push_back(pose.RotationMatrix());
   ForEachPiece([&](Piece& piece) { LinearizePiece(state, piece); });
-  held_.SetZero(structure_, num_coefficients_);
+  held_.SetZero(structure_.blocks, num_coefficients_);
   double cost = 0;
   for (const Piece& piece : pieces_) {
     held_ += piece.sum;
@@ -62,7 +62,7 @@ double NormalEquations::Linearize(const BundleState& state) {
 
 void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
   const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
-  piece.sum.SetZero(structure_, num_coefficients_);
+  piece.sum.SetZero(structure_.blocks, num_coefficients_);
   piece.cost = 0;
   Pacer pacer(max_time_share_);
   for (int track = piece.first_track; track < piece.last_track; ++track) {
@@ -101,7 +101,7 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
     point_rights_[track].noalias() += rotation.transpose() * pull;
     if (free_pose != BundleStructure::kFixed) {
       const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
-      Matrix6d& block = piece.sum.blocks[structure_.row_begin[free_pose]];
+      Matrix6d& block = piece.sum.blocks[structure_.blocks.row_begin[free_pose]];
       block.topLeftCorner<3, 3>() += CrossColumns(term.x, x_m.transpose());
       block.topRightCorner<3, 3>() += x_m;
       block.bottomRightCorner<3, 3>() += m;
@@ -158,18 +158,9 @@ double NormalEquations::AddConstraints(const BundleState& state) {
                             state.camera_from_world[constraint.second]);
     const Matrix6d& information = constraint.information;
     cost += term.residual.dot(information * term.residual);
-    const int ends[2] = {structure_.free_pose[constraint.first],
-                         structure_.free_pose[constraint.second]};
-    const Matrix6d* const jacobians[2] = {&term.by_first, &term.by_second};
-    for (const int i : {0, 1}) {
-      if (ends[i] == BundleStructure::kFixed) continue;
-      held_.right[ends[i]] -= jacobians[i]->transpose() * information * term.residual;
-      for (const int j : {0, 1}) {
-        if (ends[j] < ends[i]) continue;  // the upper triangle; also a fixed pose
-        held_.blocks[structure_.FindBlock(ends[i], ends[j])] +=
-            jacobians[i]->transpose() * information * *jacobians[j];
-      }
-    }
+    held_.Add(term, information,
+              {structure_.free_pose[constraint.first], structure_.free_pose[constraint.second]},
+              structure_.blocks);
   }
   return cost;
 }

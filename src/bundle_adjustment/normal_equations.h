@@ -6,6 +6,7 @@
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "bundle_structure.h"
 #include "reduced_system.h"
 
 namespace arfm_vo {

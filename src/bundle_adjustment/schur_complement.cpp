@@ -50,13 +50,13 @@ bool NormalEquations::Solve(double damping, BundleStep& step) {
 
 void NormalEquations::Damp(double damping) {
   for (int i = 0; i < structure_.num_free_poses(); ++i) {
-    DampDiagonal(damping, reduced_.blocks[structure_.row_begin[i]]);
+    DampDiagonal(damping, reduced_.blocks[structure_.blocks.row_begin[i]]);
   }
   DampDiagonal(damping, reduced_.corner);
 }
 
 void NormalEquations::EliminatePiece(double damping, Piece& piece) {
-  piece.sum.SetZero(structure_, num_coefficients_);
+  piece.sum.SetZero(structure_.blocks, num_coefficients_);
   const bool with_correction = num_coefficients_ > 0;
   Pacer pacer(max_time_share_);
   for (int track = piece.first_track; track < piece.last_track; ++track) {
@@ -72,11 +72,11 @@ void NormalEquations::EliminatePiece(double damping, Piece& piece) {
       if (row == BundleStructure::kFixed) continue;
       piece.sum.right[row].noalias() += sighting_blocks_[i] * inverse_right;
       const Eigen::Matrix<double, 6, 3> product = sighting_blocks_[i] * inverse;
-      int block = structure_.row_begin[row];
+      int block = structure_.blocks.row_begin[row];
       for (int j = i; j < last; ++j) {
         const int column = structure_.sightings[j].free_pose;
         if (column == BundleStructure::kFixed) continue;
-        block = structure_.FindBlock(row, column, block);
+        block = structure_.blocks.Find(row, column, block);
         piece.sum.blocks[block].noalias() += product * sighting_blocks_[j].transpose();
       }
       if (with_correction) piece.sum.border[row].noalias() += product * point_borders_[track];
@@ -114,7 +114,7 @@ void NormalEquations::MeasureStep(double damping, BundleStep& step) const {
   };
   for (int i = 0; i < structure_.num_free_poses(); ++i) {
     add(step.reduced.segment<6>(6 * i), held_.right[i],
-        held_.blocks[structure_.row_begin[i]].diagonal());
+        held_.blocks[structure_.blocks.row_begin[i]].diagonal());
   }
   add(step.reduced.tail(num_coefficients_), held_.corner_right, held_.corner.diagonal());
   for (size_t track = 0; track < step.points.size(); ++track) {
