@@ -36,7 +36,7 @@ struct Row {
 
   void Add(const SimulatedRun& run, double share) {
     lost += share * run.num_untracked;
-    keyframes += share * static_cast<double>(run.keyframes.size());
+    keyframes += share * run.num_keyframes;
     loops += share * run.num_loops;
     odometry_s += share * run.odometry_s;
     finish_s += share * run.finish_s;

@@ -34,7 +34,8 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
     run.num_lost += !update.pose.HasPose();
     run.epoch = pose.epoch;
     run.skew = update.skew;
-    if (pose.keyframe) run.keyframes.push_back(pose.keyframe->record);
+    run.num_keyframes += update.is_keyframe;
+    if (pose.keyframe) options.on_keyframe(pose.keyframe->record);
     run.online.push_back(pose.odom_from_base);
     run.covariances.push_back(update.covariance_from_start);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,15 +15,15 @@ struct SimulatedRunOptions {
   double descriptor_noise = 0.3;  ///< ObservationSimulator::Describe
   double rate_hz = 10;
   bool is_calibrated = true;  ///< the odometry knows the right image's displacement
+  std::function<void(const KeyframeRecord&)> on_keyframe = [](const KeyframeRecord&) {};
 };
 
 /// An odometry without images along a path, and how it did.
 struct SimulatedRun {
   std::vector<Rigid3> truth, online, final;  ///< world_from_camera, from the first camera
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;  ///< of `online`, as OdometryUpdate has it
-  std::vector<KeyframeRecord> keyframes;
-  int num_untracked = 0, num_lost = 0;  ///< of them without any pose
-  int num_loops = 0;
+  int num_untracked = 0, num_lost = 0;                   ///< of them without any pose
+  int num_keyframes = 0, num_loops = 0;
   std::optional<EyeSkew> skew;          ///< as the last frame had it
   CorrectionBelief learnt;              ///< at the end
   uint32_t epoch = 0;                   ///< of the last frame; the first is 1

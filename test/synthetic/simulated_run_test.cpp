@@ -233,14 +233,14 @@ LoopCount CountLoops(double noise_px) {
   GlobalMap map(kCamera, options, {});
   LoopCount count;
   int planned = 2;
-  for (const KeyframeRecord& keyframe :
-       RunSimulated(kCamera, TwoRounds(), simulation, OnlineOnly()).keyframes) {
+  simulation.on_keyframe = [&](const KeyframeRecord& keyframe) {
     map.Add(keyframe);
-    if (!map.IsAdjustmentDue()) continue;
+    if (!map.IsAdjustmentDue()) return;
     count.num_unplanned += map.num_keyframes() < planned;
     planned = NextAdjustment(map.num_keyframes(), options.NumMoving());
     EXPECT_TRUE(map.Adjust());
-  }
+  };
+  RunSimulated(kCamera, TwoRounds(), simulation, OnlineOnly());
   count.num_loops = map.num_loops();
   return count;
 }
