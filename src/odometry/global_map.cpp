@@ -116,7 +116,7 @@ int NextAdjustment(int num_keyframes, int num_moving) {
 }
 
 bool GlobalMap::IsAdjustmentDue() const {
-  return num_keyframes() >= next_adjustment_ || has_new_loops_;
+  return num_keyframes() >= next_adjustment_ || is_contradicted_;
 }
 
 /// Where the correction is held, the rows of the new observations must agree with it.
@@ -158,7 +158,7 @@ void GlobalMap::Close(const Loop& loop) {
       LinearizeConstraint(c, store_.keyframes[c.first].camera_from_map,
                           store_.keyframes[c.second].camera_from_map)
           .residual;
-  has_new_loops_ |= error.dot(c.information * error) > ChiSquareQuantile(6, kLoopProbability);
+  is_contradicted_ |= error.dot(c.information * error) > ChiSquareQuantile(6, kLoopProbability);
   for (const auto& [first, second] : loop.same) {
     const auto old = store_.Find(first), seen = store_.Find(second);
     if (old->first >= seen->first) continue;
@@ -175,12 +175,12 @@ void GlobalMap::BendOntoLoops() {
   for (const MapStore::Keyframe& keyframe : store_.keyframes) {
     poses.push_back(keyframe.camera_from_map);
   }
+  std::vector<PoseConstraint> constraints = loops_;
   // An adjustment has found what the loops closed before it say, from more than they were.
   for (size_t i = 0; i < num_adjusted_loops_; ++i) {
-    PoseConstraint& loop = loops_[i];
+    PoseConstraint& loop = constraints[i];
     loop.second_from_first = poses[loop.second] * poses[loop.first].Inverse();
   }
-  std::vector<PoseConstraint> constraints = loops_;
   for (int k = 0; k + 1 < num_keyframes(); ++k) {
     PoseConstraint step{k, k + 1, poses[k + 1] * poses[k].Inverse(), {}};
     const double sigma_m =
@@ -196,7 +196,7 @@ void GlobalMap::BendOntoLoops() {
     point.x_in_map = bent[k].Inverse() * (poses[k] * point.x_in_map);
   }
   for (int k = 0; k < num_keyframes(); ++k) store_.keyframes[k].camera_from_map = bent[k];
-  has_new_loops_ = false;
+  is_contradicted_ = false;
 }
 
 /// Poses are those of the keyframes from store_.first_seeing on, then those that loops lead back
@@ -259,7 +259,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
   next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
-  const bool is_bent = has_new_loops_;
+  const bool is_bent = is_contradicted_;
   if (is_bent) BendOntoLoops();
   BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;

@@ -8,10 +8,10 @@
 namespace arfm_vo {
 
 /// Whether a pose is to be believed where groups of points contradict one another, as when a large
-/// object moves through the picture. A pose is proven by points that agreed with earlier poses and
-/// by the motion before; what a contested pose without proof began stays open until one with proof
-/// follows. Where nobody contradicts any more and there is no proof either, the group that is left
-/// may have moved on its own: the map is no longer to be trusted.
+/// object moves through the picture. A pose is proven by points that agreed with earlier poses and,
+/// where others contest it, by the motion before; what a contested pose without proof began stays
+/// open until one with proof follows. Where nobody contradicts any more and there is no proof
+/// either, the group that is left may have moved on its own: the map is no longer to be trusted.
 class Dispute {
  public:
   /// Whether to look for contradiction more closely than usual: after one, or after a loss.

@@ -64,8 +64,9 @@ class GlobalMap {
   /// where a loop contradicts the path.
   bool IsAdjustmentDue() const;
 
-  /// Adjusts everything; where loops were closed since the last time, the path is bent onto them
-  /// first (pose graph). Nothing where there are fewer than two keyframes or no solution.
+  /// Adjusts everything; where a loop closed since the last time contradicts the path, it is bent
+  /// onto the loops first (pose graph). Nothing where there are fewer than two keyframes or no
+  /// solution.
   /// `progress` is called after each iteration; false from it cancels.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
@@ -95,7 +96,7 @@ class GlobalMap {
   LoopDetector detector_;
   std::vector<PoseConstraint> loops_;
   size_t num_adjusted_loops_ = 0;  ///< the first ones, that an adjustment has taken in
-  bool has_new_loops_ = false;     ///< that contradict the path
+  bool is_contradicted_ = false;   ///< by a loop closed since the last adjustment
   int next_adjustment_ = 2;        ///< at this number of keyframes
   CorrectionBelief prior_;         ///< of the correction, without the keyframes
   CorrectionBelief correction_;    ///< with them
