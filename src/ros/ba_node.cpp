@@ -69,12 +69,8 @@ BaNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
 }
 
 BaNode::Impl::~Impl() {
-  if (!pipeline_->saves_at_end()) return;
-  try {
-    TellAtEnd(pipeline_->SaveTrajectory());
-  } catch (const std::exception& error) {
-    TellAtEnd(std::string("ERROR: the keyframes are not saved: ") + error.what());
-  }
+  if (pipeline_->saves_at_end())
+    TellSavedAtEnd("the keyframes are", [this] { return pipeline_->SaveTrajectory(); });
 }
 
 void BaNode::Impl::SendTransform() {

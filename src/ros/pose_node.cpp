@@ -72,12 +72,7 @@ PoseNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
 }
 
 PoseNode::Impl::~Impl() {
-  if (!pipeline_->saves_at_end()) return;
-  try {
-    TellAtEnd(Save());
-  } catch (const std::exception& error) {
-    TellAtEnd(std::string("ERROR: the trajectory is not saved: ") + error.what());
-  }
+  if (pipeline_->saves_at_end()) TellSavedAtEnd("the trajectory is", [this] { return Save(); });
 }
 
 void PoseNode::Impl::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {

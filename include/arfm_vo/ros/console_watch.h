@@ -19,6 +19,16 @@ inline void TellAtEnd(const std::string& text) {
   }
 }
 
+/// Tells what `save` returns, or that `what` is not saved and why.
+template <class Save>
+void TellSavedAtEnd(const std::string& what, Save&& save) {
+  try {
+    TellAtEnd(save());
+  } catch (const std::exception& error) {
+    TellAtEnd("ERROR: " + what + " not saved: " + error.what());
+  }
+}
+
 /// Decides when a problem that is looked for again and again is told on the console: when it has
 /// lasted for `kPatience_s`, and then every `kRepeat_s` for as long as it lasts.
 class ConsoleWatch {
