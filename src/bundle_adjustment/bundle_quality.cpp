@@ -38,7 +38,8 @@ struct Freedom {
     for (const BundleObservation& observation : structure.observations) {
       num_coordinates += observation.NumCoordinates();
     }
-    freedom = num_coordinates - 6.0 * structure.num_free_poses() - 3.0 * structure.tracks.size();
+    freedom = num_coordinates - 6.0 * structure.num_free_poses() -
+              3.0 * static_cast<double>(structure.tracks.size());
   }
   double Inflation() const { return num_coordinates / freedom; }
 };

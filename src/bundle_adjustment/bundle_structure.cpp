@@ -62,7 +62,7 @@ void BundleStructure::FindBlocks(const BundleProblem& problem) {
   std::vector<std::vector<int>> tracks_of(num_free_poses()), tied_to(num_free_poses());
   for (size_t i = 0; i < tracks.size(); ++i) {
     for (int k = tracks[i].first; k < tracks[i].last; ++k) {
-      if (sightings[k].free_pose != kFixed) tracks_of[sightings[k].free_pose].push_back(i);
+      if (sightings[k].free_pose != kFixed) tracks_of[sightings[k].free_pose].push_back(static_cast<int>(i));
     }
   }
   for (const PoseConstraint& constraint : problem.constraints) {

@@ -63,7 +63,8 @@ std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
 
 double Percentile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
-  const auto index = static_cast<size_t>(share * (sorted.size() - 1) + 0.5);
+  const auto index =
+      static_cast<size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)));
   return sorted[std::min(index, sorted.size() - 1)];
 }
 

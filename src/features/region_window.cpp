@@ -14,7 +14,7 @@ RegionWindow MakeSeparateRegions() {
   RegionWindow window = {5, 1, 1, {}};
   for (int region = 0; region < RegionWindow::kRegions; ++region) {
     for (int i = 0; i < RegionWindow::kWidth; ++i) {
-      const double offset = window.spacing * region + i - window.HalfSide();
+      const double offset = static_cast<float>(window.spacing * region + i) - window.HalfSide();
       window.weights[region][i] = static_cast<float>(Gaussian(offset, kSigma));
     }
   }

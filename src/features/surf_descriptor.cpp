@@ -29,8 +29,9 @@ void ComputeTurnedHaar(const IntegralImage& integral, const Keypoint& keypoint,
           ComputeHaarResponse(integral, keypoint.x + step * (cosine * u - sine * v),
                               keypoint.y + step * (sine * u + cosine * v), half);
       float* parts = turned[row][col];
-      parts[0] = cosine * haar.dx + sine * haar.dy;
-      parts[1] = cosine * haar.dy - sine * haar.dx;
+      const float dx = static_cast<float>(haar.dx), dy = static_cast<float>(haar.dy);
+      parts[0] = cosine * dx + sine * dy;
+      parts[1] = cosine * dy - sine * dx;
       parts[2] = std::abs(parts[0]);
       parts[3] = std::abs(parts[1]);
     }
@@ -45,8 +46,10 @@ float ComputeOrientation(const IntegralImage& integral, const Keypoint& keypoint
   for (int j = -kOrientationRadius; j <= kOrientationRadius; ++j) {
     for (int i = -kOrientationRadius; i <= kOrientationRadius; ++i) {
       if (!IsInOrientationDisc(i, j)) continue;
-      const HaarResponse haar = ComputeHaarResponse(integral, keypoint.x + i * keypoint.scale,
-                                                    keypoint.y + j * keypoint.scale, half);
+      const float dx = static_cast<float>(i) * keypoint.scale;
+      const float dy = static_cast<float>(j) * keypoint.scale;
+      const HaarResponse haar =
+          ComputeHaarResponse(integral, keypoint.x + dx, keypoint.y + dy, half);
       histogram.Add(haar.dx, haar.dy, OrientationWeight(i, j));
     }
   }

@@ -33,7 +33,7 @@ GreyStatistics ComputeGreyStatistics(const cv::Mat& grey) {
   for (int y = 0; y < grey.rows; ++y) AddRow(grey.ptr(y), grey.cols, &sum, &sum_of_squares);
   const double count = static_cast<double>(grey.total());
   GreyStatistics statistics;
-  statistics.mean = sum / count;
+  statistics.mean = static_cast<double>(sum) / count;
   // Mean of the squared deviations = (n sum g^2 - (sum g)^2) / n^2; the numerator is exact in
   // 128 bits, so that nothing cancels.
   const auto numerator = static_cast<unsigned __int128>(grey.total()) * sum_of_squares -

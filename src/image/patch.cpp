@@ -29,7 +29,8 @@ bool SampleBordered(const GreyView& grey, const cv::Point2f& centre,
 PatchWindow::PatchWindow() {
   double sum = 0;
   for (int i = 0; i < Patch::kNumSamples; ++i) {
-    const double x = i % kSize - Patch::kHalfSpan, y = i / kSize - Patch::kHalfSpan;
+    const double x = static_cast<float>(i % kSize) - Patch::kHalfSpan;
+    const double y = static_cast<float>(i / kSize) - Patch::kHalfSpan;
     weights[i] =
         static_cast<float>(std::exp(-0.5 * (x * x + y * y) / (kWindowSigmaPx * kWindowSigmaPx)));
     sum += weights[i];

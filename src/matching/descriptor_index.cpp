@@ -50,7 +50,8 @@ void DescriptorIndex::Train(const std::vector<float>& descriptors) {
           "descriptor index: descriptors must be [N x 64]");
   Eigen::VectorXf middle = Eigen::VectorXf::Zero(kLength);
   for (size_t i = 0; i < descriptors.size(); i += kLength) middle += Descriptor(&descriptors[i]);
-  offsets_ = planes_ * middle * (static_cast<float>(kLength) / descriptors.size());
+  offsets_ =
+      planes_ * middle * (static_cast<float>(kLength) / static_cast<float>(descriptors.size()));
   is_trained_ = true;
 }
 

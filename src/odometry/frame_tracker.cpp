@@ -286,7 +286,8 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   const PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
   const double enough = std::max<double>(
-      options_.pose.min_inliers, options_.pose.min_inlier_share * correspondences.points.size());
+      options_.pose.min_inliers,
+      options_.pose.min_inlier_share * static_cast<double>(correspondences.points.size()));
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
     return coarse;  // too few patches are no better than the keypoints that agreed
   }

@@ -27,8 +27,9 @@ bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
                    const Rigid3& camera_from_world, const LandmarkObservations& observations,
                    const KeyframePolicyOptions& options) {
   // A scene may hold no more: then another keyframe would not help.
-  const bool is_fewer = observations.size() < kFewer * newest.observations.size();
-  if (is_fewer && static_cast<int>(observations.size()) < options.min_tracked_points) return true;
+  const int num_tracked = static_cast<int>(observations.size());
+  const double num_newest = static_cast<double>(newest.observations.size());
+  if (num_tracked < kFewer * num_newest && num_tracked < options.min_tracked_points) return true;
   const Eigen::Matrix3d frame_from_newest =
       (camera_from_world.rotation * newest.camera_from_world.rotation.conjugate())
           .toRotationMatrix();
@@ -40,7 +41,7 @@ bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
     if (seen->landmark != observation.landmark) continue;
     parallax.push_back(Parallax(camera, frame_from_newest, seen->pixels, observation.pixels));
   }
-  if (parallax.size() < options.min_shared_fraction * newest.observations.size()) return true;
+  if (static_cast<int>(parallax.size()) < options.min_shared_fraction * num_newest) return true;
   if (parallax.empty()) return true;
   return Median(std::move(parallax)) >= options.min_parallax_px;
 }

@@ -86,12 +86,9 @@ class Refiner {
   }
 
  private:
-  const ResidualModel& ModelOf(int i) const { return models_[observations_[i].has_right]; }
+  const ResidualModel& ModelOf(size_t i) const { return models_[observations_[i].has_right]; }
 
-  bool HasEnoughInliers() {
-    result_.status = RefinementStatus::kTooFewPoints;
-    return result_.num_inliers >= options_.min_inliers;
-  }
+  bool HasEnoughInliers() const { return result_.num_inliers >= options_.min_inliers; }
 
   /// New points join where they agree with the pose of these: on something that moves they agree
   /// with one another so well that they would take the pose along.
@@ -126,7 +123,8 @@ class Refiner {
     const auto middle = ratios.begin() + ratios.size() / 2;
     std::nth_element(ratios.begin(), middle, ratios.end());
     const double prior = options_.scale_prior_weight;
-    const double variance = (ratios.size() * *middle + prior) / (ratios.size() + prior);
+    const double count = static_cast<double>(ratios.size());
+    const double variance = (count * *middle + prior) / (count + prior);
     result_.scale = std::clamp(std::sqrt(variance), options_.min_scale, max_scale);
   }
 

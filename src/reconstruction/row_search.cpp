@@ -38,7 +38,7 @@ struct Template {
     }
     sum_ = remainder;
     norm = std::sqrt(static_cast<float>(squares) -
-                     static_cast<float>(remainder) * remainder / kNumSamples);
+                     static_cast<float>(remainder) * static_cast<float>(remainder) / kNumSamples);
   }
   /// Sum of products with the samples at `from`; 16 bytes a row are read.
   int Correlate(const uint8_t* from, size_t step) const {
@@ -89,9 +89,10 @@ std::vector<float> CorrelateStrip(const Template& patch, const cv::Mat& grey, in
   for (int i = 0; i < count; ++i) {
     sum += columns.sums[i + kSize - 1];
     squares += columns.squares[i + kSize - 1];
-    const float mean = static_cast<float>(sum) / kNumSamples;
-    const float variance = static_cast<float>(squares) - mean * sum;
-    const float product = patch.Correlate(grey.ptr(top) + left + i, grey.step) - mean * patch.sum();
+    const float grey_sum = static_cast<float>(sum), mean = grey_sum / kNumSamples;
+    const float variance = static_cast<float>(squares) - mean * grey_sum;
+    const int products = patch.Correlate(grey.ptr(top) + left + i, grey.step);
+    const float product = static_cast<float>(products) - mean * static_cast<float>(patch.sum());
     scores[i] = variance > 0 ? product / (patch.norm * std::sqrt(variance)) : -1;
     sum -= columns.sums[i];
     squares -= columns.squares[i];
@@ -147,8 +148,9 @@ std::optional<cv::Point2f> RowSearch::Find(const cv::Point2f& left_pixel, double
     return std::nullopt;
   }
   const float peak = ParabolaPeak(scores[best - 1], scores[best], scores[best + 1]);
-  return cv::Point2f(left_pixel.x + 2 * (first + best + peak - x),
-                     left_pixel.y + static_cast<float>(row_offset_px));
+  return cv::Point2f(
+      left_pixel.x + 2 * (static_cast<float>(first + best) + peak - static_cast<float>(x)),
+      left_pixel.y + static_cast<float>(row_offset_px));
 }
 
 }  // namespace arfm_vo

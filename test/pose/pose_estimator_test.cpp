@@ -187,6 +187,21 @@ TEST(PoseEstimator, KeepsPointsOfWideSpreadThatMovedAsTheirCovarianceSays) {
   EXPECT_GE(estimate.num_inliers, 95);
 }
 
+/// A smaller group of exact points that moved: who does not weigh errors by where points may lie
+/// counts few votes for the others.
+TEST(PoseEstimator, PointsOfWideSpreadVote) {
+  RandomEngine engine(16);
+  auto [truth, wrong, observations] = MakeTwoGroups(120, 60, {1, 0, 2}, engine);
+  for (int i = 0; i < 120; ++i) {  // 3 % of depth
+    const Eigen::Vector3d ray = truth.rotation.conjugate() * (truth * observations[i].x_in_world);
+    observations[i].x_covariance = 9e-4 * ray * ray.transpose();
+    observations[i].x_in_world += 0.03 * RandomNormal(engine) * ray;
+  }
+  const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, wrong, {});
+  ASSERT_TRUE(estimate.HasPose());
+  EXPECT_LT(StepBetween(truth, estimate.camera_from_world).norm(), 0.2);
+}
+
 TEST(PoseEstimator, SameInputGivesTheSameBytes) {
   RandomEngine engine(7);
   auto observations = MakeObservations(RandomPose(engine, 1, 5), 200, 0.5, engine);
@@ -237,13 +252,18 @@ TEST(PoseEstimator, RefusesObservationsThatAreNotFinite) {
 }
 
 TEST(PoseEstimator, OptionsNameTheBadKey) {
-  PoseEstimatorOptions options;
-  options.sample_size = 3;
-  try {
-    options.Check();
-    ADD_FAILURE();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("sample_size"), std::string::npos);
+  PoseEstimatorOptions few, no_rounds, no_samples;
+  few.sample_size = 3;
+  no_rounds.refinement.max_rounds = 0;
+  no_samples.ransac.max_iterations = 0;
+  for (const auto& [options, key] :
+       {std::pair(few, "sample_size"), {no_rounds, "max_rounds"}, {no_samples, "max_iterations"}}) {
+    try {
+      options.Check();
+      ADD_FAILURE() << key;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -176,6 +176,46 @@ TEST(PoseRefinement, SaysTooFewPoints) {
   EXPECT_EQ(RefinePose(kSceneCamera, {}, {}, {}).status, RefinementStatus::kTooFewPoints);
 }
 
+TEST(PoseRefinement, AsManyPointsAsAreAskedForAreEnough) {
+  RandomEngine engine(12);
+  const auto observations = MakeObservations({}, 10, 0, engine);
+  PoseRefinementOptions options;
+  options.min_inliers = 10;
+  EXPECT_EQ(RefinePose(kSceneCamera, observations, {}, options).status,
+            RefinementStatus::kConverged);
+  options.min_inliers = 11;
+  EXPECT_EQ(RefinePose(kSceneCamera, observations, {}, options).status,
+            RefinementStatus::kTooFewPoints);
+}
+
+TEST(PoseRefinement, IteratesNoMoreWhereStepsChangeNothing) {
+  RandomEngine engine(13);
+  const auto observations = MakeObservations({}, 30, 0, engine);
+  EXPECT_LE(RefinePose(kSceneCamera, observations, {}, {}).num_iterations, 3);
+}
+
+/// From so far off that a full step often raises the cost.
+TEST(PoseRefinement, StepsThatRaiseTheCostAreShortenedOrEndTheSearch) {
+  RandomEngine engine(14);
+  int num_found[] = {0, 0};
+  for (int trial = 0; trial < 100; ++trial) {
+    const Rigid3 truth = RandomPose(engine, 1, 5);
+    const auto observations = MakeObservations(truth, 30, 0, engine);
+    Vector6d step;
+    step << 0.7 * RandomNormal3(engine), 4 * RandomNormal3(engine);
+    for (const StepKind kind : {StepKind::kGaussNewton, StepKind::kLevenbergMarquardt}) {
+      PoseRefinementOptions options;
+      options.step = kind;
+      options.loss = LossKind::kSquared;
+      const PoseRefinement result =
+          RefinePose(kSceneCamera, observations, BoxPlus(truth, step), options);
+      num_found[kind == StepKind::kLevenbergMarquardt] +=
+          result.num_inliers == 30 && StepBetween(truth, result.camera_from_world).norm() < 1e-6;
+    }
+  }
+  EXPECT_GT(num_found[1], num_found[0]);
+}
+
 TEST(PoseRefinement, SaysTooFewPointsWhereAllLieBehindTheCamera) {
   RandomEngine engine(9);
   const auto observations = MakeObservations({}, 30, 0, engine);

@@ -14,6 +14,8 @@ inline uint32_t RandomBelow(uint32_t bound, RandomEngine& engine) {
 }
 
 /// A number in [0, 1), the same on every platform.
-inline double RandomUnit(RandomEngine& engine) { return engine() * (1.0 / 4294967296.0); }
+inline double RandomUnit(RandomEngine& engine) {
+  return static_cast<double>(engine()) / 4294967296.0;
+}
 
 }  // namespace arfm_vo
