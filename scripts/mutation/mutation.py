@@ -36,7 +36,7 @@ SUITES = {
                    [str(PROGRAMS / "test_simulation"), "--gtest_filter=FaultTable*:WrongPose*:Fence*:SimulatedChassis*"]),
     "ros": (["test_ros"], [str(PROGRAMS / "test_ros"), "--gtest_filter=-*HeadSweep*:BagSequence*"]),
 }
-for suite in ("pose", "odometry"):
+for suite in ("pose", "odometry", "simulated_run"):
     SUITES[suite] = (["test_" + suite], [str(PROGRAMS / ("test_" + suite))])
 for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
                        ("clock_stall", ["chassis_node", "test_chassis_node"]),
@@ -52,7 +52,7 @@ COMPILE_LIMIT_S, TIMED_OUT = 300, 124
 FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
 # The suites that are to notice the changes by rule to a folder's sources.
-FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry",), "src/ros": ("ros",)}
+FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry", "simulated_run"), "src/ros": ("ros",)}
 
 
 def find_failure(suite, number):

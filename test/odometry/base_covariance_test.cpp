@@ -65,6 +65,18 @@ TEST(DriftCovariance, AnUnsureHeadingMakesThePlaceUnsureWithTheWay) {
   EXPECT_NEAR(covariance(5, 5), 1e-4, 1e-12);
 }
 
+TEST(DriftCovariance, TheWayCountsFromWhereTheEpochBegan) {
+  DriftCovariance drift;
+  Matrix6 base = Matrix6::Zero();
+  base(5, 5) = 1e-4;
+  const auto ahead = [](double way_m) {
+    return Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(way_m, 0, 0));
+  };
+  drift.StartEpoch(ahead(10), base, Matrix6::Zero());
+  EXPECT_NEAR(drift.At(ahead(10), Matrix6::Zero())(1, 1), 0, 1e-12);
+  EXPECT_NEAR(drift.At(ahead(15), Matrix6::Zero())(1, 1), 25e-4, 1e-12);
+}
+
 TEST(DriftCovariance, KeepsWhatWasUnsureWhenTheWorldBegan) {
   DriftCovariance drift;
   const Matrix6 base = Matrix6::Identity() * 1e-6;

@@ -103,6 +103,15 @@ TEST(DriftEstimator, WhatIsForgottenLeavesTheRestAsItWas) {
   EXPECT_EQ(drift.Covariance(4), kOne);
 }
 
+TEST(DriftEstimator, APoseBesideAKeyframeHasTheKeyframesDriftAndItsOwn) {
+  DriftEstimator drift;
+  drift.Add(0, Noise(2 * kOne));
+  const Rigid3 ahead(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -3));
+  const Matrix6 covariance = drift.Beside(0, ahead, Noise(kOne)).covariance;
+  EXPECT_NEAR(covariance(5, 5), 3, 1e-12);
+  EXPECT_NEAR(covariance(3, 3), 3 + 9 * 2, 1e-12);  // 3 m ahead of an unsure direction
+}
+
 TEST(DriftEstimator, ChangesNothingWhereTheInformationDoesNotFixThePoses) {
   DriftEstimator drift;
   drift.Add(0, Noise(Matrix6::Zero()));

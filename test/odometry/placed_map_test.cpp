@@ -131,6 +131,18 @@ TEST(PlacedMap, ARestartedOdometryIsAMapOfItsOwn) {
   }
 }
 
+TEST(PlacedMap, ARestartedOdometryKeepsWhatIsKnownOfTheCamera) {
+  PlacedMap map{GlobalMapOptions()};
+  CorrectionBelief learnt = CorrectionBelief::Isotropic(0.05);
+  learnt.mean.coefficients_px[0] = 0.4;
+  map.SetCorrection(kCamera, learnt);
+  AddEpoch(map, 2, 10, 0.5, 0.5);
+  EXPECT_FALSE(map.Add(MakeKeyframe(0, 1, 1, 0, 0)));
+  ASSERT_TRUE(map.correction());
+  EXPECT_EQ(map.correction()->mean.coefficients_px, learnt.mean.coefficients_px);
+  EXPECT_EQ(map.correction()->covariance, learnt.covariance);
+}
+
 TEST(PlacedMap, CanBeCancelled) {
   PlacedMap map{GlobalMapOptions()};
   EXPECT_FALSE(map.Adjust({}));
