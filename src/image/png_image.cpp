@@ -73,7 +73,7 @@ class PngReader {
     }
     MakeGrey();
     png_read_update_info(png_, info_);
-    return true;
+    return png_get_channels(png_, info_) == 1;
   }
 
   void MakeGrey() {
@@ -81,7 +81,7 @@ class PngReader {
     const int color = png_get_color_type(png_, info_);
     if (color == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
     if (color == PNG_COLOR_TYPE_GRAY && depth < 8) png_set_expand_gray_1_2_4_to_8(png_);
-    if ((color & PNG_COLOR_MASK_ALPHA) != 0) png_set_strip_alpha(png_);
+    png_set_strip_alpha(png_);  // also that of a palette
     if ((color & PNG_COLOR_MASK_COLOR) != 0) {
       png_set_rgb_to_gray(png_, PNG_ERROR_ACTION_NONE, kRed, kGreen);
     }
