@@ -90,6 +90,30 @@ TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
   }
 }
 
+/// New points among what moved on its own are suspect: here those in the left half.
+TEST_F(FrameTrackerTest, TellsHowManyOfThePointsThatAgreeAreSuspect) {
+  LandmarkObservations moved;
+  for (int y = 0; y < camera_.height; y += 10) {
+    for (int x = 0; x < camera_.width / 2; x += 10) {
+      LandmarkObservation observation{};
+      observation.pixels << x, y, x, y;
+      moved.push_back(observation);
+    }
+  }
+  EXPECT_EQ(Track(Rigid3(), Rigid3()).shares.suspect, 0);
+  const StereoImages images = wall_.Render(0, Rigid3());
+  map_.Clear();
+  map_.AddKeyframe(frontend_.Process(images), images.left, Rigid3(), {}, moved);
+  const TrackedFrame tracked = Track(Rigid3(), Rigid3());
+  double num_suspect = 0;
+  for (const LandmarkObservation& observation : tracked.observations) {
+    num_suspect += map_.landmarks().at(observation.landmark).is_suspect;
+  }
+  EXPECT_GT(num_suspect, 0.2 * tracked.pose.num_inliers);
+  EXPECT_LT(num_suspect, 0.8 * tracked.pose.num_inliers);
+  EXPECT_NEAR(tracked.shares.suspect, num_suspect / tracked.pose.num_inliers, 0.05);
+}
+
 TEST_F(FrameTrackerTest, KeypointsAloneDoToo) {
   FrameTrackerOptions options;
   options.align_patches = false;
