@@ -19,7 +19,7 @@ ros=(libroscpp-dev ros-message-generation ros-message-runtime
      libnodelet-dev libnodeletlib-dev pluginlib-dev
      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
      libdiagnostic-updater-dev librosbag-dev librosbag-storage-dev)
-libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev zlib1g-dev libboost-program-options-dev)
+libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev libpng-dev libboost-program-options-dev)
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice python3-rostopic rosbash libnodeletlib-tools tf2-tools
          python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/image/png_image.h"
 
 namespace arfm_vo {
 namespace {
@@ -17,12 +18,20 @@ std::string ToText(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
+cv::Mat ReadMask(const std::string& path) {
+  try {
+    GreyWindow window;
+    return ReadGreyPng(path, window);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("left_mask: ") + error.what());
+  }
+}
+
 }  // namespace
 
 KeypointMask::KeypointMask(const std::string& path, const cv::Size& size) {
   if (path.empty()) return;
-  const cv::Mat mask = cv::imread(path, cv::IMREAD_GRAYSCALE);
-  Require(!mask.empty(), "left_mask: " + path + ": no picture that can be read");
+  const cv::Mat mask = ReadMask(path);
   Require(mask.size() == size, "left_mask: " + path + ": its size is " + ToText(mask.size()) +
                                    ", the camera's is " + ToText(size));
   const int num_shown = cv::countNonZero(mask);

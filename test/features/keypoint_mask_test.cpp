@@ -72,7 +72,7 @@ TEST_F(KeypointMaskTest, NoFileHidesNothing) {
 
 TEST_F(KeypointMaskTest, AWrongFileIsRefusedWithItsName) {
   EXPECT_EQ(Refusal(folder_ / "none.png"),
-            "left_mask: " + (folder_ / "none.png").string() + ": no picture that can be read");
+            "left_mask: " + (folder_ / "none.png").string() + ": cannot be read");
   EXPECT_NE(Refusal(Write(0)).find("black nowhere"), std::string::npos);
   EXPECT_NE(Refusal(Write(100)).find("black everywhere"), std::string::npos);
   cv::imwrite(folder_ / "small.png", cv::Mat::ones(10, 20, CV_8UC1));

@@ -7,7 +7,7 @@
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/datasets/kitti_calibration.h"
 #include "arfm_vo/datasets/kitti_times.h"
-#include "arfm_vo/datasets/png_image.h"
+#include "arfm_vo/image/png_image.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/odometry/trajectory_files.h"
 #include "arfm_vo/odometry/visual_odometry.h"

@@ -1,4 +1,4 @@
-#include "arfm_vo/datasets/png_image.h"
+#include "arfm_vo/image/png_image.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +77,31 @@ TEST_F(PngImageTest, SixteenBitsASampleGoThroughTheWindow) {
     ASSERT_EQ(image.type(), CV_8UC1);
     EXPECT_EQ(image.at<uint8_t>(2, 2), 200);  // 3200 of 4096
   }
+}
+
+TEST_F(PngImageTest, EveryKindIsTheGreyThatOpenCvMakesOfIt) {
+  cv::Mat colors(40, 50, CV_8UC3);
+  cv::randu(colors, cv::Scalar::all(0), cv::Scalar::all(256));
+  cv::Mat with_alpha, deep;
+  cv::merge(std::vector<cv::Mat>{colors, colors.reshape(1).colRange(0, 50)}, with_alpha);
+  colors.convertTo(deep, CV_16U, 16);
+  const std::vector<int> black_and_white = {cv::IMWRITE_PNG_BILEVEL, 1};
+  for (const auto& [image, options] : std::vector<std::pair<cv::Mat, std::vector<int>>>{
+           {colors, {}}, {with_alpha, {}}, {deep, {}}, {colors.reshape(1), black_and_white}}) {
+    cv::imwrite(path_, image, options);
+    cv::Mat expected = cv::imread(path_, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    if (image.depth() == CV_16U) expected = GreyWindow().Apply(expected);
+    EXPECT_LE(cv::norm(ReadGreyPng(path_, window_), expected, cv::NORM_INF), 1);
+  }
+}
+
+/// A header alone must not make anybody reserve what its sizes say.
+TEST_F(PngImageTest, MorePixelsThanTheDataCanHoldAreAnError) {
+  const uint8_t header[] = {0,  0, 0, 13, 'I', 'H', 'D', 'R', 0,    15,   0,    0,   0,
+                            15, 0, 0, 16, 0,   0,   0,   0,   0xe5, 0xc4, 0x72, 0x50};
+  std::string bytes = bytes_;
+  bytes.replace(8, sizeof(header), reinterpret_cast<const char*>(header), sizeof(header));
+  EXPECT_EQ(ErrorOf(bytes), ": PNG file is corrupted");
 }
 
 }  // namespace
