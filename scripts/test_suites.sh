@@ -14,6 +14,7 @@ cd "$(dirname "$0")/.."
 suites=${ARFM_VO_SUITES:-${XDG_CACHE_HOME:-$HOME/.cache}/arfm_vo/suites}
 mkdir -p "$suites"
 suites=$(cd "$suites" && pwd)
+shared=${ARFM_VO_SHARED:-../shared}  # the tests' real recordings, where they are
 fail() { echo "test_suites: $*" >&2; exit 1; }
 [ "$(id -u)" -eq 0 ] || fail "a chroot can be made by root only"
 is_core=
@@ -99,6 +100,7 @@ test_chroot() {
   make_chroot "$release"
   cp /etc/resolv.conf "$root/etc/"
   put_sources "$root/$folder"
+  [ ! -d "$shared" ] || cp -RLup "$shared/." "$root/root/shared"
   if [ "$1" = focal ]; then
     install_on_focal
   else

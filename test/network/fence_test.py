@@ -6,6 +6,7 @@ publishes goal, cmd_vel and emergency_stop and calls start; with them nothing of
 Needs root, ip and nft; where they are not there or not permitted the test says so and is skipped (exit status 77).
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import time
 SKIPPED = 77
 RULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "config", "rover.nft")
 ROVER, STRANGER, PORT = "10.213.7.1", "10.213.7.2", 11311
+RULES_FAULT = re.compile("Error: (Could not resolve|syntax error)")  # the file's own; all else is the kernel's answer
 TOPICS = ("goal", "cmd_vel", "emergency_stop")
 
 # A node on the rover: prints what comes.
@@ -66,9 +68,11 @@ class Namespace:
     def command(self, *words):
         return ["nsenter", "-t", str(self.keeper.pid), "-n", *words]
 
-    def run(self, *words):
+    def run(self, *words, fault=None):
+        """Where it fails the test is skipped; not where it says `fault`."""
         done = subprocess.run(self.command(*words), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
+            check(fault is None or not fault.search(done.stdout), f"{' '.join(words)}: {done.stdout.strip()}")
             skip(f"{' '.join(words)}: {done.stdout.strip()}")
 
     def python(self, program, address, master):
@@ -142,8 +146,8 @@ def run(rover, stranger):
     everything = set(TOPICS) | {"start"}
     heard = hear(speak(stranger, STRANGER), listener, everything)
     check(heard == everything, "without the rules a stranger commands the rover")
-    rover.run("nft", "-f", RULES)
-    rover.run("nft", "-f", RULES)  # once more is no error
+    for _ in range(2):  # once more is no error
+        rover.run("nft", "-f", RULES, fault=RULES_FAULT)
     check(not connects(stranger, PORT), "with the rules he does not reach the master")
     check(hear(speak(stranger, STRANGER), listener, set()) == set(), "nothing that he says arrives")
     check(connects(stranger, 22), "ssh is reached")
