@@ -3,8 +3,9 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <optional>
+#include <limits>
 #include <string>
 
 namespace arfm_vo {
@@ -37,16 +38,16 @@ class ConsoleWatch {
 
   /// Whether to tell `problem` now; empty: there is none. `now_s` is any steady time.
   bool IsDue(const std::string& problem, double now_s) {
-    if (problem.empty()) since_s_.reset();
-    if (problem.empty()) return false;
-    if (!since_s_) since_s_ = now_s;
-    if (now_s - *since_s_ < kPatience_s || (told_s_ && now_s - *told_s_ < kRepeat_s)) return false;
+    since_s_ = problem.empty() ? kInfinity : std::min(since_s_, now_s);
+    if (now_s - since_s_ < kPatience_s || now_s - told_s_ < kRepeat_s) return false;
     told_s_ = now_s;
     return true;
   }
 
  private:
-  std::optional<double> since_s_, told_s_;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double since_s_ = kInfinity;  ///< infinity: no problem
+  double told_s_ = -kInfinity;
 };
 
 }  // namespace arfm_vo
