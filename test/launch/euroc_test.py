@@ -66,7 +66,6 @@ class EurocTest(LaunchCase):
         code, said = self.add_infos(*self.write_fixture())
         self.assertEqual(code, 0, said)
         self.assertIn("36 left, 36 right images", said)
-        self.needs_rectifier()
         code, console = self.launch(
             "replay.launch", "rviz:=false", "end_delay_s:=3", "bag:=stereo.bag", "rectify:=true",
             "left_image:=/cam0/image_raw", "right_image:=/cam1/image_raw", "left_info:=/cam0/camera_info",

@@ -4,7 +4,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import xml.etree.ElementTree as xml
 
 import rosbag
 
@@ -34,18 +33,6 @@ class LaunchCase(unittest.TestCase):
 
     def launch(self, *arguments, limit_s=100, package=("arfm_vo",)):
         return self.run_command("roslaunch", *package, *arguments, limit_s=limit_s)
-
-    def needs_rectifier(self):
-        """Skips where the nodelets of the system's stereo_image_proc cannot be loaded: Debian 11 describes their libraries as
-        in /usr/lib, and has them in the folder of its architecture."""
-        for package in "image_proc", "stereo_image_proc":
-            code, said = self.run_command("rospack", "find", package)
-            self.assertEqual(code, 0, said)
-            share = said.strip()
-            library = xml.parse(os.path.join(share, "nodelet_plugins.xml")).getroot().get("path") + ".so"
-            prefix = os.path.dirname(os.path.dirname(share))
-            if os.path.dirname(library) and not os.path.exists(os.path.join(prefix, library)):
-                self.skipTest(f"{share}/nodelet_plugins.xml names {library}, which is not in {prefix}: no rectify:=true here")
 
     def refuse(self, *arguments):
         """What roslaunch says where it refuses to replay."""

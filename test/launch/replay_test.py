@@ -140,7 +140,6 @@ class ReplayTest(LaunchCase):
         self.write_bag("raw.bag",
                        lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
         self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
-        self.needs_rectifier()
         self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
 
     def test_a_bag_at_twice_its_speed_keeps_its_pose(self):
