@@ -52,6 +52,14 @@ if [ ${#missing[@]} -gt 0 ]; then
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 fi
+# Debian 11 describes the nodelets of stereo_image_proc (rectify:=true) as in /usr/lib, where they are not; pluginlib looks
+# here too.
+for name in image_proc stereo_image_proc; do
+  folder=/usr/lib/$(gcc -dumpmachine)
+  if grep -qs '"lib/lib' /usr/share/$name/nodelet_plugins.xml && [ ! -e "$folder/ros/lib$name.so" ]; then
+    as_root ln -sv "../lib$name.so" "$folder/ros/"
+  fi
+done
 # roslaunch and rostest need localhost and the machine's own name to resolve; a bare chroot has no such lines.
 grep -qw localhost /etc/hosts 2>/dev/null || echo '127.0.0.1 localhost' | as_root tee -a /etc/hosts >/dev/null
 getent hosts "$(hostname)" >/dev/null || echo "127.0.1.1 $(hostname)" | as_root tee -a /etc/hosts >/dev/null ||
