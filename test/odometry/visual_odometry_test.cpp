@@ -67,6 +67,7 @@ TEST_F(VisualOdometryTest, FindsItsWayAfterItWasCarriedBackInTheDark) {
 TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
   const StereoImages still = wall_.Render(0, Rigid3());
   cv::RNG random(3);
+  Rigid3 last;
   for (int i = 0; i < 30; ++i) {
     StereoImages noisy{0.1 * i, still.left.clone(), still.right.clone()};
     for (cv::Mat* image : {&noisy.left, &noisy.right}) AddNoise(*image, 2, random);
@@ -74,6 +75,10 @@ TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
     ASSERT_TRUE(pose.IsTracked());
     EXPECT_LT(pose.camera_from_world.translation.norm(), 1e-3) << i;
     EXPECT_LT(pose.camera_from_world.Angle(), 0.01 * M_PI / 180) << i;
+    if (i > 10) {
+      EXPECT_EQ(pose.camera_from_world.Matrix(), last.Matrix()) << i << ": noise moves it";
+    }
+    last = pose.camera_from_world;
   }
 }
 

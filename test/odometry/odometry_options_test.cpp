@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "arfm_vo/odometry/local_odometry.h"
+#include "arfm_vo/odometry/visual_odometry.h"
 
 namespace arfm_vo {
 namespace {
@@ -39,6 +39,16 @@ TEST(LocalOdometryOptions, EachPartIsCheckedAndNamesItsKey) {
               HasSubstr("min_points_to_start"));
   EXPECT_THAT(Refusal([](auto& o) { o.restart_after_lost_s = -1; }),
               HasSubstr("restart_after_lost_s"));
+}
+
+TEST(OdometryOptions, EachPartIsChecked) {
+  OdometryOptions frontend, odometry, global;
+  frontend.frontend.surf.threads = 0;
+  odometry.odometry.min_points_to_start = 0;
+  global.global.min_observations = 1;
+  for (const OdometryOptions& options : {frontend, odometry, global}) {
+    EXPECT_THROW(options.Check(), std::invalid_argument);
+  }
 }
 
 }  // namespace
