@@ -29,8 +29,9 @@ bool SampleBordered(const GreyView& grey, const cv::Point2f& centre,
 PatchWindow::PatchWindow() {
   double sum = 0;
   for (int i = 0; i < Patch::kNumSamples; ++i) {
-    const double x = static_cast<float>(i % kSize) - Patch::kHalfSpan;
-    const double y = static_cast<float>(i / kSize) - Patch::kHalfSpan;
+    const int row = i / kSize, column = i % kSize;
+    const double x = static_cast<float>(column) - Patch::kHalfSpan;
+    const double y = static_cast<float>(row) - Patch::kHalfSpan;
     weights[i] =
         static_cast<float>(std::exp(-0.5 * (x * x + y * y) / (kWindowSigmaPx * kWindowSigmaPx)));
     sum += weights[i];
