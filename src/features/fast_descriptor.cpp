@@ -47,8 +47,9 @@ struct DescriptorSamples {
         stride((window.Side() + 7) / 8 * 8),
         num(window.Side() * stride) {
     for (int i = 0; i < num; ++i) {
-      u[i] = static_cast<float>(i % stride) - window.HalfSide();
-      v[i] = static_cast<float>(i / stride) - window.HalfSide();
+      const int row = i / stride, column = i % stride;
+      u[i] = static_cast<float>(column) - window.HalfSide();
+      v[i] = static_cast<float>(row) - window.HalfSide();
     }
   }
 };

@@ -18,8 +18,8 @@ int OrientationHistogram::FindBin(int32_t dx, int32_t dy) {
       t *
       (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
   float bin = arc * kBinsPerRadian;
-  if (y > x) bin = kBins / 4 - bin;
-  if (dx < 0) bin = kBins / 2 - bin;
+  if (y > x) bin = 0.25f * kBins - bin;
+  if (dx < 0) bin = 0.5f * kBins - bin;
   if (dy < 0) bin = kBins - bin;
   return std::min(static_cast<int>(bin), kBins - 1);
 }

@@ -50,8 +50,9 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
   along_u.setZero();
   along_v.setZero();
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Eigen::Vector2d pixel((i % kGrid + 0.5) * camera.width / kGrid,
-                                (i / kGrid + 0.5) * camera.height / kGrid);
+    const int row = i / kGrid, column = i % kGrid;
+    const Eigen::Vector2d pixel((column + 0.5) * camera.width / kGrid,
+                                (row + 0.5) * camera.height / kGrid);
     const ImageBasis basis(camera, pixel);
     ErrorRow du, dv;
     DisplaceByErrors(camera, pixel, du, dv);
