@@ -42,12 +42,12 @@ TEST(InterpolateLostPoses, StaysOnACurve) {
 
 /// 1 m/s before and 3 m/s after: half way the mean of where both motions lead to, 1 and 2 m.
 TEST(InterpolateLostPoses, GoesOverFromTheMotionBeforeToThatAfter) {
-  Trajectory trajectory = {Tracked(-1, -1, 0), Tracked(0, 0, 0), Lost(0.5), Lost(1),
-                           Tracked(2, 5, 0),   Tracked(3, 8, 0)};
+  Trajectory trajectory = {Tracked(-1, -1, 0), Tracked(0, 0, 0), Lost(1),
+                           Lost(1.5),          Tracked(2, 5, 0), Tracked(3, 8, 0)};
   InterpolateLostPoses(trajectory);
-  EXPECT_NEAR(trajectory[3].world_from_camera.translation.x(), 1.5, 1e-12);
-  const double early = 3 * 0.0625 - 2 * 0.015625;  // smooth step at a quarter
-  EXPECT_NEAR(trajectory[2].world_from_camera.translation.x(), 0.5 * (1 - early) + 0.5 * early,
+  EXPECT_NEAR(trajectory[2].world_from_camera.translation.x(), 1.5, 1e-12);
+  const double late = 0.75 * 0.75 * (3 - 2 * 0.75);  // at three quarters, of 1.5 and 3.5 m
+  EXPECT_NEAR(trajectory[3].world_from_camera.translation.x(), 1.5 * (1 - late) + 3.5 * late,
               1e-12);
 }
 
