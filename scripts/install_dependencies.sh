@@ -54,10 +54,10 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 # Debian 11 describes the nodelets of stereo_image_proc (rectify:=true) as in /usr/lib, where they are not; pluginlib looks
 # here too.
+plugins=/usr/lib/$(gcc -dumpmachine)/ros
 for name in image_proc stereo_image_proc; do
-  folder=/usr/lib/$(gcc -dumpmachine)
-  if grep -qs '"lib/lib' /usr/share/$name/nodelet_plugins.xml && [ ! -e "$folder/ros/lib$name.so" ]; then
-    as_root ln -sv "../lib$name.so" "$folder/ros/"
+  if grep -qs '"lib/lib' /usr/share/$name/nodelet_plugins.xml && [ ! -e "$plugins/lib$name.so" ]; then
+    as_root ln -sv "../lib$name.so" "$plugins/"
   fi
 done
 # roslaunch and rostest need localhost and the machine's own name to resolve; a bare chroot has no such lines.

@@ -60,9 +60,9 @@ void BundleStructure::FindTracks() {
 void BundleStructure::FindBlocks(const BundleProblem& problem) {
   // For each free pose in turn, those it shares a point with.
   std::vector<std::vector<int>> tracks_of(num_free_poses()), tied_to(num_free_poses());
-  for (size_t i = 0; i < tracks.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(tracks.size()); ++i) {
     for (int k = tracks[i].first; k < tracks[i].last; ++k) {
-      if (sightings[k].free_pose != kFixed) tracks_of[sightings[k].free_pose].push_back(static_cast<int>(i));
+      if (sightings[k].free_pose != kFixed) tracks_of[sightings[k].free_pose].push_back(i);
     }
   }
   for (const PoseConstraint& constraint : problem.constraints) {

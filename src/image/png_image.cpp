@@ -11,7 +11,7 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/whole_file.h"
 
-// By libpng itself: OpenCV's imgcodecs brings GDAL and a hundred libraries, 30 MB of each process.
+// By libpng itself: OpenCV's imgcodecs brings GDAL and a hundred libraries, 45 MB of each process.
 
 namespace arfm_vo {
 namespace {

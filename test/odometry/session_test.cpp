@@ -98,7 +98,7 @@ TEST_F(SessionTest, GoesOnInTheDarkAndFindsItselfInTheSameMap) {
     EXPECT_FALSE(dark.update.pose.IsMeasured());
     EXPECT_FALSE(dark.update.is_keyframe);
     const double error_m = dark.odom_from_base.translation.x() - 0.05 * (i + 2);
-    EXPECT_LT(std::abs(error_m), 0.01);                           // as fast as before
+    EXPECT_LT(std::abs(error_m), 0.01);  // as fast as before
     EXPECT_NEAR(dark.twist[0], 0.05 / kInterval_s, 0.05);
     EXPECT_GT(std::sqrt(dark.covariance(0, 0)), sigma_m + 0.01);  // and less sure
     sigma_m = std::sqrt(dark.covariance(0, 0));
