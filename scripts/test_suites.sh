@@ -127,7 +127,7 @@ make_sysroot() {
   [ -d "$root" ] && return
   need mmdebstrap mmdebstrap
   mapfile -t packages < <(scripts/install_dependencies.sh --list ros libraries tests)
-  packages+=(libc6-dev "libstdc++-$(aarch64-linux-gnu-g++ -dumpversion)-dev")
+  packages+=(catkin libc6-dev "libstdc++-$(aarch64-linux-gnu-g++ -dumpversion)-dev")
   rm -rf "$root.new"
   mmdebstrap --variant=extract --arch=arm64 --include="$(IFS=,; echo "${packages[*]}")" \
     "$(. /etc/os-release; echo "$VERSION_CODENAME")" "$root.new" "$(debian_mirror)" > "$root.log" 2>&1 ||
