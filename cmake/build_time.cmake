@@ -34,7 +34,8 @@ endif()
 # arfm_compile_quickly(TARGET): for code whose speed does not count, in two thirds of the time.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13
     AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set(alike ";-munroll-only-small-loops")  # which -O3 implies there: a precompiled header is used by the same options only
+  # Which -O3 implies there (the second from GCC 14 on): a precompiled header is used by the same options only.
+  set(alike ";-munroll-only-small-loops;-mvzeroupper")
 endif()
 function(arfm_compile_quickly target)
   target_compile_options(${target} PRIVATE "$<$<CONFIG:Release>:-O1${alike}>")

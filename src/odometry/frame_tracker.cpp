@@ -1,62 +1,13 @@
 #include "arfm_vo/odometry/frame_tracker.h"
 
 #include <algorithm>
-#include <cstring>
-#include <map>
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/base/pixel_scale.h"
-#include "arfm_vo/matching/exact_matcher.h"
-#include "arfm_vo/matching/guided_matcher.h"
 
 namespace arfm_vo {
 
-/// Landmarks and where the frame seems to see them.
-struct FrameTracker::Correspondences {
-  std::vector<const Landmark*> landmarks;     ///< [N]
-  std::vector<LandmarkObservation> observed;  ///< [N]
-  std::vector<PointObservation> points;       ///< [N] the same for the pose
-
-  /// Those that have this flag, sorted by landmark.
-  LandmarkObservations Select(const std::vector<char>& flags, char flag) const {
-    LandmarkObservations selected;
-    for (size_t i = 0; i < observed.size(); ++i) {
-      if (flags[i] == flag) selected.push_back(observed[i]);
-    }
-    std::sort(selected.begin(), selected.end(),
-              [](const auto& a, const auto& b) { return a.landmark < b.landmark; });
-    return selected;
-  }
-
-  AgreeingShares Shares(const std::vector<char>& is_inlier) const {
-    constexpr double kFew = 20;
-    double num[2] = {0, 0}, num_inliers[2] = {0, 0};  // new, and of earlier poses
-    double num_suspect = 0;
-    for (size_t i = 0; i < landmarks.size(); ++i) {
-      const bool has_agreed = landmarks[i]->num_agreed > 0;
-      ++num[has_agreed];
-      num_inliers[has_agreed] += is_inlier[i];
-      num_suspect += is_inlier[i] && landmarks[i]->is_suspect;
-    }
-    AgreeingShares shares;
-    shares.suspect = num_suspect / std::max(1.0, num_inliers[0] + num_inliers[1]);
-    if (num[0] >= kFew) shares.fresh = num_inliers[0] / num[0];
-    if (num[1] >= kFew) shares.known = num_inliers[1] / num[1];
-    return shares;
-  }
-};
-
 namespace {
-
-cv::Mat StackDescriptors(const std::vector<const Landmark*>& landmarks) {
-  cv::Mat descriptors(static_cast<int>(landmarks.size()), 64, CV_32F);
-  for (size_t i = 0; i < landmarks.size(); ++i) {
-    std::memcpy(descriptors.ptr<float>(static_cast<int>(i)), landmarks[i]->descriptor.data(),
-                sizeof(landmarks[i]->descriptor));
-  }
-  return descriptors;
-}
 
 std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   std::vector<LandmarkId> ids;
@@ -64,39 +15,11 @@ std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   return ids;
 }
 
-/// What a landmark counts where poses compete: more where it agreed with poses before, little where
-/// it began among points that moved on their own.
-double Votes(const Landmark& landmark) {
-  constexpr double kNew = 0.25, kSuspect = 0.05;
-  constexpr int kMaxAgreed = 2;
-  const int num_agreed = std::min(landmark.num_agreed, kMaxAgreed);
-  return landmark.is_suspect ? kSuspect * (1 + num_agreed) : kNew + num_agreed;
-}
-
-constexpr int kCellsAcross = 12, kFewInCell = 3;
-
-/// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
-void ShareVotes(int cell_px, std::vector<PointObservation>& points) {
-  std::map<std::pair<int, int>, int> num_in_cell;
-  const auto cell = [&](const PointObservation& point) {
-    return std::pair(static_cast<int>(point.pixels.x()) / cell_px,
-                     static_cast<int>(point.pixels.y()) / cell_px);
-  };
-  for (const PointObservation& point : points) ++num_in_cell[cell(point)];
-  for (PointObservation& point : points) {
-    point.votes /= std::max(num_in_cell[cell(point)], kFewInCell);
-  }
-}
-
 }  // namespace
 
 void FrameTrackerOptions::Check() const {
-  Require(search_radius_px > 0, "tracker.search_radius_px must be positive");
-  Require(max_scale_ratio >= 1, "tracker.max_scale_ratio must be at least 1");
-  Require(guided_ratio > 0 && guided_ratio <= 1, "tracker.guided_ratio must be in (0, 1]");
-  Require(unguided_ratio > 0 && unguided_ratio <= 1, "tracker.unguided_ratio must be in (0, 1]");
   Require(min_guided_inliers >= 4, "tracker.min_guided_inliers must be at least 4");
-  Require(keypoint_sigma > 0, "tracker.keypoint_sigma must be positive");
+  matching.Check();
   pose.Check();
   alignment.Check();
   refinement.Check();
@@ -105,29 +28,15 @@ void FrameTrackerOptions::Check() const {
 FrameTracker::FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options)
     : camera_(camera),
       options_(options),
-      aligner_(camera, options.alignment),
-      image_matcher_(FeatureMatcherOptions()) {
+      matcher_(camera, options.matching),
+      aligner_(camera, options.alignment) {
   options.Check();
 }
 
 void FrameTracker::SetCorrection(const StereoCorrection& correction) {
   correction_ = correction;
+  matcher_.SetCorrection(correction);
   aligner_.SetCorrection(correction);
-}
-
-void FrameTracker::Add(const Landmark& landmark, const LandmarkObservation& observation,
-                       Correspondences& correspondences) const {
-  correspondences.landmarks.push_back(&landmark);
-  correspondences.observed.push_back(observation);
-  PointObservation point;
-  point.x_in_world = landmark.x_in_world;
-  point.x_covariance = landmark.covariance;
-  point.pixels = NominalPixels(camera_, correction_, observation.pixels);
-  point.has_right = observation.has_right;
-  point.sigma_px = observation.sigma_px;
-  point.votes = Votes(landmark);
-  point.is_proven = landmark.num_agreed > 0;
-  correspondences.points.push_back(point);
 }
 
 TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& images,
@@ -136,12 +45,13 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
   if (!options_.guided) {
-    tracked = Localise(MatchAsImages(frame, map), predicted, is_wary);
+    tracked = Localise(matcher_.MatchAsImages(frame, map), predicted, is_wary);
   } else if (predicted) {
-    tracked = Localise(MatchNear(frame, map, predicted->camera_from_world), predicted, is_wary);
+    tracked =
+        Localise(matcher_.MatchNear(frame, map, predicted->camera_from_world), predicted, is_wary);
   }
   if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
-    const TrackedFrame found = Localise(MatchAll(frame, map), predicted, is_wary);
+    const TrackedFrame found = Localise(matcher_.MatchAll(frame, map), predicted, is_wary);
     const bool is_better =
         found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
     if (is_better || !tracked.pose.HasPose()) tracked = found;
@@ -150,91 +60,12 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
   return Align(images, map, tracked, use_right);
 }
 
-FrameTracker::Correspondences FrameTracker::MatchNear(const StereoFrame& frame, const LocalMap& map,
-                                                      const Rigid3& predicted) const {
-  const auto landmarks = map.LandmarksInView(predicted, 0);
-  std::vector<Prediction> predictions;
-  for (const Landmark* landmark : landmarks) {
-    const Eigen::Vector3d x = predicted * landmark->x_in_world;
-    const Eigen::Vector2d nominal = camera_.Project(x);
-    const Eigen::Vector2d uv = nominal + correction_.AtLeft(camera_, nominal);
-    const Keyframe* reference = map.FindKeyframe(landmark->reference);
-    const double reference_depth =
-        reference ? (reference->camera_from_world * landmark->x_in_world).z() : x.z();
-    Prediction prediction;
-    prediction.x = static_cast<float>(uv.x());
-    prediction.y = static_cast<float>(uv.y());
-    prediction.radius = static_cast<float>(options_.search_radius_px * PixelScale(camera_.width));
-    prediction.scale = static_cast<float>(landmark->keypoint.scale * reference_depth / x.z());
-    prediction.laplacian_sign = landmark->keypoint.laplacian_sign;
-    predictions.push_back(prediction);
-  }
-  const TwoWayNeighbours neighbours = FindPredictedNeighbours(
-      predictions, StackDescriptors(landmarks), frame.features, options_.max_scale_ratio);
-  return Correspond(frame, landmarks,
-                    SelectMatches(neighbours, options_.guided_ratio, MatchSelectionOptions{}));
-}
-
-FrameTracker::Correspondences FrameTracker::MatchAll(const StereoFrame& frame,
-                                                     const LocalMap& map) const {
-  std::vector<const Landmark*> landmarks;
-  Features known;
-  for (const auto& [id, landmark] : map.landmarks()) {
-    landmarks.push_back(&landmark);
-    known.keypoints.push_back(landmark.keypoint);
-  }
-  known.descriptors = StackDescriptors(landmarks);
-  const TwoWayNeighbours neighbours = FindNeighboursExactly(known, frame.features);
-  return Correspond(frame, landmarks,
-                    SelectMatches(neighbours, options_.unguided_ratio, MatchSelectionOptions{}));
-}
-
-/// The landmarks as the newest keyframe would show them are one image, the frame is the other.
-FrameTracker::Correspondences FrameTracker::MatchAsImages(const StereoFrame& frame,
-                                                          const LocalMap& map) const {
-  const Rigid3& newest_from_world = map.keyframes().back().camera_from_world;
-  const auto landmarks = map.LandmarksInView(newest_from_world, 0);
-  Features known;
-  for (const Landmark* landmark : landmarks) {
-    const Eigen::Vector2f uv =
-        camera_.Project(newest_from_world * landmark->x_in_world).cast<float>();
-    known.keypoints.push_back(landmark->keypoint);
-    known.keypoints.back().x = uv.x();
-    known.keypoints.back().y = uv.y();
-  }
-  known.descriptors = StackDescriptors(landmarks);
-  return Correspond(frame, landmarks,
-                    image_matcher_.MatchFeatures(known, frame.features, frame.ratio_threshold));
-}
-
-FrameTracker::Correspondences FrameTracker::Correspond(
-    const StereoFrame& frame, const std::vector<const Landmark*>& landmarks,
-    const Matches& matches) const {
-  const std::vector<const StereoPoint*> stereo = frame.PointsByKeypoint();
-  Correspondences correspondences;
-  for (const Match& match : matches) {
-    const Keypoint& keypoint = frame.features.keypoints[match.second];
-    const StereoPoint* point = stereo[match.second];
-    LandmarkObservation observation;
-    observation.landmark = landmarks[match.first]->id;
-    observation.has_right = point != nullptr;
-    observation.pixels << keypoint.x, keypoint.y, 0, 0;
-    if (point != nullptr) {
-      observation.pixels.tail<2>() << point->observation.z(),
-          point->observation.y() + point->row_residual_px;
-    }
-    observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
-    Add(*landmarks[match.first], observation, correspondences);
-  }
-  return correspondences;
-}
-
 TrackedFrame FrameTracker::Localise(Correspondences correspondences,
                                     const std::optional<PredictedPose>& predicted,
                                     bool is_wary) const {
   TrackedFrame tracked;
   std::vector<char> is_inlier;
-  ShareVotes(camera_.width / kCellsAcross, correspondences.points);
+  correspondences.ShareVotes(camera_.width);
   tracked.pose = EstimatePose(camera_, correspondences.points, predicted,
                               is_wary ? options_.pose.Wary() : options_.pose, &is_inlier);
   if (!tracked.pose.HasPose()) return tracked;
@@ -281,7 +112,9 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
       Measure(images, map, landmarks, coarse_pose, use_right);
   Correspondences correspondences;
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    if (observations[i]) Add(*landmarks[i], *observations[i], correspondences);
+    if (observations[i]) {
+      correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
+    }
   }
   const PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);

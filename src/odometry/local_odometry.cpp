@@ -252,7 +252,7 @@ class LocalOdometry::Implementation {
     return TriangulateByMotion(camera_, correction_.mean,
                                {frame.features, update.pose.camera_from_world},
                                {newest_features_, map_.keyframes().back().camera_from_world},
-                               options_.tracker.keypoint_sigma);
+                               options_.tracker.matching.keypoint_sigma);
   }
 
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.

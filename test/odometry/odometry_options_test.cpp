@@ -22,7 +22,7 @@ std::string Refusal(Change&& change) {
 
 TEST(LocalOdometryOptions, EachPartIsCheckedAndNamesItsKey) {
   using testing::HasSubstr;
-  EXPECT_THAT(Refusal([](auto& o) { o.tracker.search_radius_px = 0; }),
+  EXPECT_THAT(Refusal([](auto& o) { o.tracker.matching.search_radius_px = 0; }),
               HasSubstr("tracker.search_radius_px"));
   EXPECT_THAT(Refusal([](auto& o) { o.keyframes.min_parallax_px = -1; }),
               HasSubstr("keyframes.min_parallax_px"));

@@ -49,8 +49,8 @@ StereoFrame MakeStereoFrame(const StereoCamera& camera, const SimulatedFrame& si
 
 LocalOdometryOptions WithoutImages(LocalOdometryOptions options, double sigma_px) {
   options.tracker.align_patches = false;
-  options.tracker.keypoint_sigma = sigma_px;
-  options.tracker.max_scale_ratio = 1e6;
+  options.tracker.matching.keypoint_sigma = sigma_px;
+  options.tracker.matching.max_scale_ratio = 1e6;
   return options;
 }
 

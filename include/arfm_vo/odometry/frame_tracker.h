@@ -7,8 +7,8 @@
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/landmark_aligner.h"
 #include "arfm_vo/mapping/local_map.h"
-#include "arfm_vo/matching/feature_matcher.h"
-#include "arfm_vo/matching/match.h"
+#include "arfm_vo/odometry/correspondences.h"
+#include "arfm_vo/odometry/landmark_matcher.h"
 #include "arfm_vo/pose/pose_estimator.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
@@ -18,12 +18,8 @@ struct FrameTrackerOptions {
   /// Whether landmarks are looked for near their predicted places; false: among all keypoints, as
   /// the features of two images are matched (FeatureMatcher, the frame's own ratio threshold).
   bool guided = true;
-  double search_radius_px = 40;  ///< around the predicted place, for descriptors
-  double max_scale_ratio = 1.6;  ///< of a keypoint's scale against the expected one
-  double guided_ratio = 0.9;     ///< nearest / second-nearest distance near the prediction
-  double unguided_ratio = 0.8;   ///< the same among all keypoints
-  int min_guided_inliers = 40;   ///< fewer call for a search among all keypoints
-  double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
+  int min_guided_inliers = 40;  ///< fewer call for a search among all keypoints
+  LandmarkMatcherOptions matching;
   PoseEstimatorOptions pose;
   bool align_patches = true;  ///< false: the keypoints' own positions
   LandmarkAlignerOptions alignment;
@@ -33,22 +29,14 @@ struct FrameTrackerOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("guided", guided);
-    visit("search_radius_px", search_radius_px);
-    visit("guided_ratio", guided_ratio);
-    visit("unguided_ratio", unguided_ratio);
-    visit("keypoint_sigma", keypoint_sigma);
+    visit("search_radius_px", matching.search_radius_px);
+    visit("guided_ratio", matching.guided_ratio);
+    visit("unguided_ratio", matching.unguided_ratio);
+    visit("keypoint_sigma", matching.keypoint_sigma);
     visit("pose", pose);
     visit("align_patches", align_patches);
     visit("refinement", refinement);
   }
-};
-
-/// How many of the landmarks that a frame seems to see agree with its pose, 0..1. Where something
-/// new moves on its own and takes the pose along, known ones agree far less.
-struct AgreeingShares {
-  std::optional<double> known;  ///< of those that agreed with earlier poses
-  std::optional<double> fresh;  ///< of the others; nothing where too few are seen to tell
-  double suspect = 0;           ///< share of those that agree which began among what moved
 };
 
 /// A frame found again in the map.
@@ -80,16 +68,6 @@ class FrameTracker {
   }
 
  private:
-  struct Correspondences;
-  void Add(const Landmark& landmark, const LandmarkObservation& observation,
-           Correspondences& correspondences) const;
-  Correspondences MatchNear(const StereoFrame& frame, const LocalMap& map,
-                            const Rigid3& predicted) const;
-  Correspondences MatchAll(const StereoFrame& frame, const LocalMap& map) const;
-  Correspondences MatchAsImages(const StereoFrame& frame, const LocalMap& map) const;
-  Correspondences Correspond(const StereoFrame& frame,
-                             const std::vector<const Landmark*>& landmarks,
-                             const Matches& matches) const;
   TrackedFrame Localise(Correspondences correspondences,
                         const std::optional<PredictedPose>& predicted, bool is_wary) const;
   /// [landmarks] where each is seen, by its patch; in parallel.
@@ -103,8 +81,8 @@ class FrameTracker {
   StereoCamera camera_;
   StereoCorrection correction_;
   FrameTrackerOptions options_;
+  LandmarkMatcher matcher_;
   LandmarkAligner aligner_;
-  FeatureMatcher image_matcher_;
 };
 
 }  // namespace arfm_vo
