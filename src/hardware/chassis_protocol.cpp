@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace arfm_vo {
 namespace {
@@ -33,7 +34,7 @@ class FieldWriter {
   explicit FieldWriter(uint32_t id) { frame_.id = id; }
   template <class Integer>
   FieldWriter& Put(Integer value) {
-    const auto bits = static_cast<uint32_t>(value);
+    const uint32_t bits = static_cast<std::make_unsigned_t<Integer>>(value);
     for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8)
       frame_.bytes[frame_.dlc++] = static_cast<uint8_t>(bits >> shift);
     return *this;
@@ -113,6 +114,7 @@ MotorDriverState ReadMotorDriverState(const CanFrame& frame) {
   state.side = static_cast<ChassisSide>(frame.id - kMotorDriverStateId);
   state.supply_v = fields.Get<uint16_t>() * 0.1;
   state.driver_celsius = fields.Get<int16_t>();
+  // NOLINTNEXTLINE(bugprone-signed-char-misuse): degrees, below zero too
   state.motor_celsius = fields.Get<int8_t>();
   state.status_bits = fields.Get<uint8_t>();
   return state;

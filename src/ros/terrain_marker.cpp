@@ -37,8 +37,8 @@ visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid
   };
   const int num_cells = static_cast<int>(2 * kHalfSide_m / kCell_m);
   for (int i = 0; i < num_cells * num_cells; ++i) {
-    const double x = -kHalfSide_m + kCell_m * (i % num_cells);
-    const double y = -kHalfSide_m + kCell_m * (i / num_cells);
+    const int column = i % num_cells, row = i / num_cells;
+    const double x = -kHalfSide_m + kCell_m * column, y = -kHalfSide_m + kCell_m * row;
     for (const auto& [right, up] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
       add(x + right * kCell_m, y + up * kCell_m);
   }

@@ -14,6 +14,7 @@ class CorrespondencesTest : public ::testing::Test {
     landmark.id = id;
     landmark.num_agreed = num_agreed;
     landmark.is_suspect = is_suspect;
+    landmark.normal_in_world.setZero();
     landmark.x_in_world.setZero();
     landmark.covariance.setZero();
     landmarks_.push_back(landmark);
