@@ -140,6 +140,7 @@ make_sysroot() {
     ln -snf "$(realpath -ms --relative-to="$(dirname "$link")" "$root.new$(readlink "$link")")" "$link"
   done
   sed -i "s,\([;\"]\)/$lib,\1$root/$lib,g" "$root.new/$lib/cmake/Ceres/CeresTargets.cmake"
+  rm -rf "$root.new/dev"  # qemu would take its ptmx for the machine's
   mv "$root.new" "$root"
 }
 

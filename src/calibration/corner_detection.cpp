@@ -5,6 +5,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "arfm_vo/base/median.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -14,6 +16,10 @@ constexpr int kSearchSide = 1000;
 /// Half the refinement window: this share of the distance to the next grid line, within bounds, px.
 constexpr double kWindowShare = 0.35;
 constexpr int kMinHalfWindow = 2, kMaxHalfWindow = 11;
+/// How far into its squares a corner is looked at, share of their side.
+constexpr float kIntoSquare = 0.3F;
+/// Least contrast of a corner's squares, share of the median one's.
+constexpr double kMinContrast = 0.15;
 
 /// A grid of corners with bounds-safe central differences along its two directions.
 struct Grid {
@@ -30,6 +36,32 @@ struct Grid {
     return (At(column, last) - At(column, first)) / (last - first);
   }
 };
+
+float GreyAt(const cv::Mat& grey, const cv::Point2f& at) {
+  return grey.at<uint8_t>(std::clamp(cvRound(at.y), 0, grey.rows - 1),
+                          std::clamp(cvRound(at.x), 0, grey.cols - 1));
+}
+
+/// Whether the four squares at each corner are dark and bright in turn, as everywhere on the board.
+/// (The detector guesses some that something hides.)
+bool AreAllSeen(const cv::Mat& grey, const Grid& grid) {
+  std::vector<double> contrasts;
+  for (int row = 0; row < grid.size.height; ++row) {
+    for (int column = 0; column < grid.size.width; ++column) {
+      const cv::Point2f& corner = grid.At(column, row);
+      const cv::Point2f right = kIntoSquare * grid.AlongRow(column, row);
+      const cv::Point2f down = kIntoSquare * grid.AlongColumn(column, row);
+      const double contrast =
+          GreyAt(grey, corner + right + down) + GreyAt(grey, corner - right - down) -
+          GreyAt(grey, corner + right - down) - GreyAt(grey, corner - right + down);
+      contrasts.push_back((row + column) % 2 == 0 ? contrast : -contrast);
+    }
+  }
+  const double usual = Median(contrasts);
+  return std::all_of(contrasts.begin(), contrasts.end(), [&](double contrast) {
+    return contrast * usual > kMinContrast * usual * usual;
+  });
+}
 
 BoardCorners Reverse(const BoardCorners& corners) { return {corners.rbegin(), corners.rend()}; }
 
@@ -112,6 +144,7 @@ std::optional<BoardCorners> DetectCorners(const cv::Mat& grey, cv::Size size) {
   }
   if (!is_found || static_cast<int>(corners.size()) != size.area()) return std::nullopt;
   RefineCorners(grey, size, corners);
+  if (!AreAllSeen(grey, {corners, size})) return std::nullopt;
   return IsClockwise(corners, size) ? corners : ReverseRows(corners, size);
 }
 

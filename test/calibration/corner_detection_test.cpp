@@ -56,6 +56,23 @@ TEST(CornerDetection, NothingInAnImageWithoutTheWholeBoard) {
   EXPECT_FALSE(DetectCorners(image, kBoard.Size()));
 }
 
+/// The detector guesses some corners that it does not see.
+TEST(CornerDetection, ABoardWithAHiddenCornerIsNotSeenWhole) {
+  const TrueRig rig = MakeRig(0.5);
+  RandomEngine engine(15);
+  const cv::Mat image =
+      BoardRenderer(rig.left, kBoard)
+          .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kBoard.Size());
+  ASSERT_TRUE(corners);
+  const double square_px = cv::norm((*corners)[1] - (*corners)[0]);
+  for (const int hidden : {0, 4, 9, 22, 31, 53}) {
+    cv::Mat covered = image.clone();
+    cv::circle(covered, (*corners)[hidden], cvRound(0.6 * square_px), cv::Scalar(128), cv::FILLED);
+    EXPECT_FALSE(DetectCorners(covered, kBoard.Size())) << "corner " << hidden;
+  }
+}
+
 TEST(CornerDetection, GuessesTheSizeOfTheBoard) {
   if (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 3) GTEST_SKIP() << "not by OpenCV " CV_VERSION;
   const TrueRig rig = MakeRig(0.5);
