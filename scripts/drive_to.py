@@ -39,20 +39,27 @@ class Errand:
 
     def __init__(self):
         self.done = threading.Event()
-        self.has_status, self.has_pose = threading.Event(), threading.Event()
+        self.has_status, self.has_pose, self.is_ready = threading.Event(), threading.Event(), threading.Event()
+        self.status = None
         self.is_sent = False
         self.goal = self.report = self.truth = None
         # Not latched: a goal is for now, not for whoever comes later.
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
         rospy.Subscriber("base_truth", Odometry, self.take_truth)
-        rospy.Subscriber("drive_status", DriveStatus, lambda _: self.has_status.set())
+        rospy.Subscriber("drive_status", DriveStatus, self.take_status)
         rospy.Subscriber("odom", Odometry, lambda _: self.has_pose.set())
 
     def take_report(self, report):
         if self.is_sent and report.result != GoalReport.REPLACED:
             self.report = report
             self.done.set()
+
+    def take_status(self, status):
+        self.status = status
+        self.has_status.set()
+        if status.state in (DriveStatus.READY, DriveStatus.WARNING, DriveStatus.DRIVING):
+            self.is_ready.set()
 
     def take_truth(self, truth):
         self.truth = truth.pose.pose.position
@@ -69,7 +76,15 @@ class Errand:
                 print("start: nobody takes goals within %g s" % timeout_s)
                 return False
             time.sleep(0.01)
-        return call("start")
+        self.is_ready.clear()
+        if not call("start"):
+            return False
+        # The chassis takes commands, and the pose is one to drive by.
+        if not self.is_ready.wait(max(1.0, end_s - time.monotonic())):
+            print("start: not ready within %g s: %s (%s)" % (timeout_s, self.status.state_text, self.status.reason))
+            call("stop")
+            return False
+        return True
 
     def send(self, x_m, y_m, heading_deg):
         self.goal = make_goal(x_m, y_m, heading_deg)

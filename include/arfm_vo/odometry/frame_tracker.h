@@ -29,10 +29,7 @@ struct FrameTrackerOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("guided", guided);
-    visit("search_radius_px", matching.search_radius_px);
-    visit("guided_ratio", matching.guided_ratio);
-    visit("unguided_ratio", matching.unguided_ratio);
-    visit("keypoint_sigma", matching.keypoint_sigma);
+    matching.VisitFields(visit);
     visit("pose", pose);
     visit("align_patches", align_patches);
     visit("refinement", refinement);

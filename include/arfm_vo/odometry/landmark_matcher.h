@@ -20,6 +20,13 @@ struct LandmarkMatcherOptions {
   double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
 
   void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("search_radius_px", search_radius_px);
+    visit("guided_ratio", guided_ratio);
+    visit("unguided_ratio", unguided_ratio);
+    visit("keypoint_sigma", keypoint_sigma);
+  }
 };
 
 /// Finds landmarks of the local map among a frame's keypoints by their descriptors.
