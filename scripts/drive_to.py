@@ -39,7 +39,7 @@ class Errand:
 
     def __init__(self):
         self.done = threading.Event()
-        self.has_status, self.has_pose, self.is_ready = threading.Event(), threading.Event(), threading.Event()
+        self.has_status, self.has_pose = threading.Event(), threading.Event()
         self.status = None
         self.is_sent = False
         self.goal = self.report = self.truth = None
@@ -58,8 +58,6 @@ class Errand:
     def take_status(self, status):
         self.status = status
         self.has_status.set()
-        if status.state in (DriveStatus.READY, DriveStatus.WARNING, DriveStatus.DRIVING):
-            self.is_ready.set()
 
     def take_truth(self, truth):
         self.truth = truth.pose.pose.position
@@ -76,15 +74,22 @@ class Errand:
                 print("start: nobody takes goals within %g s" % timeout_s)
                 return False
             time.sleep(0.01)
-        self.is_ready.clear()
-        if not call("start"):
-            return False
-        # The chassis takes commands, and the pose is one to drive by.
-        if not self.is_ready.wait(max(1.0, end_s - time.monotonic())):
-            print("start: not ready within %g s: %s (%s)" % (timeout_s, self.status.state_text, self.status.reason))
-            call("stop")
-            return False
-        return True
+        return call("start") and self.wait_until_ready(end_s)
+
+    def wait_until_ready(self, end_s):
+        """The chassis takes commands, and the pose is one to drive by: a goal is refused before."""
+        started = rospy.Time.now()
+        while time.monotonic() < end_s:
+            status = self.status
+            if status.header.stamp >= started:
+                if status.state in (DriveStatus.READY, DriveStatus.WARNING, DriveStatus.DRIVING):
+                    return True
+                if status.state == DriveStatus.BLOCKED:
+                    break
+            time.sleep(0.02)
+        print("start: not ready: %s (%s)" % (self.status.state_text, self.status.reason))
+        call("stop")
+        return False
 
     def send(self, x_m, y_m, heading_deg):
         self.goal = make_goal(x_m, y_m, heading_deg)
