@@ -144,6 +144,28 @@ make_sysroot() {
   mv "$root.new" "$root"
 }
 
+# compare_trajectories SYSROOT PROGRAM: that a program for arm64 goes the same way as this machine's, to 0.01 % of it.
+compare_trajectories() {
+  local here=${BUILD_DIR:-_b}/devel/lib/arfm_vo/kitti_odometry folder=$shared/data/kitti/odometry_06_000-050 work
+  if [ ! -x "$here" ] || [ ! -d "$folder" ]; then
+    echo "arm64: no trajectory compared: it needs $here and $folder"
+    return
+  fi
+  work=$(mktemp -d)
+  "$here" "$folder" --output "$work/here" > /dev/null
+  qemu-aarch64-static -L "$1" "$2" "$folder" --output "$work/arm64" > /dev/null
+  python3 - "$work" << 'PYTHON' || { rm -rf "$work"; return 1; }
+import math, sys
+here, arm64 = ([[float(line.split()[i]) for i in (3, 7, 11)] for line in open(f'{sys.argv[1]}/{name}/poses_online.txt')]
+               for name in ('here', 'arm64'))
+way = sum(map(math.dist, here, here[1:]))
+apart = max(map(math.dist, here, arm64))
+print(f'arm64: {len(arm64)} live poses, at most {100 * apart / way:.2g} % of the way from those of this machine')
+sys.exit(len(here) != len(arm64) or apart > 1e-4 * way)
+PYTHON
+  rm -rf "$work"
+}
+
 test_arm64() {
   need aarch64-linux-gnu-g++ g++-aarch64-linux-gnu
   need qemu-aarch64-static qemu-user-static
@@ -167,11 +189,12 @@ CMAKE
   rm -rf "$source/_b/test_results"
   CMAKE_TOOLCHAIN_FILE=$root.cmake CMAKE_PREFIX_PATH=/usr PKG_CONFIG_SYSROOT_DIR=$root \
     PKG_CONFIG_LIBDIR=$root/usr/lib/aarch64-linux-gnu/pkgconfig:$root/usr/share/pkgconfig \
-    "$source/scripts/build.sh" "${core[@]/#/test_}"
+    "$source/scripts/build.sh" "${core[@]/#/test_}" kitti_odometry
   for layer in "${core[@]}"; do
     qemu-aarch64-static -L "$root" "$source/_b/devel/lib/arfm_vo/test_$layer" \
       --gtest_brief=1 --gtest_output="xml:$source/_b/test_results/test_$layer.xml" || status=1
   done
+  compare_trajectories "$root" "$source/_b/devel/lib/arfm_vo/kitti_odometry" || status=1
   report arm64 "$source/_b"
   return $status
 }
