@@ -10,7 +10,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kSize = Patch::kSize;
 const cv::Point2f kToCorner(Patch::kHalfSpan, Patch::kHalfSpan);
 
 /// The image must have at least this share of the patch's contrast, and not the opposite one.

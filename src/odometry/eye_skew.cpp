@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/median.h"
+#include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/geometry/stereo_correction.h"
 
 namespace arfm_vo {
@@ -79,6 +81,18 @@ Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
   }
   if (last_->interval_s == 0) return {};
   return Interpolate({}, last_->now_from_before, found_->s / last_->interval_s);
+}
+
+double EyeSkewEstimator::MedianShiftPx(const Rigid3& later_from_now, const LocalMap& map,
+                                       const LandmarkObservations& observations,
+                                       const Rigid3& camera_from_world) const {
+  if (later_from_now.IsIdentity()) return 0;
+  std::vector<double> shifts_px;
+  for (const LandmarkObservation& observation : observations) {
+    const Eigen::Vector3d& x = map.landmarks().at(observation.landmark).x_in_world;
+    shifts_px.push_back(ShiftOfRight(camera_, later_from_now, camera_from_world * x).norm());
+  }
+  return Median(std::move(shifts_px));
 }
 
 }  // namespace arfm_vo

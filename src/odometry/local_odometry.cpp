@@ -1,22 +1,19 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
 #include <algorithm>
-#include <future>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/base/median.h"
 #include "arfm_vo/base/stopwatch.h"
-#include "arfm_vo/bundle_adjustment/pose_information.h"
-#include "arfm_vo/geometry/right_shift.h"
-#include "arfm_vo/odometry/base_covariance.h"
 #include "arfm_vo/odometry/dispute.h"
-#include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/eye_skew.h"
+#include "arfm_vo/odometry/map_update.h"
+#include "arfm_vo/odometry/path_covariance.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
 #include "eye_faults.h"
 #include "known_depths.h"
 #include "step_by_correction.h"
+#include "window_adjustment.h"
 
 namespace arfm_vo {
 
@@ -40,6 +37,24 @@ constexpr double kDoubtBySkew = 0.1;
 /// Known skew that moves what is seen by more than this is not made up for well enough to trust.
 constexpr double kMaxShiftPx = 1;
 
+void Degrade(const std::string& remark, OdometryUpdate& update) {
+  update.pose.status = PoseStatus::kDegraded;
+  update.remark = remark;
+}
+
+/// `first_new`: the first landmark that no earlier keyframe saw.
+KeyframeRecord RecordOf(const Keyframe& keyframe, const Landmarks& landmarks,
+                        LandmarkId first_new) {
+  KeyframeRecord record{
+      keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
+  for (auto found = landmarks.lower_bound(first_new); found != landmarks.end(); ++found) {
+    const Landmark& landmark = found->second;
+    record.landmarks.push_back(
+        {landmark.id, landmark.x_in_world, landmark.keypoint.laplacian_sign, landmark.descriptor});
+  }
+  return record;
+}
+
 }  // namespace
 
 class LocalOdometry::Implementation {
@@ -56,7 +71,7 @@ class LocalOdometry::Implementation {
         skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);
-    drift_.SetCorrection(correction);
+    covariance_.SetCorrection(correction);
   }
 
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images,
@@ -76,7 +91,7 @@ class LocalOdometry::Implementation {
     update.can_start =
         is_left_good && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
-    FinishBundle();
+    FinishAdjustment();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
       Start(frame, update);
@@ -100,42 +115,22 @@ class LocalOdometry::Implementation {
   std::optional<KeyframeRecord> TakeKeyframe() { return std::exchange(record_, std::nullopt); }
 
   void Apply(const MapUpdate& update) {
-    FinishBundle();
+    FinishAdjustment();
     const bool is_new = correction_.mean.coefficients_px != update.correction.mean.coefficients_px;
-    if (is_new) drift_.SetCorrection(update.correction);
+    if (is_new) covariance_.SetCorrection(update.correction);
     correction_ = update.correction;
     tracker_.SetCorrection(correction_.mean);
-    // The newest keyframe that both know stays: odom_from_map there undoes the correction.
-    const Keyframe* anchor = nullptr;
-    Rigid3 anchor_in_map;
-    for (const auto& keyframe : update.keyframes) {
-      const Keyframe* known = map_.FindKeyframe(keyframe.id);
-      if (known == nullptr) continue;
-      anchor = known;
-      anchor_in_map = keyframe.camera_from_world;
-    }
-    if (anchor == nullptr) return;
-    const Rigid3 odom_from_map = anchor->camera_from_world.Inverse() * anchor_in_map;
-    const Rigid3 map_from_odom = odom_from_map.Inverse();
-    for (const auto& keyframe : update.keyframes) {
-      map_.MoveKeyframe(keyframe.id, keyframe.camera_from_world * map_from_odom);
-    }
-    for (const auto& landmark : update.landmarks) {
-      const auto known = map_.landmarks().find(landmark.id);
-      if (known == map_.landmarks().end()) continue;
-      map_.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world, known->second.covariance);
-    }
+    ApplyMapUpdate(update, map_);
   }
 
   void Reset() {
-    FinishBundle();
+    FinishAdjustment();
     dispute_.Reset();
     if (!map_.keyframes().empty()) dispute_.BeWary();
     map_.Clear();
     standstill_.Reset();
     skew_.Interrupt();
-    drift_.Clear();
-    unknown_way_ = {};
+    covariance_.Clear();
     archive_.Clear();
     record_.reset();
   }
@@ -143,11 +138,6 @@ class LocalOdometry::Implementation {
   const LocalMap& map() const { return map_; }
 
  private:
-  struct AdjustedWindow {
-    LocalBundle bundle;
-    BundleResult result;
-    PoseInformation information;
-  };
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
     if (!update.can_start) {
@@ -159,15 +149,14 @@ class LocalOdometry::Implementation {
     update.pose.covariance.setIdentity();
     update.pose.covariance *= 1e-12;  // the world is this camera
     update.covariance_from_start = update.pose.covariance;
-    pose_drift_ = PoseDrift{update.pose.covariance};
+    covariance_.Begin(update.pose.camera_from_world, update.pose.covariance);
     update.is_keyframe = true;
   }
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    const std::string& right_fault = eye_faults_.of_right();
-    TrackedFrame tracked =
-        tracker_.Track(frame, images, map_, predicted, right_fault.empty(), dispute_.IsWary());
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted,
+                                          eye_faults_.of_right().empty(), dispute_.IsWary());
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
@@ -176,29 +165,7 @@ class LocalOdometry::Implementation {
       Recover(frame, update);
       return;
     }
-    const bool is_believed =
-        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.shares);
-    const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
-    if (is_contested || !is_believed) update.remark = "two groups of points move differently";
-    if (!is_believed) {
-      update.pose.status = PoseStatus::kNoConsensus;
-      update.is_disputed = dispute_.MayEnd();
-      return;
-    }
-    if (update.pose.IsTracked() && dispute_.IsDoubtful()) {
-      update.pose.status = PoseStatus::kDegraded;
-      update.remark = "two groups of points moved differently a moment ago";
-    }
-    if (!is_contested && !right_fault.empty()) {
-      update.pose.status = PoseStatus::kDegraded;
-      update.remark = right_fault + ", the left one alone tells";
-    }
-    const bool are_depths_known = AreDepthsKnown(camera_, map_, tracked);
-    if (update.pose.IsTracked() && !are_depths_known) {
-      update.pose.status = PoseStatus::kDegraded;
-      update.remark = "most points are too far to tell how long the way is";
-    }
-    unknown_way_.Follow(update.pose.camera_from_world.Inverse().translation, are_depths_known);
+    if (!Judge(tracked, update)) return;
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
     if (resting) {
       update.pose.camera_from_world = *resting;
@@ -212,7 +179,33 @@ class LocalOdometry::Implementation {
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     LearnSkew(update);
-    AddDrift(update);
+    FindCovariance(update);
+  }
+
+  /// Whether the pose is to be believed, and how far.
+  bool Judge(const TrackedFrame& tracked, OdometryUpdate& update) {
+    const bool is_believed =
+        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.shares);
+    const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
+    if (is_contested || !is_believed) update.remark = "two groups of points move differently";
+    if (!is_believed) {
+      update.pose.status = PoseStatus::kNoConsensus;
+      update.is_disputed = dispute_.MayEnd();
+      return false;
+    }
+    if (update.pose.IsTracked() && dispute_.IsDoubtful()) {
+      Degrade("two groups of points moved differently a moment ago", update);
+    }
+    const std::string& right_fault = eye_faults_.of_right();
+    if (!is_contested && !right_fault.empty()) {
+      Degrade(right_fault + ", the left one alone tells", update);
+    }
+    const bool are_depths_known = AreDepthsKnown(camera_, map_, tracked);
+    if (update.pose.IsTracked() && !are_depths_known) {
+      Degrade("most points are too far to tell how long the way is", update);
+    }
+    covariance_.FollowWay(update.pose.camera_from_world, are_depths_known);
+    return true;
   }
 
   void LearnSkew(OdometryUpdate& update) {
@@ -221,22 +214,13 @@ class LocalOdometry::Implementation {
     update.skew = skew_.Find();
     if (update.skew && !has_found_skew_) {
       has_found_skew_ = true;
-      unknown_way_.AddDoubt(kDoubtBySkew * camera_from_world.Inverse().translation.norm());
+      covariance_.AddDoubtOfWay(kDoubtBySkew * camera_from_world.Inverse().translation.norm());
     }
-    if (!update.pose.IsTracked() || MedianShift(update) < kMaxShiftPx) return;
-    update.pose.status = PoseStatus::kDegraded;
-    update.remark = "the right picture is taken far from the left one's time";
-  }
-  /// How far the skew moves what the right eye sees, px.
-  double MedianShift(const OdometryUpdate& update) const {
-    if (later_from_now_.IsIdentity()) return 0;
-    std::vector<double> shifts_px;
-    for (const LandmarkObservation& observation : update.observations) {
-      const Eigen::Vector3d& x = map_.landmarks().at(observation.landmark).x_in_world;
-      shifts_px.push_back(
-          ShiftOfRight(camera_, later_from_now_, update.pose.camera_from_world * x).norm());
-    }
-    return Median(std::move(shifts_px));
+    if (!update.pose.IsTracked()) return;
+    const double shift_px =
+        skew_.MedianShiftPx(later_from_now_, map_, update.observations, camera_from_world);
+    if (shift_px < kMaxShiftPx) return;
+    Degrade("the right picture is taken far from the left one's time", update);
   }
 
   /// Those that agreed with an earlier pose.
@@ -264,16 +248,13 @@ class LocalOdometry::Implementation {
     map_.Clear();
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
-    pose_drift_ = PoseDrift{place->covariance_from_start};
-    unknown_way_ = {};
-    unknown_way_.Follow(place->pose.camera_from_world.Inverse().translation, true);
+    covariance_.Begin(place->pose.camera_from_world, place->covariance_from_start);
     update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
 
   void Retire(const Keyframe& keyframe) {
-    archive_.Add(keyframe, map_,
-                 WithUnknownWay(drift_.Covariance(keyframe.id), keyframe.camera_from_world));
+    archive_.Add(keyframe, map_, covariance_.OfKeyframe(keyframe));
   }
 
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
@@ -283,58 +264,31 @@ class LocalOdometry::Implementation {
     if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
                                                 update.observations, contradicting_);
-    record_ = KeyframeRecord{
-        keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
-    for (auto landmark = map_.landmarks().lower_bound(first_new);
-         landmark != map_.landmarks().end(); ++landmark) {
-      record_->landmarks.push_back({landmark->second.id, landmark->second.x_in_world,
-                                    landmark->second.keypoint.laplacian_sign,
-                                    landmark->second.descriptor});
-    }
-    drift_.Add(keyframe.id, pose_drift_);
-    drift_.Forget(map_.keyframes().front().id);
+    record_ = RecordOf(keyframe, map_.landmarks(), first_new);
+    covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
-    // The map stays as it is until FinishBundle.
-    pending_ = std::async(std::launch::async, [this] {
-      return Adjust(MakeLocalBundle(camera_, correction_.mean, map_, options_.bundle.num_keyframes),
-                    options_.bundle.solver);
-    });
+    adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
   }
 
-  static AdjustedWindow Adjust(LocalBundle bundle, const BundleOptions& solver) {
-    AdjustedWindow window{std::move(bundle), {}, {}};
-    window.result = AdjustBundle(window.bundle.problem, solver);
-    window.information = FindPoseInformation(window.bundle.problem, window.result, solver);
-    return window;
-  }
-
-  void AddDrift(OdometryUpdate& update) {
+  void FindCovariance(OdometryUpdate& update) {
     const Keyframe& newest = map_.keyframes().back();
-    const PoseDrift own{update.pose.covariance,
-                        FindStepByCorrection(camera_, correction_.mean, map_.landmarks(),
-                                             {newest.camera_from_world, newest.observations},
-                                             {update.pose.camera_from_world, update.observations},
-                                             options_.bundle.solver)};
-    pose_drift_ = drift_.Beside(
-        newest.id, update.pose.camera_from_world * newest.camera_from_world.Inverse(), own);
-    update.covariance_from_start =
-        WithUnknownWay(drift_.Covariance(pose_drift_), update.pose.camera_from_world);
-  }
-
-  Matrix6 WithUnknownWay(Matrix6 covariance, const Rigid3& camera_from_world) const {
-    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
-    covariance.bottomRightCorner<3, 3>() +=
-        rotation * unknown_way_.Covariance() * rotation.transpose();
-    return covariance;
+    const Rigid3& camera_from_world = update.pose.camera_from_world;
+    covariance_.AddPose(
+        newest, camera_from_world,
+        {update.pose.covariance,
+         FindStepByCorrection(camera_, correction_.mean, map_.landmarks(),
+                              {newest.camera_from_world, newest.observations},
+                              {camera_from_world, update.observations}, options_.bundle.solver)});
+    update.covariance_from_start = covariance_.OfNewest();
   }
 
   /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
   /// that the result does not depend on how fast threads run.
-  void FinishBundle() {
-    if (!pending_.valid()) return;
-    const AdjustedWindow window = pending_.get();
-    ApplyLocalBundle(window.bundle, window.result, map_);
-    drift_.Update(window.bundle.keyframes, window.bundle.problem.pose_is_fixed, window.information);
+  void FinishAdjustment() {
+    const auto adjusted = adjustment_.Take();
+    if (!adjusted) return;
+    ApplyLocalBundle(adjusted->bundle, adjusted->result, map_);
+    covariance_.Update(adjusted->bundle, adjusted->information);
   }
 
   StereoCamera camera_;
@@ -349,13 +303,11 @@ class LocalOdometry::Implementation {
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   std::optional<KeyframeRecord> record_;
-  DriftEstimator drift_;
-  PoseDrift pose_drift_;  ///< of the last tracked frame
-  UnknownWay unknown_way_;
+  PathCovariance covariance_;
   EyeSkewEstimator skew_;
   bool has_found_skew_ = false;
-  Rigid3 later_from_now_;  ///< the camera's motion between the two pictures of the last frame
-  std::future<AdjustedWindow> pending_;
+  Rigid3 later_from_now_;        ///< the camera's motion between the two pictures of the last frame
+  WindowAdjustment adjustment_;  ///< the map stays as it is while one runs
 };
 
 LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options,

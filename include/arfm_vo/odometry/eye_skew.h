@@ -30,6 +30,10 @@ class EyeSkewEstimator {
   /// The camera's motion (later_from_now) from a left picture to its right one, at the speed of the
   /// way to `predicted`, or of the last way; none where there is no skew to be found.
   Rigid3 MotionBetweenEyes(double stamp_s, const std::optional<Rigid3>& predicted) const;
+  /// How far that motion moves what the right eye sees of the observed landmarks, px, their median.
+  double MedianShiftPx(const Rigid3& later_from_now, const LocalMap& map,
+                       const LandmarkObservations& observations,
+                       const Rigid3& camera_from_world) const;
   /// The next frame does not follow the last one.
   void Interrupt() { last_.reset(); }
 

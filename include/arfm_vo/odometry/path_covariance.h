@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "arfm_vo/mapping/keyframe.h"
+#include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/odometry/local_bundle.h"
+
+namespace arfm_vo {
+
+/// The way on which the depths were not known: how long it was may be wrong by all of it.
+class UnknownWay {
+ public:
+  /// `centre` of the camera, in the world.
+  void Follow(const Eigen::Vector3d& centre, bool are_depths_known) {
+    if (are_depths_known) {
+      closed_ = Covariance();
+      start_ = centre;
+    }
+    newest_ = centre;
+  }
+  /// Where the camera is may be wrong by this besides, in any direction.
+  void AddDoubt(double sigma_m) { closed_ += sigma_m * sigma_m * Eigen::Matrix3d::Identity(); }
+  /// Of the place, m^2, axes of the world.
+  Eigen::Matrix3d Covariance() const {
+    return closed_ + (newest_ - start_) * (newest_ - start_).transpose();
+  }
+
+ private:
+  Eigen::Vector3d start_ = Eigen::Vector3d::Zero();  ///< where they were known last
+  Eigen::Vector3d newest_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d closed_ = Eigen::Matrix3d::Zero();  ///< up to start_
+};
+
+/// How unsure the newest pose and the map's keyframes are against the first camera of all: what
+/// drifts from keyframe to keyframe, and the ways whose length was not known. All covariances are
+/// of the steps of BoxPlus(camera_from_world, .), (rad, m).
+class PathCovariance {
+ public:
+  using Matrix6 = DriftEstimator::Matrix6;
+
+  /// As DriftEstimator::SetCorrection.
+  void SetCorrection(const CorrectionBelief& correction) { drift_.SetCorrection(correction); }
+
+  /// The newest pose is not told by those before it: the first of a map, or one recognised.
+  void Begin(const Rigid3& camera_from_world, const Matrix6& covariance);
+  /// The way to a pose that is about to be added.
+  void FollowWay(const Rigid3& camera_from_world, bool are_depths_known) {
+    way_.Follow(camera_from_world.Inverse().translation, are_depths_known);
+  }
+  void AddDoubtOfWay(double sigma_m) { way_.AddDoubt(sigma_m); }
+  /// The newest pose; `own` is its drift against `newest`, the newest keyframe.
+  void AddPose(const Keyframe& newest, const Rigid3& camera_from_world, const PoseDrift& own);
+  /// The newest pose has become a keyframe; those older than `oldest` have left the map.
+  void AddKeyframe(KeyframeId keyframe, KeyframeId oldest);
+  /// The newest keyframes were adjusted.
+  void Update(const LocalBundle& window, const PoseInformation& information) {
+    drift_.Update(window.keyframes, window.problem.pose_is_fixed, information);
+  }
+  void Clear();
+
+  Matrix6 OfNewest() const { return WithWay(drift_.Covariance(newest_), newest_rotation_); }
+  Matrix6 OfKeyframe(const Keyframe& keyframe) const {
+    return WithWay(drift_.Covariance(keyframe.id), keyframe.camera_from_world.RotationMatrix());
+  }
+
+ private:
+  Matrix6 WithWay(Matrix6 covariance, const Eigen::Matrix3d& camera_from_world) const;
+
+  DriftEstimator drift_;
+  PoseDrift newest_;
+  Eigen::Matrix3d newest_rotation_ = Eigen::Matrix3d::Identity();  ///< camera_from_world
+  UnknownWay way_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,24 @@
+#include "window_adjustment.h"
+
+#include <utility>
+
+namespace arfm_vo {
+
+void WindowAdjustment::Start(const StereoCamera& camera, const StereoCorrection& correction,
+                             const LocalMap& map, const LocalBundleOptions& options) {
+  pending_ = std::async(std::launch::async, [&camera, &correction, &map, &options] {
+    AdjustedWindow window;
+    window.bundle = MakeLocalBundle(camera, correction, map, options.num_keyframes);
+    const BundleProblem& problem = window.bundle.problem;
+    window.result = AdjustBundle(problem, options.solver);
+    window.information = FindPoseInformation(problem, window.result, options.solver);
+    return window;
+  });
+}
+
+std::optional<AdjustedWindow> WindowAdjustment::Take() {
+  if (!pending_.valid()) return std::nullopt;
+  return pending_.get();
+}
+
+}  // namespace arfm_vo
