@@ -55,6 +55,7 @@ const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& l
   keyframe.id = next_keyframe_++;
   keyframe.stamp_s = frame.stamp_s;
   keyframe.camera_from_world = camera_from_world;
+  keyframe.first_landmark = next_landmark_;
   left.copyTo(spare_image_);
   keyframe.left = std::move(spare_image_);
   for (const LandmarkObservation& observation : tracked) {
@@ -192,6 +193,13 @@ void LocalMap::CountSightings(const std::vector<LandmarkId>& expected,
     found->second.num_missed = is_seen ? 0 : found->second.num_missed + 1;
     found->second.num_agreed += is_seen;
   }
+}
+
+std::vector<Landmark> LocalMap::NewestLandmarks() const {
+  std::vector<Landmark> newest;
+  const auto first = landmarks_.lower_bound(keyframes_.back().first_landmark);
+  for (auto found = first; found != landmarks_.end(); ++found) newest.push_back(found->second);
+  return newest;
 }
 
 const Keyframe* LocalMap::FindKeyframe(KeyframeId id) const {

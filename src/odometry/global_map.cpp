@@ -72,23 +72,25 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
   options.Check();
 }
 
-void GlobalMap::Add(const KeyframeRecord& keyframe) {
+void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landmarks) {
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
   CheckCorrection(keyframe);
   const int newest = num_keyframes();
-  const Rigid3 camera_from_map = keyframe.camera_from_world * map_from_odom_.Inverse();
+  Keyframe kept = keyframe;
+  kept.camera_from_world = keyframe.camera_from_world * map_from_odom_.Inverse();
+  kept.first_landmark = FirstLandmark(landmarks);
   if (newest > 0) {
-    turned_rad_ += (camera_from_map * store_.keyframes.back().camera_from_map.Inverse()).Angle();
+    const Rigid3& before = store_.keyframes.back().camera_from_world;
+    turned_rad_ += (kept.camera_from_world * before.Inverse()).Angle();
   }
-  store_.keyframes.push_back(
-      {keyframe.id, camera_from_map, keyframe.observations, FirstLandmark(keyframe)});
-  for (const LandmarkRecord& landmark : keyframe.landmarks) {
+  store_.keyframes.push_back(std::move(kept));
+  for (const Landmark& landmark : landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];
-    point.x_in_map = map_from_odom_ * landmark.x_in_world;
+    point.x_in_world = map_from_odom_ * landmark.x_in_world;
     point.first_keyframe = newest;
     if (!options_.loops.enabled) continue;
-    point.laplacian_sign = landmark.laplacian_sign;
+    point.laplacian_sign = landmark.keypoint.laplacian_sign;
     point.descriptor.assign(landmark.descriptor.begin(), landmark.descriptor.end());
   }
   for (const LandmarkObservation& observation : keyframe.observations) {
@@ -120,7 +122,7 @@ bool GlobalMap::IsAdjustmentDue() const {
 }
 
 /// Where the correction is held, the rows of the new observations must agree with it.
-void GlobalMap::CheckCorrection(const KeyframeRecord& keyframe) {
+void GlobalMap::CheckCorrection(const Keyframe& keyframe) {
   if (is_learning_ || !options_.learn_correction) return;
   std::vector<double> deviations;
   for (const LandmarkObservation& observation : keyframe.observations) {
@@ -144,8 +146,8 @@ int GlobalMap::FirstMoving() const {
   return std::max(1, num_keyframes() - options_.NumMoving());  // the first of all never moves
 }
 
-LandmarkId GlobalMap::FirstLandmark(const KeyframeRecord& keyframe) const {
-  if (!keyframe.landmarks.empty()) return keyframe.landmarks.front().id;
+LandmarkId GlobalMap::FirstLandmark(const std::vector<Landmark>& landmarks) const {
+  if (!landmarks.empty()) return landmarks.front().id;
   return store_.landmarks.empty() ? 0 : store_.landmarks.rbegin()->first + 1;
 }
 
@@ -155,8 +157,8 @@ void GlobalMap::Close(const Loop& loop) {
   loops_.push_back(loop.constraint);
   const PoseConstraint& c = loop.constraint;
   const Eigen::Matrix<double, 6, 1> error =
-      LinearizeConstraint(c, store_.keyframes[c.first].camera_from_map,
-                          store_.keyframes[c.second].camera_from_map)
+      LinearizeConstraint(c, store_.keyframes[c.first].camera_from_world,
+                          store_.keyframes[c.second].camera_from_world)
           .residual;
   is_contradicted_ |= error.dot(c.information * error) > ChiSquareQuantile(6, kLoopProbability);
   for (const auto& [first, second] : loop.same) {
@@ -172,8 +174,8 @@ void GlobalMap::Close(const Loop& loop) {
 
 void GlobalMap::BendOntoLoops() {
   std::vector<Rigid3> poses;
-  for (const MapStore::Keyframe& keyframe : store_.keyframes) {
-    poses.push_back(keyframe.camera_from_map);
+  for (const Keyframe& keyframe : store_.keyframes) {
+    poses.push_back(keyframe.camera_from_world);
   }
   std::vector<PoseConstraint> constraints = loops_;
   // An adjustment has found what the loops closed before it say, from more than they were.
@@ -193,9 +195,9 @@ void GlobalMap::BendOntoLoops() {
   const std::vector<Rigid3> bent = SolvePoseGraph(poses, constraints);
   for (auto& [id, point] : store_.landmarks) {
     const int k = point.first_keyframe;
-    point.x_in_map = bent[k].Inverse() * (poses[k] * point.x_in_map);
+    point.x_in_world = bent[k].Inverse() * (poses[k] * point.x_in_world);
   }
-  for (int k = 0; k < num_keyframes(); ++k) store_.keyframes[k].camera_from_map = bent[k];
+  for (int k = 0; k < num_keyframes(); ++k) store_.keyframes[k].camera_from_world = bent[k];
   is_contradicted_ = false;
 }
 
@@ -212,7 +214,7 @@ BundleProblem GlobalMap::MakeProblem() {
     const bool is_seen = point.last_keyframe >= first_moving;
     if (!is_seen || point.num_observations < options_.min_observations) continue;
     point.row = static_cast<int>(problem.points.size());
-    problem.points.push_back(point.x_in_map);
+    problem.points.push_back(point.x_in_world);
   }
   size_t most = 0;
   for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
@@ -221,15 +223,16 @@ BundleProblem GlobalMap::MakeProblem() {
   problem.observations.reserve(most);
   for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
     const int pose = k - store_.first_seeing;
-    problem.camera_from_world.push_back(store_.keyframes[k].camera_from_map);
+    problem.camera_from_world.push_back(store_.keyframes[k].camera_from_world);
     bool is_tied = false;  // to older ones: not where the odometry was lost in between
     for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
       const auto landmark = store_.Find(observation.landmark);
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       is_tied |= landmark->second.first_keyframe < k;
-      problem.observations.push_back({pose, landmark->second.row, observation.pixels,
-                                      observation.has_right && k >= first_telling_,
-                                      observation.sigma_px});
+      problem.observations.push_back(
+          {{observation.pixels, observation.has_right && k >= first_telling_, observation.sigma_px},
+           pose,
+           landmark->second.row});
     }
     problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
@@ -238,7 +241,7 @@ BundleProblem GlobalMap::MakeProblem() {
     PoseConstraint constraint = loop;
     constraint.first = static_cast<int>(problem.camera_from_world.size());
     constraint.second -= store_.first_seeing;
-    problem.camera_from_world.push_back(store_.keyframes[loop.first].camera_from_map);
+    problem.camera_from_world.push_back(store_.keyframes[loop.first].camera_from_world);
     problem.pose_is_fixed.push_back(true);
     problem.constraints.push_back(constraint);
   }
@@ -258,7 +261,7 @@ void GlobalMap::LearnCorrection(const BundleResult& result) {
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
   next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
-  const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_map * map_from_odom_;
+  const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_world * map_from_odom_;
   const bool is_bent = is_contradicted_;
   if (is_bent) BendOntoLoops();
   BundleProblem problem = MakeProblem();
@@ -268,7 +271,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (is_learning_) LearnCorrection(result);
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
-  map_from_odom_ = store_.keyframes.back().camera_from_map.Inverse() * newest_from_odom;
+  map_from_odom_ = store_.keyframes.back().camera_from_world.Inverse() * newest_from_odom;
   return update;
 }
 
@@ -278,20 +281,20 @@ MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   update.correction = correction_;
   const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
   for (int k = 0; k < num_keyframes(); ++k) {
-    MapStore::Keyframe& keyframe = store_.keyframes[k];
+    Keyframe& keyframe = store_.keyframes[k];
     if (k >= store_.first_seeing) {
-      keyframe.camera_from_map = result.camera_from_world[k - store_.first_seeing];
+      keyframe.camera_from_world = result.camera_from_world[k - store_.first_seeing];
     }
-    if (k >= first) update.keyframes.push_back({keyframe.id, keyframe.camera_from_map});
+    if (k >= first) update.keyframes.push_back({keyframe.id, keyframe.camera_from_world});
   }
   for (auto& [id, point] : store_.landmarks) {
     if (point.row >= 0) {
       if (!result.point_is_used[point.row]) continue;
-      point.x_in_map = result.points[point.row];
+      point.x_in_world = result.points[point.row];
     } else if (!is_bent || point.num_observations < options_.min_observations) {
       continue;
     }
-    update.landmarks.push_back({id, point.x_in_map});
+    update.landmarks.push_back({id, point.x_in_world});
   }
   return update;
 }

@@ -59,9 +59,10 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& 
       const auto row = rows.find(observation.landmark);
       if (row == rows.end()) continue;
       sees_any = true;
-      bundle.problem.observations.push_back({pose, row->second,
-                                             PixelsOf(camera, correction, observation),
-                                             observation.has_right, observation.sigma_px});
+      bundle.problem.observations.push_back(
+          {{PixelsOf(camera, correction, observation), observation.has_right, observation.sigma_px},
+           pose,
+           row->second});
     }
     if (!sees_any) continue;
     bundle.keyframes.push_back(keyframes[k].id);

@@ -4,9 +4,9 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/eye_skew.h"
-#include "arfm_vo/odometry/map_update.h"
 #include "arfm_vo/odometry/path_covariance.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
@@ -40,19 +40,6 @@ constexpr double kMaxShiftPx = 1;
 void Degrade(const std::string& remark, OdometryUpdate& update) {
   update.pose.status = PoseStatus::kDegraded;
   update.remark = remark;
-}
-
-/// `first_new`: the first landmark that no earlier keyframe saw.
-KeyframeRecord RecordOf(const Keyframe& keyframe, const Landmarks& landmarks,
-                        LandmarkId first_new) {
-  KeyframeRecord record{
-      keyframe.id, keyframe.stamp_s, keyframe.camera_from_world, keyframe.observations, {}};
-  for (auto found = landmarks.lower_bound(first_new); found != landmarks.end(); ++found) {
-    const Landmark& landmark = found->second;
-    record.landmarks.push_back(
-        {landmark.id, landmark.x_in_world, landmark.keypoint.laplacian_sign, landmark.descriptor});
-  }
-  return record;
 }
 
 }  // namespace
@@ -112,8 +99,6 @@ class LocalOdometry::Implementation {
     return update;
   }
 
-  std::optional<KeyframeRecord> TakeKeyframe() { return std::exchange(record_, std::nullopt); }
-
   void Apply(const MapUpdate& update) {
     FinishAdjustment();
     const bool is_new = correction_.mean.coefficients_px != update.correction.mean.coefficients_px;
@@ -132,7 +117,6 @@ class LocalOdometry::Implementation {
     skew_.Interrupt();
     covariance_.Clear();
     archive_.Clear();
-    record_.reset();
   }
 
   const LocalMap& map() const { return map_; }
@@ -259,12 +243,10 @@ class LocalOdometry::Implementation {
 
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update) {
-    const LandmarkId first_new = map_.next_landmark();
     const bool is_full = static_cast<int>(map_.keyframes().size()) == options_.map.max_keyframes;
     if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
                                                 update.observations, contradicting_);
-    record_ = RecordOf(keyframe, map_.landmarks(), first_new);
     covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
@@ -302,7 +284,6 @@ class LocalOdometry::Implementation {
   EyeFaults eye_faults_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
-  std::optional<KeyframeRecord> record_;
   PathCovariance covariance_;
   EyeSkewEstimator skew_;
   bool has_found_skew_ = false;
@@ -318,9 +299,6 @@ LocalOdometry::~LocalOdometry() = default;
 OdometryUpdate LocalOdometry::Process(const StereoFrame& frame, const StereoImages& images,
                                       const std::optional<PredictedPose>& predicted) {
   return implementation_->Process(frame, images, predicted);
-}
-std::optional<KeyframeRecord> LocalOdometry::TakeKeyframe() {
-  return implementation_->TakeKeyframe();
 }
 void LocalOdometry::Apply(const MapUpdate& update) { implementation_->Apply(update); }
 void LocalOdometry::Reset() { implementation_->Reset(); }

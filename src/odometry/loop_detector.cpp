@@ -150,11 +150,11 @@ int LoopDetector::FindSame(const MapStore::Point& seen, const std::vector<Known>
   if (nearest == squared.end()) return -1;
   if (!(*nearest < options_.max_distance * options_.max_distance)) return -1;
   const int found = static_cast<int>(nearest - squared.begin());
-  const Eigen::Vector3d& x = known[found].second->x_in_map;
+  const Eigen::Vector3d& x = known[found].second->x_in_world;
   const double same_place_m = kSamePlace * (x - centre).norm();
   const double allowed = *nearest / (options_.max_ratio * options_.max_ratio);
   for (size_t i = 0; i < known.size(); ++i) {
-    if (squared[i] < allowed && (known[i].second->x_in_map - x).norm() > same_place_m) return -1;
+    if (squared[i] < allowed && (known[i].second->x_in_world - x).norm() > same_place_m) return -1;
   }
   return found;
 }
@@ -162,7 +162,7 @@ int LoopDetector::FindSame(const MapStore::Point& seen, const std::vector<Known>
 std::optional<Loop> LoopDetector::Verify(const MapStore& map, const StereoCorrection& correction,
                                          const View& view, int place) const {
   const std::vector<Known> known = KnownAround(map, place, view.keyframe);
-  const Rigid3& place_from_map = map.keyframes[place].camera_from_map;
+  const Rigid3& place_from_map = map.keyframes[place].camera_from_world;
   Loop loop;
   std::vector<PointObservation> points;
   for (size_t i = 0; i < view.landmarks.size(); ++i) {
@@ -171,7 +171,7 @@ std::optional<Loop> LoopDetector::Verify(const MapStore& map, const StereoCorrec
     if (found < 0 || known[found].first == id) continue;
     const LandmarkObservation& observation = *view.observations[i];
     PointObservation point;
-    point.x_in_world = known[found].second->x_in_map;
+    point.x_in_world = known[found].second->x_in_world;
     point.pixels = NominalPixels(camera_, correction, observation.pixels);
     point.has_right = observation.has_right;
     point.sigma_px = observation.sigma_px;

@@ -12,8 +12,8 @@ constexpr int kMaxSettledLandmarks = 20000;  ///< for display
 bool PlacedMap::IsRestarted(const PlacedKeyframe& keyframe) const {
   if (places_.empty()) return false;
   const auto& [newest_id, newest] = *places_.rbegin();
-  return keyframe.epoch < epoch_ || keyframe.record.stamp_s < newest.stamp_s ||
-         (keyframe.epoch == epoch_ && keyframe.record.id <= newest_id);
+  return keyframe.epoch < epoch_ || keyframe.keyframe.stamp_s < newest.stamp_s ||
+         (keyframe.epoch == epoch_ && keyframe.keyframe.id <= newest_id);
 }
 
 bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
@@ -24,12 +24,12 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
     *this = std::move(anew);
   }
   if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
-  const KeyframeRecord& record = keyframe.record;
-  global_->Add(record);
-  places_[record.id] = {record.stamp_s, record.camera_from_world, keyframe.base_from_camera};
-  for (const LandmarkRecord& landmark : record.landmarks)
+  const Keyframe& seen = keyframe.keyframe;
+  global_->Add(seen, keyframe.landmarks);
+  places_[seen.id] = {seen.stamp_s, seen.camera_from_world, keyframe.base_from_camera};
+  for (const Landmark& landmark : keyframe.landmarks)
     first_depths_m_[landmark.id] =
-        static_cast<float>((record.camera_from_world * landmark.x_in_world).z());
+        static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
   return !is_restarted;
 }
 

@@ -153,10 +153,7 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
   pose.covariance = drift_.At(pose.odom_from_base,
                               BaseCovariance(pose.update.covariance_from_start, base_from_camera));
   if (!is_new_epoch) SetTwist(BaseCovariance(estimate.covariance, base_from_camera), pose);
-  if (auto record = odometry_->TakeKeyframe()) {
-    pose.keyframe = PlacedKeyframe{std::move(*record), epoch_, camera_, base_.odom_from_world(),
-                                   base_from_camera};
-  }
+  if (pose.update.is_keyframe) pose.keyframe = NewestKeyframe(base_from_camera);
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
 }
 
@@ -174,6 +171,14 @@ void Session::DoubtNewMap(SessionUpdate& pose) {
     }
   }
   if (new_map_->doubt.IsOver()) new_map_.reset();
+}
+
+PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
+  const LocalMap& map = odometry_->map();
+  PlacedKeyframe newest{map.keyframes().back(),  map.NewestLandmarks(), epoch_, camera_,
+                        base_.odom_from_world(), base_from_camera};
+  newest.keyframe.left = cv::Mat();
+  return newest;
 }
 
 void Session::SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const {

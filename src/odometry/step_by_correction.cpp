@@ -30,8 +30,7 @@ Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     const int point = static_cast<int>(result.points.size());
     result.points.push_back(landmarks.at(observation.landmark).x_in_world);
     for (const auto* sighting : {&*seen, &observation}) {
-      problem.observations.push_back({sighting == &*seen ? 0 : 1, point, sighting->pixels,
-                                      sighting->has_right, sighting->sigma_px});
+      problem.observations.push_back({*sighting, sighting == &*seen ? 0 : 1, point});
     }
   }
   problem.points = result.points;

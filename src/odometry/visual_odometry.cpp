@@ -52,7 +52,7 @@ void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
   if (!map_.IsAdjustmentDue()) return;
   MapUpdate newest;
   newest.num_keyframes = map_.num_keyframes();
-  newest.keyframes.push_back({keyframe.record.id, {}});
+  newest.keyframes.push_back({keyframe.keyframe.id, {}});
   adjusted_at_ = session_.TakeoverFrame(newest);
   adjustment_ = std::async(std::launch::async, [this] { return map_.Adjust(); });
 }

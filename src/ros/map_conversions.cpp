@@ -32,7 +32,7 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   return observations;
 }
 
-std::vector<LandmarkRecord> ImportLandmarks(const KeyframeStamped& message) {
+std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
   const std::string name = "KeyframeStamped: ";
   const size_t size = message.landmark_id.size();
   RequireSize(message.landmark_position, 3 * size, name + "landmark_position");
@@ -41,11 +41,11 @@ std::vector<LandmarkRecord> ImportLandmarks(const KeyframeStamped& message) {
               name + "landmark_descriptors");
   RequireFinite(message.landmark_position, name + "landmark_position");
   RequireFinite(message.landmark_descriptors, name + "landmark_descriptors");
-  std::vector<LandmarkRecord> landmarks(size);
+  std::vector<Landmark> landmarks(size);
   for (size_t i = 0; i < size; ++i) {
     landmarks[i].id = message.landmark_id[i];
     landmarks[i].x_in_world = Eigen::Map<const Eigen::Vector3d>(&message.landmark_position[3 * i]);
-    landmarks[i].laplacian_sign = message.landmark_laplacian_sign[i];
+    landmarks[i].keypoint.laplacian_sign = message.landmark_laplacian_sign[i];
     std::copy_n(message.landmark_descriptors.begin() + kDescriptorLength * i, kDescriptorLength,
                 landmarks[i].descriptor.begin());
   }
@@ -72,16 +72,16 @@ CorrectionBelief ImportCorrection(const MapUpdateStamped& message) {
 }  // namespace
 
 KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
-  const KeyframeRecord& record = keyframe.record;
+  const Keyframe& seen = keyframe.keyframe;
   KeyframeStamped message;
-  message.header.stamp.fromSec(record.stamp_s);
+  message.header.stamp.fromSec(seen.stamp_s);
   message.epoch = keyframe.epoch;
   message.camera = ToMessage(keyframe.camera);
   message.odom_from_world = ToTransformMessage(keyframe.odom_from_world);
   message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
-  message.id = record.id;
-  message.camera_from_world = ToTransformMessage(record.camera_from_world);
-  for (const LandmarkObservation& observation : record.observations) {
+  message.id = seen.id;
+  message.camera_from_world = ToTransformMessage(seen.camera_from_world);
+  for (const LandmarkObservation& observation : seen.observations) {
     message.observation_landmark.push_back(observation.landmark);
     for (int i = 0; i < 4; ++i)
       message.observation_pixels.push_back(i < 2 || observation.has_right ? observation.pixels[i]
@@ -89,10 +89,10 @@ KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
     message.observation_has_right.push_back(observation.has_right);
     message.observation_sigma.push_back(observation.sigma_px);
   }
-  for (const LandmarkRecord& landmark : record.landmarks) {
+  for (const Landmark& landmark : keyframe.landmarks) {
     message.landmark_id.push_back(landmark.id);
     for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
-    message.landmark_laplacian_sign.push_back(landmark.laplacian_sign);
+    message.landmark_laplacian_sign.push_back(landmark.keypoint.laplacian_sign);
     message.landmark_descriptors.insert(message.landmark_descriptors.end(),
                                         landmark.descriptor.begin(), landmark.descriptor.end());
   }
@@ -107,12 +107,12 @@ PlacedKeyframe FromMessage(const KeyframeStamped& message) {
       FromMessage(message.odom_from_world, "KeyframeStamped: odom_from_world");
   keyframe.base_from_camera =
       FromMessage(message.base_from_camera, "KeyframeStamped: base_from_camera");
-  keyframe.record.id = message.id;
-  keyframe.record.stamp_s = message.header.stamp.toSec();
-  keyframe.record.camera_from_world =
+  keyframe.keyframe.id = message.id;
+  keyframe.keyframe.stamp_s = message.header.stamp.toSec();
+  keyframe.keyframe.camera_from_world =
       FromMessage(message.camera_from_world, "KeyframeStamped: camera_from_world");
-  keyframe.record.observations = ImportObservations(message);
-  keyframe.record.landmarks = ImportLandmarks(message);
+  keyframe.keyframe.observations = ImportObservations(message);
+  keyframe.landmarks = ImportLandmarks(message);
   return keyframe;
 }
 

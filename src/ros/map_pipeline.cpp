@@ -119,7 +119,7 @@ void AdjustedMap::Add(const KeyframeStamped& message) {
     mounts_.Clear();
   }
   if (trajectory_output_.is_enabled())
-    mounts_.Add(keyframe.record.stamp_s, keyframe.base_from_camera);
+    mounts_.Add(keyframe.keyframe.stamp_s, keyframe.base_from_camera);
   newest_ = message.header.stamp;
   is_dirty_ = true;
   figures_.num_keyframes = map_.num_keyframes();

@@ -217,8 +217,8 @@ TEST(BundleAdjustment, PointCovarianceIsThatOfStereoForAPointSeenOnce) {
   problem.camera_from_world.resize(1);
   problem.pose_is_fixed = {1};
   problem.points = {{0.27, 0, 10}};  // half way between the eyes
-  BundleObservation observation{0, 0, ProjectStereo4(kBundleCamera, {}, problem.points[0]), true,
-                                0.5};
+  BundleObservation observation{
+      {ProjectStereo4(kBundleCamera, {}, problem.points[0]), true, 0.5}, 0, 0};
   problem.observations = {observation};
   BundleOptions options;
   options.with_point_covariance = true;
@@ -284,7 +284,7 @@ TEST(BundleAdjustment, LeavesAPointSeenOnceByTheLeftEyeAlone) {
   CorridorScene scene = MakeCorridor({});
   const int point = static_cast<int>(scene.problem.points.size());
   scene.problem.points.emplace_back(1, 0, 12);
-  BundleObservation observation{3, point, {600, 200, 0, 0}, false, 0.5};
+  BundleObservation observation{{{600, 200, 0, 0}, false, 0.5}, 3, point};
   scene.problem.observations.push_back(observation);
   for (const BundleSolver solver : {BundleSolver::kOwn, BundleSolver::kCeres}) {
     const BundleResult result = AdjustBundle(scene.problem, ExactOptions(solver));

@@ -18,7 +18,7 @@ const StereoCorrection kCorrection = MakeCorrection();
 
 TEST(BundleReprojection, ResidualCanBeCheckedByHand) {
   // 10 m ahead, 1 m to the right and 0.5 m below: (600 + 70.7, 180 + 35.35), disparity 38.178.
-  BundleObservation observation{0, 0, {670, 215, 632, 216}, true, 0.5};
+  BundleObservation observation{{{670, 215, 632, 216}, true, 0.5}, 0, 0};
   ReprojectionTerm term;
   ASSERT_TRUE(ReprojectionModel(kBundleCamera, {}, true)
                   .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 4),
@@ -27,7 +27,7 @@ TEST(BundleReprojection, ResidualCanBeCheckedByHand) {
 }
 
 TEST(BundleReprojection, RightPixelsDoNotCountWithoutThem) {
-  BundleObservation observation{0, 0, {670, 215, NAN, NAN}, false, 0.5};
+  BundleObservation observation{{{670, 215, NAN, NAN}, false, 0.5}, 0, 0};
   ReprojectionTerm term;
   ASSERT_TRUE(ReprojectionModel(kBundleCamera, kCorrection, true)
                   .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 4),
@@ -38,7 +38,7 @@ TEST(BundleReprojection, RightPixelsDoNotCountWithoutThem) {
 }
 
 TEST(BundleReprojection, APointBehindTheCameraIsALargeConstant) {
-  BundleObservation observation{0, 0, {670, 215, 632, 216}, true, 0.5};
+  BundleObservation observation{{{670, 215, 632, 216}, true, 0.5}, 0, 0};
   ReprojectionTerm term;
   EXPECT_FALSE(ReprojectionModel(kBundleCamera, {}, true)
                    .Linearize(observation, Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, -9),
@@ -54,7 +54,7 @@ TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
     const Eigen::Vector3d x(RandomGaussian(engine), RandomGaussian(engine),
                             5 + 20 * RandomUnit(engine));
     const Eigen::Vector3d point = pose.Inverse() * x;
-    const BundleObservation observation{0, 0, {600, 180, 590, 180}, true, 0.7};
+    const BundleObservation observation{{{600, 180, 590, 180}, true, 0.7}, 0, 0};
     const auto residual = [&](const Vector6d& pose_step, const Eigen::Vector3d& point_step,
                               const StereoCorrection::Coefficients& change) {
       const Rigid3 moved = BoxPlus(pose, pose_step);

@@ -74,8 +74,10 @@ inline void AddObservations(const CorridorOptions& options, int first_pose, int 
   for (int pose = first_pose; pose < last; ++pose) {
     const Eigen::Vector3d x = scene.camera_from_world[pose] * scene.points[point];
     if (!IsInView(options.correction, x)) break;
-    BundleObservation observation{pose, point, ProjectStereo4(kBundleCamera, options.correction, x),
-                                  true, std::max(options.noise_px, 1e-3)};
+    BundleObservation observation{{ProjectStereo4(kBundleCamera, options.correction, x), true,
+                                   std::max(options.noise_px, 1e-3)},
+                                  pose,
+                                  point};
     for (int i = 0; i < 4; ++i) {
       observation.pixels[i] += options.noise_px * RandomGaussian(engine);
     }

@@ -136,7 +136,7 @@ TEST(SelfCalibration, PointsTooFarToBePlacedDoNotTakeTheCovarianceAway) {
     problem.points.push_back(star);
     for (const int pose : {0, 1, 2}) {
       const Eigen::Vector3d x = scene.camera_from_world[pose].rotation * star;
-      BundleObservation seen{pose, point, ProjectStereo4(kBundleCamera, {}, x), false, 0.2};
+      BundleObservation seen{{ProjectStereo4(kBundleCamera, {}, x), false, 0.2}, pose, point};
       problem.observations.push_back(seen);
     }
   }

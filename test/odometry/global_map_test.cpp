@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "arfm_vo/mapping/placed_keyframe.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
@@ -16,29 +17,28 @@ const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kBundleCam
 constexpr int kNumKeyframes = 60;
 
 /// A drive along a corridor with drift, as an odometry tells of it, keyframe by keyframe.
-std::vector<KeyframeRecord> MakeRecords(const CorridorScene& scene) {
-  std::vector<KeyframeRecord> records(scene.camera_from_world.size());
+std::vector<PlacedKeyframe> MakeKeyframes(const CorridorScene& scene) {
+  std::vector<PlacedKeyframe> keyframes(scene.camera_from_world.size());
   std::vector<int> first_seen(scene.points.size(), kNumKeyframes);
   for (const BundleObservation& seen : scene.problem.observations) {
     first_seen[seen.point] = std::min(first_seen[seen.point], seen.pose);
   }
-  for (size_t k = 0; k < records.size(); ++k) {
-    records[k].id = static_cast<KeyframeId>(k);
-    records[k].stamp_s = static_cast<double>(k);
-    records[k].camera_from_world = scene.problem.camera_from_world[k];
+  for (size_t k = 0; k < keyframes.size(); ++k) {
+    keyframes[k].keyframe.id = static_cast<KeyframeId>(k);
+    keyframes[k].keyframe.stamp_s = static_cast<double>(k);
+    keyframes[k].keyframe.camera_from_world = scene.problem.camera_from_world[k];
   }
   for (const BundleObservation& seen : scene.problem.observations) {
-    records[seen.pose].observations.push_back(
-        {seen.point, seen.pixels, seen.has_right, seen.sigma_px});
+    keyframes[seen.pose].keyframe.observations.push_back({seen, seen.point});
   }
   for (size_t i = 0; i < scene.points.size(); ++i) {
     if (first_seen[i] == kNumKeyframes) continue;
-    LandmarkRecord landmark{};
+    Landmark landmark;
     landmark.id = static_cast<LandmarkId>(i);
     landmark.x_in_world = scene.problem.points[i];
-    records[first_seen[i]].landmarks.push_back(landmark);
+    keyframes[first_seen[i]].landmarks.push_back(landmark);
   }
-  return records;
+  return keyframes;
 }
 
 CorridorScene MakeDrive() {
@@ -58,9 +58,9 @@ std::vector<Rigid3> Drive(const CorridorScene& scene, const GlobalMapOptions& op
                           int* num_landmarks = nullptr) {
   GlobalMap map(kBundleCamera, options, kCalibration);
   std::vector<Rigid3> poses;
-  for (const KeyframeRecord& record : MakeRecords(scene)) {
-    map.Add(record);
-    poses.push_back(record.camera_from_world * map.MapFromOdom().Inverse());
+  for (const PlacedKeyframe& placed : MakeKeyframes(scene)) {
+    map.Add(placed.keyframe, placed.landmarks);
+    poses.push_back(placed.keyframe.camera_from_world * map.MapFromOdom().Inverse());
     if (map.num_keyframes() % interval != 0) continue;
     const auto update = map.Adjust();
     if (!update) return {};
@@ -104,14 +104,14 @@ TEST(GlobalMap, KeyframesThatMoveNoMoreStayWhereTheyAre) {
   options.learn_correction = false;
   GlobalMap map(kBundleCamera, options, kCalibration);
   std::map<KeyframeId, Rigid3> settled;
-  for (const KeyframeRecord& record : MakeRecords(scene)) {
-    map.Add(record);
+  for (const PlacedKeyframe& placed : MakeKeyframes(scene)) {
+    map.Add(placed.keyframe, placed.landmarks);
     if (map.num_keyframes() % 10 != 0) continue;
     const auto update = map.Adjust();
     ASSERT_TRUE(update);
     EXPECT_EQ(update->num_keyframes, map.num_keyframes());
     ASSERT_LE(update->keyframes.size(), 21u);  // those that move, and the one that holds them
-    EXPECT_EQ(update->keyframes.back().id, record.id);
+    EXPECT_EQ(update->keyframes.back().id, placed.keyframe.id);
     const auto& held = update->keyframes.front();
     if (settled.count(held.id)) {
       EXPECT_EQ(held.camera_from_world.translation, settled[held.id].translation);
@@ -121,8 +121,8 @@ TEST(GlobalMap, KeyframesThatMoveNoMoreStayWhereTheyAre) {
   }
 }
 
-/// Records of a drive in which the right image is displaced as `correction` says.
-std::vector<KeyframeRecord> MakeDisplacedRecords(double du_px, double dv_px) {
+/// Keyframes of a drive in which the right image is displaced as `correction` says.
+std::vector<PlacedKeyframe> MakeDisplacedKeyframes(double du_px, double dv_px) {
   CorridorOptions corridor;
   corridor.num_poses = kNumKeyframes;
   corridor.num_points = 80 * kNumKeyframes;
@@ -130,14 +130,14 @@ std::vector<KeyframeRecord> MakeDisplacedRecords(double du_px, double dv_px) {
   corridor.noise_px = 0.2;
   corridor.correction.coefficients_px[0] = du_px;
   corridor.correction.coefficients_px[kFirstRow] = dv_px;
-  return MakeRecords(MakeCorridor(corridor));
+  return MakeKeyframes(MakeCorridor(corridor));
 }
 
 TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenHoldsIt) {
   GlobalMap map(kBundleCamera, {}, kCalibration);
   std::vector<CorrectionBelief> told;
-  for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
-    map.Add(record);
+  for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
+    map.Add(placed.keyframe, placed.landmarks);
     if (!map.IsAdjustmentDue()) continue;
     const auto update = map.Adjust();
     ASSERT_TRUE(update);
@@ -159,8 +159,8 @@ TEST(GlobalMap, HoldsWhatAnEarlierDriveHasLearntUntilTurnsTellMore) {
   const auto drive = [](const CorrectionBelief& known) {
     GlobalMap map(kBundleCamera, {}, known);
     std::vector<MapUpdate> updates;
-    for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
-      map.Add(record);
+    for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
+      map.Add(placed.keyframe, placed.landmarks);
       if (!map.IsAdjustmentDue()) continue;
       if (auto update = map.Adjust()) updates.push_back(std::move(*update));
     }
@@ -183,8 +183,8 @@ TEST(GlobalMap, ForgetsACorrectionThatTheRowsContradict) {
   wrong.mean.coefficients_px[kFirstRow] = 0.8;
   GlobalMap map(kBundleCamera, {}, wrong);
   std::optional<MapUpdate> update;
-  for (const KeyframeRecord& record : MakeDisplacedRecords(0.3, -0.3)) {
-    map.Add(record);
+  for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
+    map.Add(placed.keyframe, placed.landmarks);
     if (map.IsAdjustmentDue()) update = map.Adjust();
   }
   ASSERT_TRUE(update);
@@ -194,10 +194,10 @@ TEST(GlobalMap, ForgetsACorrectionThatTheRowsContradict) {
 
 TEST(GlobalMap, RefusesAnOlderKeyframeAndBoundsThatLeaveNothing) {
   GlobalMap map(kBundleCamera, {}, kCalibration);
-  KeyframeRecord record;
-  record.id = 5;
-  map.Add(record);
-  EXPECT_THROW(map.Add(record), std::invalid_argument);
+  Keyframe keyframe;
+  keyframe.id = 5;
+  map.Add(keyframe, {});
+  EXPECT_THROW(map.Add(keyframe, {}), std::invalid_argument);
   GlobalMapOptions options;
   options.max_keyframes = 1;
   EXPECT_THROW(GlobalMap(kBundleCamera, options, kCalibration), std::invalid_argument);

@@ -53,13 +53,13 @@ class LoopDetectorTest : public ::testing::Test {
                    bool goes_on) {
     const int keyframe = static_cast<int>(map_.keyframes.size());
     if (!goes_on) first_of_place_ = next_landmark_;
-    map_.keyframes.push_back({keyframe, believed, {}, next_landmark_});
+    map_.keyframes.push_back({keyframe, 0, believed, {}, next_landmark_, {}});
     for (int i = 0; i < kPoints; ++i) {
       const Eigen::Vector3d x = camera_from_world * place[i].x_in_world;
       const LandmarkId id = first_of_place_ + i;
       if (!goes_on) {
         MapStore::Point& point = map_.landmarks[id];
-        point.x_in_map = believed.Inverse() * x;
+        point.x_in_world = believed.Inverse() * x;
         point.first_keyframe = keyframe;
         point.laplacian_sign = place[i].sign;
         point.descriptor = place[i].descriptor;

@@ -9,7 +9,7 @@ namespace {
 MapStore MakeStore(const std::vector<LandmarkId>& first) {
   MapStore store;
   for (int k = 0; k < static_cast<int>(first.size()); ++k) {
-    store.keyframes.push_back({k, Rigid3(), {}, first[k]});
+    store.keyframes.push_back({k, 0, Rigid3(), {}, first[k], {}});
     for (LandmarkId id = first[k]; id < first[k] + 3; ++id) {
       LandmarkObservation observation{};
       observation.landmark = id;

@@ -11,6 +11,13 @@ const StereoCamera kCamera{400, 400, 320, 240, 0.3, 640, 480};
 /// Optical axes seen from the base's, 1 m up.
 const Rigid3 kBaseFromCamera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0, 0, 1));
 
+Landmark LandmarkAt(int id, const Eigen::Vector3d& x_in_world) {
+  Landmark landmark;
+  landmark.id = id;
+  landmark.x_in_world = x_in_world;
+  return landmark;
+}
+
 /// Keyframes of a camera that goes forward `step_m` a keyframe, and says that it went `scale` times
 /// as far; all see the same exact points.
 PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t epoch, double z, double said_z) {
@@ -19,14 +26,15 @@ PlacedKeyframe MakeKeyframe(int id, double stamp_s, uint32_t epoch, double z, do
   keyframe.camera = kCamera;
   keyframe.odom_from_world = kBaseFromCamera;
   keyframe.base_from_camera = kBaseFromCamera;
-  keyframe.record.id = id;
-  keyframe.record.stamp_s = stamp_s;
-  keyframe.record.camera_from_world.translation = Eigen::Vector3d(0, 0, -said_z);
+  keyframe.keyframe.id = id;
+  keyframe.keyframe.stamp_s = stamp_s;
+  keyframe.keyframe.camera_from_world.translation = Eigen::Vector3d(0, 0, -said_z);
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector3d x((i % 10) - 4.5, (i / 10) - 2.5, 10 + (i % 7));
     const Eigen::Vector3d seen = kCamera.ProjectStereo(x - Eigen::Vector3d(0, 0, z));
-    keyframe.record.observations.push_back({i, {seen.x(), seen.y(), seen.z(), seen.y()}, true, 1});
-    if (id == 0) keyframe.record.landmarks.push_back({i, x, 1, {}});
+    keyframe.keyframe.observations.push_back(
+        {{{seen.x(), seen.y(), seen.z(), seen.y()}, true, 1}, i});
+    if (id == 0) keyframe.landmarks.push_back(LandmarkAt(i, x));
   }
   return keyframe;
 }
@@ -68,13 +76,14 @@ TEST(PlacedMap, ShowsLandmarksInTheMapWithTheDepthOfTheFirstSight) {
 /// As MakeKeyframe, but each keyframe sees points of its own and those of the one before.
 PlacedKeyframe MakeStep(int id) {
   PlacedKeyframe keyframe = MakeKeyframe(id, id, 1, 0.5 * id, 0.5 * id);
-  keyframe.record.observations.clear();
-  keyframe.record.landmarks.clear();
+  keyframe.keyframe.observations.clear();
+  keyframe.landmarks.clear();
   for (int i = 60 * std::max(0, id - 1); i < 60 * (id + 1); ++i) {
     const Eigen::Vector3d x((i % 10) - 4.5, (i % 60 / 10) - 2.5, 10 + (i % 7) + 0.5 * (i / 60));
     const Eigen::Vector3d seen = kCamera.ProjectStereo(x - Eigen::Vector3d(0, 0, 0.5 * id));
-    keyframe.record.observations.push_back({i, {seen.x(), seen.y(), seen.z(), seen.y()}, true, 1});
-    if (i >= 60 * id) keyframe.record.landmarks.push_back({i, x, 1, {}});
+    keyframe.keyframe.observations.push_back(
+        {{{seen.x(), seen.y(), seen.z(), seen.y()}, true, 1}, i});
+    if (i >= 60 * id) keyframe.landmarks.push_back(LandmarkAt(i, x));
   }
   return keyframe;
 }

@@ -318,7 +318,7 @@ TEST_F(SessionTest, AMapUpdateMovesTheTrajectoryAndNotThePose) {
   update.num_keyframes = 1;
   const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));  // 1 m ahead
   update.keyframes.push_back(
-      {first.keyframe->record.id, moved * first.keyframe->record.camera_from_world});
+      {first.keyframe->keyframe.id, moved * first.keyframe->keyframe.camera_from_world});
   session_.Offer(update, 7);  // of an epoch that is not
   EXPECT_NEAR(Step(0.2).odom_from_base.translation.x(), 0.2, 0.01);
   EXPECT_NEAR(session_.MakeTrajectory()[1].world_from_camera.translation.z(), 0.1, 0.01);
@@ -334,7 +334,7 @@ TEST_F(SessionTest, AnUpdateComesIntoForceAtItsFrameHoweverEarlyItIsOffered) {
   update.num_keyframes = 20;
   const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));
   update.keyframes.push_back(
-      {first.keyframe->record.id, moved * first.keyframe->record.camera_from_world});
+      {first.keyframe->keyframe.id, moved * first.keyframe->keyframe.camera_from_world});
   ASSERT_EQ(session_.TakeoverFrame(update), 3u);  // of frame 0, 1 + 20 / 10 later
   session_.Offer(update, 1);
   const auto adjusted_z = [&] {

@@ -37,17 +37,17 @@ StereoFrame MakeFrame() {
 
 PlacedKeyframe MakeKeyframe() {
   PlacedKeyframe keyframe;
-  keyframe.record.id = 4;
-  keyframe.record.stamp_s = 12.5;
-  keyframe.record.camera_from_world = kMotion;
-  keyframe.record.observations.push_back({1, {1, 2, 3, 4}, true, 0.5});
-  keyframe.record.observations.push_back({int64_t(1) << 40, {5, 6, kNaN, kNaN}, false, 1});
-  LandmarkRecord landmark;
+  keyframe.keyframe.id = 4;
+  keyframe.keyframe.stamp_s = 12.5;
+  keyframe.keyframe.camera_from_world = kMotion;
+  keyframe.keyframe.observations.push_back({{{1, 2, 3, 4}, true, 0.5}, 1});
+  keyframe.keyframe.observations.push_back({{{5, 6, kNaN, kNaN}, false, 1}, int64_t(1) << 40});
+  Landmark landmark;
   landmark.id = int64_t(1) << 40;
   landmark.x_in_world = {7, 8, 9};
-  landmark.laplacian_sign = -1;
+  landmark.keypoint.laplacian_sign = -1;
   for (int i = 0; i < 64; ++i) landmark.descriptor[i] = 0.5f * i;
-  keyframe.record.landmarks.push_back(landmark);
+  keyframe.landmarks.push_back(landmark);
   keyframe.epoch = 3;
   keyframe.camera = kCamera;
   keyframe.odom_from_world = kMotion.Inverse();
@@ -116,22 +116,22 @@ TEST(Conversions, AKeyframeSurvives) {
   const PlacedKeyframe keyframe = MakeKeyframe();
   const PlacedKeyframe back = FromMessage(ToMessage(keyframe));
   EXPECT_EQ(back.epoch, 3u);
-  EXPECT_EQ(back.record.id, 4);
-  EXPECT_EQ(back.record.stamp_s, 12.5);
-  ExpectEqual(back.record.camera_from_world, keyframe.record.camera_from_world);
+  EXPECT_EQ(back.keyframe.id, 4);
+  EXPECT_EQ(back.keyframe.stamp_s, 12.5);
+  ExpectEqual(back.keyframe.camera_from_world, keyframe.keyframe.camera_from_world);
   ExpectEqual(back.odom_from_world, keyframe.odom_from_world);
   ExpectEqual(back.base_from_camera, keyframe.base_from_camera);
-  ASSERT_EQ(back.record.observations.size(), 2u);
-  EXPECT_EQ(back.record.observations[0].pixels, Eigen::Vector4d(1, 2, 3, 4));
-  EXPECT_TRUE(back.record.observations[0].has_right);
-  EXPECT_EQ(back.record.observations[0].sigma_px, 0.5);
-  EXPECT_EQ(back.record.observations[1].landmark, int64_t(1) << 40);
-  EXPECT_FALSE(back.record.observations[1].has_right);
-  ASSERT_EQ(back.record.landmarks.size(), 1u);
-  EXPECT_EQ(back.record.landmarks[0].id, int64_t(1) << 40);
-  EXPECT_EQ(back.record.landmarks[0].x_in_world, Eigen::Vector3d(7, 8, 9));
-  EXPECT_EQ(back.record.landmarks[0].laplacian_sign, -1);
-  EXPECT_EQ(back.record.landmarks[0].descriptor, keyframe.record.landmarks[0].descriptor);
+  ASSERT_EQ(back.keyframe.observations.size(), 2u);
+  EXPECT_EQ(back.keyframe.observations[0].pixels, Eigen::Vector4d(1, 2, 3, 4));
+  EXPECT_TRUE(back.keyframe.observations[0].has_right);
+  EXPECT_EQ(back.keyframe.observations[0].sigma_px, 0.5);
+  EXPECT_EQ(back.keyframe.observations[1].landmark, int64_t(1) << 40);
+  EXPECT_FALSE(back.keyframe.observations[1].has_right);
+  ASSERT_EQ(back.landmarks.size(), 1u);
+  EXPECT_EQ(back.landmarks[0].id, int64_t(1) << 40);
+  EXPECT_EQ(back.landmarks[0].x_in_world, Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(back.landmarks[0].keypoint.laplacian_sign, -1);
+  EXPECT_EQ(back.landmarks[0].descriptor, keyframe.landmarks[0].descriptor);
 }
 
 TEST(Conversions, AMapUpdateSurvives) {

@@ -48,7 +48,7 @@ TEST(MatchPicture, ShowsNearBlueFarRedMatchedGreen) {
   frame.points.push_back({1, {100, 40, 99}, 0, 1, {0, 0, 60}, {0, 0}});
   OdometryUpdate update;
   update.pose.status = PoseStatus::kTracked;
-  update.observations.push_back({1, {150, 40, 120, 40}});
+  update.observations.push_back({{{150, 40, 120, 40}}, 1});
   const cv::Mat picture = DrawMatches(left, frame, update);
   ASSERT_EQ(picture.type(), CV_8UC3);
   ASSERT_EQ(picture.cols, 300);

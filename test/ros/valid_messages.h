@@ -140,14 +140,14 @@ inline MapUpdateStamped ValidUpdate() {
 inline KeyframeStamped ValidKeyframe() {
   PlacedKeyframe keyframe;
   keyframe.camera = kSmallCamera;
-  keyframe.record.id = 4;
-  keyframe.record.stamp_s = 12.5;
+  keyframe.keyframe.id = 4;
+  keyframe.keyframe.stamp_s = 12.5;
   for (int i = 0; i < 3; ++i) {
-    keyframe.record.observations.push_back({i, {20. + i, 20, 10. + i, 20}, true, 0.5});
-    keyframe.record.landmarks.emplace_back();
-    keyframe.record.landmarks.back().id = i;
-    keyframe.record.landmarks.back().x_in_world = {0.1 * i, 0, 2.5};
-    keyframe.record.landmarks.back().laplacian_sign = 1;
+    keyframe.keyframe.observations.push_back({{{20. + i, 20, 10. + i, 20}, true, 0.5}, i});
+    keyframe.landmarks.emplace_back();
+    keyframe.landmarks.back().id = i;
+    keyframe.landmarks.back().x_in_world = {0.1 * i, 0, 2.5};
+    keyframe.landmarks.back().keypoint.laplacian_sign = 1;
   }
   return ToMessage(keyframe);
 }

@@ -35,7 +35,7 @@ SimulatedRun RunSimulated(const StereoCamera& camera, const std::vector<Rigid3>&
     run.epoch = pose.epoch;
     run.skew = update.skew;
     run.num_keyframes += update.is_keyframe;
-    if (pose.keyframe) options.on_keyframe(pose.keyframe->record);
+    if (pose.keyframe) options.on_keyframe(*pose.keyframe);
     run.online.push_back(pose.odom_from_base);
     run.covariances.push_back(update.covariance_from_start);
   }

@@ -15,7 +15,7 @@ struct SimulatedRunOptions {
   double descriptor_noise = 0.3;  ///< ObservationSimulator::Describe
   double rate_hz = 10;
   bool is_calibrated = true;  ///< the odometry knows the right image's displacement
-  std::function<void(const KeyframeRecord&)> on_keyframe = [](const KeyframeRecord&) {};
+  std::function<void(const PlacedKeyframe&)> on_keyframe = [](const PlacedKeyframe&) {};
 };
 
 /// An odometry without images along a path, and how it did.

@@ -233,8 +233,8 @@ LoopCount CountLoops(double noise_px) {
   GlobalMap map(kCamera, options, {});
   LoopCount count;
   int planned = 2;
-  simulation.on_keyframe = [&](const KeyframeRecord& keyframe) {
-    map.Add(keyframe);
+  simulation.on_keyframe = [&](const PlacedKeyframe& keyframe) {
+    map.Add(keyframe.keyframe, keyframe.landmarks);
     if (!map.IsAdjustmentDue()) return;
     count.num_unplanned += map.num_keyframes() < planned;
     planned = NextAdjustment(map.num_keyframes(), options.NumMoving());

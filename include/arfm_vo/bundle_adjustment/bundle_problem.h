@@ -7,17 +7,13 @@
 #include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/reconstruction/stereo_observation.h"
 
 namespace arfm_vo {
 
 /// Where a pose saw a point.
-struct BundleObservation {
+struct BundleObservation : StereoObservation {
   int pose = 0, point = 0;  ///< indices into the problem
-  Eigen::Vector4d pixels;   ///< (u_left, v_left, u_right, v_right), px, as measured
-  bool has_right = true;    ///< false: u_right, v_right are not read
-  double sigma_px = 1;      ///< standard deviation of each coordinate; positive
-
-  int NumCoordinates() const { return has_right ? 4 : 2; }
 };
 
 /// What is known of the motion between two poses without points, such as a closed loop:

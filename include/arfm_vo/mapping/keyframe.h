@@ -7,13 +7,14 @@
 
 namespace arfm_vo {
 
-/// A frame that the map keeps: its pose, what it saw, and its left image for the patches.
+/// A frame that a map keeps: its pose and what it saw.
 struct Keyframe {
   KeyframeId id = 0;
   double stamp_s = 0;
   Rigid3 camera_from_world;
   LandmarkObservations observations;  ///< sorted by landmark
-  cv::Mat left;                       ///< grey, for templates of patches
+  LandmarkId first_landmark = 0;  ///< those that it saw first have this id and those that follow
+  cv::Mat left;                   ///< grey, for templates of patches; the local map's alone have it
 };
 
 }  // namespace arfm_vo

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arfm_vo/features/features.h"
+#include "arfm_vo/reconstruction/stereo_observation.h"
 
 namespace arfm_vo {
 
@@ -17,13 +18,13 @@ using KeyframeId = int32_t;
 struct Landmark {
   LandmarkId id = 0;
   Eigen::Vector3d x_in_world;
-  Eigen::Matrix3d covariance;  ///< of x_in_world, m^2, relative to the keyframes that see it
-
-  Eigen::Vector3d normal_in_world;  ///< of the surface, unit length
+  /// Of x_in_world, m^2, relative to the keyframes that see it.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d normal_in_world = Eigen::Vector3d::Zero();  ///< of the surface, unit length
 
   KeyframeId reference = 0;  ///< keyframe that holds the template of its patch
   Keypoint keypoint;         ///< in the reference's left image
-  std::array<float, 64> descriptor;
+  std::array<float, 64> descriptor{};
 
   int num_keyframes = 0;    ///< keyframes that observe it
   int num_missed = 0;       ///< frames in a row that should have seen it and did not
@@ -32,11 +33,8 @@ struct Landmark {
 };
 
 /// Where a frame saw a landmark.
-struct LandmarkObservation {
+struct LandmarkObservation : StereoObservation {
   LandmarkId landmark = 0;
-  Eigen::Vector4d pixels;  ///< (u_left, v_left, u_right, v_right), as measured
-  bool has_right = true;   ///< false: u_right, v_right hold nothing
-  double sigma_px = 1;     ///< standard deviation of each coordinate
 };
 using LandmarkObservations = std::vector<LandmarkObservation>;
 

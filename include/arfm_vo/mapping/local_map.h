@@ -54,8 +54,8 @@ class LocalMap {
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
   const Landmarks& landmarks() const { return landmarks_; }
   const Keyframe* FindKeyframe(KeyframeId id) const;
-  /// The id that the next new landmark will have; ids grow.
-  LandmarkId next_landmark() const { return next_landmark_; }
+  /// Those that no keyframe before the newest saw, sorted by id.
+  std::vector<Landmark> NewestLandmarks() const;
 
   /// Moves a keyframe or landmark to its refined place; unknown ids are passed over.
   void MoveKeyframe(KeyframeId id, const Rigid3& camera_from_world);

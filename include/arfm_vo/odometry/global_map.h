@@ -5,7 +5,7 @@
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/mapping/keyframe_record.h"
+#include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/loop_detector.h"
 #include "arfm_vo/odometry/map_store.h"
 
@@ -56,9 +56,9 @@ class GlobalMap {
   GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options,
             const CorrectionBelief& correction);
 
-  /// Takes the next keyframe, which must be newer than all before, and looks whether it closes a
-  /// loop.
-  void Add(const KeyframeRecord& keyframe);
+  /// Takes the next keyframe, which must be newer than all before, with the landmarks that none of
+  /// those saw, sorted by id, and looks whether it closes a loop.
+  void Add(const Keyframe& keyframe, const std::vector<Landmark>& landmarks);
 
   /// Whether the newest keyframe calls for an adjustment: the more rarely the more there are, and
   /// where a loop contradicts the path.
@@ -80,13 +80,13 @@ class GlobalMap {
   bool Knows(LandmarkId landmark) const { return store_.landmarks.count(landmark) > 0; }
 
  private:
-  LandmarkId FirstLandmark(const KeyframeRecord& keyframe) const;
+  LandmarkId FirstLandmark(const std::vector<Landmark>& landmarks) const;
   int FirstMoving() const;
   void Close(const Loop& loop);
   void BendOntoLoops();
   BundleProblem MakeProblem();
   void LearnCorrection(const BundleResult& result);
-  void CheckCorrection(const KeyframeRecord& keyframe);
+  void CheckCorrection(const Keyframe& keyframe);
   MapUpdate TakeResult(const BundleResult& result, bool is_bent);
 
   StereoCamera camera_;

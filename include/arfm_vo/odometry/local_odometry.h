@@ -5,8 +5,8 @@
 
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
-#include "arfm_vo/mapping/keyframe_record.h"
 #include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/frame_tracker.h"
 #include "arfm_vo/odometry/keyframe_archive.h"
 #include "arfm_vo/odometry/keyframe_policy.h"
@@ -59,9 +59,6 @@ class LocalOdometry {
   /// `predicted`, never required, is where it may be.
   OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images,
                          const std::optional<PredictedPose>& predicted);
-
-  /// The record of the newest keyframe, once: nothing where no keyframe was added since.
-  std::optional<KeyframeRecord> TakeKeyframe();
 
   /// Improves the local map by a global adjustment. The newest keyframe that both know stays where
   /// it is, so that the pose does not jump.

@@ -3,15 +3,14 @@
 #include <map>
 #include <vector>
 
-#include "arfm_vo/geometry/rigid3.h"
-#include "arfm_vo/mapping/landmark.h"
+#include "arfm_vo/mapping/keyframe.h"
 
 namespace arfm_vo {
 
 /// The keyframes and points of a world, as the global map keeps them.
 struct MapStore {
   struct Point {
-    Eigen::Vector3d x_in_map;
+    Eigen::Vector3d x_in_world;
     int num_observations = 0;
     int first_keyframe = 0;  ///< index of the keyframe that saw it first
     int last_keyframe = 0;
@@ -20,13 +19,7 @@ struct MapStore {
     int8_t laplacian_sign = 1;
     std::vector<float> descriptor;  ///< [64]; empty where loops are not looked for
   };
-  struct Keyframe {
-    KeyframeId id;
-    Rigid3 camera_from_map;
-    LandmarkObservations observations;
-    LandmarkId first_landmark;  ///< those that it saw first have this id and those that follow
-  };
-  std::vector<Keyframe> keyframes;
+  std::vector<Keyframe> keyframes;  ///< world: the map
   std::map<LandmarkId, Point> landmarks;
   int first_seeing = 0;  ///< keyframes before it are poses alone: what they saw is forgotten
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/mapping/placed_keyframe.h"
 #include "arfm_vo/odometry/global_map.h"
 #include "arfm_vo/odometry/map_frame.h"
 #include "arfm_vo/odometry/trajectory.h"

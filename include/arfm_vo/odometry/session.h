@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/mapping/placed_keyframe.h"
 #include "arfm_vo/odometry/base_covariance.h"
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/odometry/local_odometry.h"
@@ -88,6 +89,7 @@ class Session {
   void Bridge(const Rigid3& base_from_camera, SessionUpdate& pose);
   bool IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
+  PlacedKeyframe NewestKeyframe(const Rigid3& base_from_camera) const;
   void SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const;
 
   LocalOdometryOptions options_;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "arfm_vo/mapping/keyframe_record.h"
 #include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/odometry/trajectory.h"
 

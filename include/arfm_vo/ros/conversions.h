@@ -11,7 +11,8 @@
 
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/mapping/keyframe_record.h"
+#include "arfm_vo/mapping/map_update.h"
+#include "arfm_vo/mapping/placed_keyframe.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {

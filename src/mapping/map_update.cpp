@@ -1,4 +1,4 @@
-#include "arfm_vo/odometry/map_update.h"
+#include "arfm_vo/mapping/map_update.h"
 
 namespace arfm_vo {
 
