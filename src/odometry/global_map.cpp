@@ -1,10 +1,8 @@
 #include "arfm_vo/odometry/global_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/base/median.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 #include "arfm_vo/bundle_adjustment/pose_graph.h"
 #include "arfm_vo/pose/chi_square.h"
@@ -15,28 +13,6 @@ namespace {
 /// One held keyframe for so many that move keeps what it saw of the same landmarks.
 constexpr int kHeldShare = 5;
 
-/// The correction is known where its columns are known better than this all over the image: no
-/// observation is trusted more (LandmarkAlignerOptions::min_sigma_px).
-constexpr double kKnownSigmaPx = 0.1;
-
-/// The same observations place the points that the odometry then goes by, so their errors count
-/// again in each pose: so much larger a variance makes the poses' covariance consistent on
-/// simulated drives (simulated_run_test: NEES).
-constexpr double kTrackCorrelation = 3;
-
-/// No coefficient is known better: so much do drives with the same camera differ, whatever the
-/// statistics of one say (docs/self_calibration.md).
-constexpr double kModelSigmaPx = 0.05;
-
-/// Rows that are off by more than this, the median of a keyframe, in so many keyframes on end, say
-/// that the camera has changed.
-constexpr double kContradictionPx = 0.5;
-constexpr int kMaxContradictions = 10;
-
-/// The focal length of both images shows in turns: after so much more turning the correction is
-/// learnt anew from all keyframes.
-constexpr double kTellingTurn_rad = 0.5;
-
 /// Loops that agree with the path this far, by their own covariance, do not bend it.
 constexpr double kLoopProbability = 0.99;
 
@@ -44,12 +20,6 @@ constexpr double kAdjustmentGrowth = 1.5;
 
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
-
-bool IsKnown(const CorrectionBelief& correction, const StereoCamera& camera) {
-  const double model_px = CorrectionBelief::Isotropic(kModelSigmaPx).MaxColumnSigma(camera);
-  return correction.MaxColumnSigma(camera) <=
-         std::hypot(std::sqrt(kTrackCorrelation) * kKnownSigmaPx, model_px);
-}
 
 }  // namespace
 
@@ -65,9 +35,7 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
     : camera_(camera),
       options_(options),
       detector_(camera, options.loops),
-      prior_(correction),
-      correction_(correction),
-      is_learning_(options.learn_correction && !IsKnown(correction, camera)) {
+      learner_(camera, options.learn_correction, correction) {
   camera.Check();
   options.Check();
 }
@@ -75,14 +43,14 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
 void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landmarks) {
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
-  CheckCorrection(keyframe);
   const int newest = num_keyframes();
+  learner_.CheckRows(keyframe, newest);
   Keyframe kept = keyframe;
   kept.camera_from_world = keyframe.camera_from_world * map_from_odom_.Inverse();
   kept.first_landmark = FirstLandmark(landmarks);
   if (newest > 0) {
     const Rigid3& before = store_.keyframes.back().camera_from_world;
-    turned_rad_ += (kept.camera_from_world * before.Inverse()).Angle();
+    learner_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
   }
   store_.keyframes.push_back(std::move(kept));
   for (const Landmark& landmark : landmarks) {
@@ -100,13 +68,11 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
     landmark->second.last_keyframe = newest;
   }
   if (options_.loops.enabled) {
-    if (const auto loop = detector_.Detect(store_, correction_.mean)) Close(*loop);
+    if (const auto loop = detector_.Detect(store_, learner_.correction().mean)) Close(*loop);
   }
-  if (num_keyframes() <= options_.max_keyframes) {
-    is_learning_ |= options_.learn_correction && turned_rad_ > learnt_at_rad_ + kTellingTurn_rad;
-  }
+  if (num_keyframes() <= options_.max_keyframes) learner_.LearnFromTurns();
   if (num_keyframes() <= options_.NumMoving()) return;
-  is_learning_ = false;  // a drive that did not tell more so far: the rest would count twice
+  learner_.Hold();  // a drive that did not tell more so far: the rest would count twice
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
                 options_.loops.enabled);
@@ -119,27 +85,6 @@ int NextAdjustment(int num_keyframes, int num_moving) {
 
 bool GlobalMap::IsAdjustmentDue() const {
   return num_keyframes() >= next_adjustment_ || is_contradicted_;
-}
-
-/// Where the correction is held, the rows of the new observations must agree with it.
-void GlobalMap::CheckCorrection(const Keyframe& keyframe) {
-  if (is_learning_ || !options_.learn_correction) return;
-  std::vector<double> deviations;
-  for (const LandmarkObservation& observation : keyframe.observations) {
-    if (!observation.has_right) continue;
-    const Eigen::Vector2d left = observation.pixels.head<2>(), right = observation.pixels.tail<2>();
-    const double off = NominalRightPixel(camera_, correction_.mean, right).y() -
-                       NominalLeftPixel(camera_, correction_.mean, left).y();
-    deviations.push_back(std::abs(off));
-  }
-  if (deviations.empty()) return;
-  num_contradictions_ =
-      Median(std::move(deviations)) > kContradictionPx ? num_contradictions_ + 1 : 0;
-  if (num_contradictions_ < kMaxContradictions) return;
-  num_contradictions_ = 0;
-  first_telling_ = num_keyframes() - kMaxContradictions;
-  prior_ = correction_ = CorrectionBelief::OfCalibration(camera_);
-  is_learning_ = true;
 }
 
 int GlobalMap::FirstMoving() const {
@@ -206,8 +151,8 @@ void GlobalMap::BendOntoLoops() {
 BundleProblem GlobalMap::MakeProblem() {
   BundleProblem problem;
   problem.camera = camera_;
-  problem.correction = correction_.mean;
-  if (is_learning_) problem.correction_prior = prior_;
+  problem.correction = learner_.correction().mean;
+  problem.correction_prior = learner_.Prior();
   const int first_moving = FirstMoving();
   for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
@@ -230,7 +175,8 @@ BundleProblem GlobalMap::MakeProblem() {
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       is_tied |= landmark->second.first_keyframe < k;
       problem.observations.push_back(
-          {{observation.pixels, observation.has_right && k >= first_telling_, observation.sigma_px},
+          {{observation.pixels, observation.has_right && k >= learner_.first_telling(),
+            observation.sigma_px},
            pose,
            landmark->second.row});
     }
@@ -248,16 +194,6 @@ BundleProblem GlobalMap::MakeProblem() {
   return problem;
 }
 
-void GlobalMap::LearnCorrection(const BundleResult& result) {
-  const bool is_whole =
-      result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
-  if (!is_whole || result.correction_covariance.isZero(0)) return;
-  correction_ = {result.correction, kTrackCorrelation * result.correction_covariance};
-  correction_.covariance.diagonal().array() += kModelSigmaPx * kModelSigmaPx;
-  is_learning_ = !IsKnown(correction_, camera_);
-  learnt_at_rad_ = turned_rad_;
-}
-
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
   next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
@@ -268,7 +204,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (problem.observations.empty()) return std::nullopt;
   const BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
-  if (is_learning_) LearnCorrection(result);
+  learner_.Learn(result);
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
   map_from_odom_ = store_.keyframes.back().camera_from_world.Inverse() * newest_from_odom;
@@ -278,7 +214,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
 MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   MapUpdate update;
   update.num_keyframes = num_keyframes();
-  update.correction = correction_;
+  update.correction = learner_.correction();
   const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
   for (int k = 0; k < num_keyframes(); ++k) {
     Keyframe& keyframe = store_.keyframes[k];

@@ -6,6 +6,7 @@
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
+#include "arfm_vo/odometry/correction_learner.h"
 #include "arfm_vo/odometry/loop_detector.h"
 #include "arfm_vo/odometry/map_store.h"
 
@@ -47,9 +48,7 @@ struct GlobalMapOptions {
 int NextAdjustment(int num_keyframes, int num_moving);
 
 /// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
-/// Adjustments find the stereo correction too until it is known better than any single observation
-/// is trusted; from then on it is held, and learnt anew only where the rows contradict it, or where
-/// the camera has turned so much more that the focal length shows.
+/// Adjustments find the stereo correction too as long as that is to be learnt (CorrectionLearner).
 class GlobalMap {
  public:
   /// `correction`: what is known of it before.
@@ -85,8 +84,6 @@ class GlobalMap {
   void Close(const Loop& loop);
   void BendOntoLoops();
   BundleProblem MakeProblem();
-  void LearnCorrection(const BundleResult& result);
-  void CheckCorrection(const Keyframe& keyframe);
   MapUpdate TakeResult(const BundleResult& result, bool is_bent);
 
   StereoCamera camera_;
@@ -98,13 +95,7 @@ class GlobalMap {
   size_t num_adjusted_loops_ = 0;  ///< the first ones, that an adjustment has taken in
   bool is_contradicted_ = false;   ///< by a loop closed since the last adjustment
   int next_adjustment_ = 2;        ///< at this number of keyframes
-  CorrectionBelief prior_;         ///< of the correction, without the keyframes
-  CorrectionBelief correction_;    ///< with them
-  bool is_learning_;               ///< the correction is free
-  double turned_rad_ = 0;          ///< sum over the keyframes' rotations
-  double learnt_at_rad_ = 0;       ///< when the correction was learnt
-  int num_contradictions_ = 0;     ///< keyframes in a row whose rows contradict the correction
-  int first_telling_ = 0;          ///< right images of keyframes before are of another correction
+  CorrectionLearner learner_;
 };
 
 }  // namespace arfm_vo
