@@ -261,9 +261,9 @@ def read_rule(config):
     keys = {}
     for line in open(os.path.join(os.path.dirname(__file__), "..", "config", config)):
         key, _, value = line.partition(":")
-        if key.strip() in ("rule", "fixed_ratio", "normalisation"):
+        if key.strip() in ("rule", "fixed_ratio"):
             keys[key.strip()] = value.strip()
-    return f"{keys['rule']} ({keys['fixed_ratio'] if keys['rule'] == 'fixed' else keys['normalisation']})"
+    return f"{keys['rule']} ({keys['fixed_ratio'] if keys['rule'] == 'fixed' else PAPER_RULE})"
 
 
 def answer_adaptive(verdicts, all_runs):

@@ -109,17 +109,10 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
       }
     }
   }
-  const bool with_pose = options.with_newest_pose_covariance && structure.num_free_poses() > 0;
   const int num_coefficients = selection.num_free_coefficients();
-  if (num_coefficients == 0 && !with_pose) return;
+  if (num_coefficients == 0) return;
   if (!FactorizeHardlyDamped(equations)) return;
   const int size = equations.reduced_size();
-  if (with_pose) {
-    const int first = size - num_coefficients - 6;
-    const Matrix6d block = equations.InverseColumns(first, 6).middleRows<6>(first);
-    result.newest_pose_covariance = factor * (block + block.transpose()) / 2;
-  }
-  if (num_coefficients == 0) return;
   const CornerMatrix corner = equations.InverseColumns(size - num_coefficients, num_coefficients)
                                   .bottomRows(num_coefficients);
   result.correction_covariance = factor * (corner + corner.transpose()) / 2;
@@ -143,8 +136,7 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
     result.is_inlier[i] =
         selection.point_is_used[observation.point] && squared[i] <= bounds[observation.has_right];
   }
-  if (options.with_point_covariance || options.with_newest_pose_covariance ||
-      selection.correction_is_free) {
+  if (options.with_point_covariance || selection.correction_is_free) {
     result.covariance_factor = CovarianceFactor(problem, selection, options, freedom, squared);
     FindCovariances(problem, selection, structure, options, equations, result);
   }

@@ -4,7 +4,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/image/integral_image.h"
-#include "fast_surf.h"
+#include "surf_stages.h"
 
 namespace arfm_vo {
 
@@ -19,7 +19,7 @@ class Surf::Workspace {
   }
 
   IntegralImage integral;
-  FastMaximumFinder finder;
+  MaximumFinder finder;
 
  private:
   cv::Mat smooth_;
@@ -41,17 +41,10 @@ Features Surf::Extract(const cv::Mat& grey) {
   workspace_->integral.Compute(options_.smooth ? workspace_->Smooth(grey) : grey);
   Features features;
   const IntegralImage& integral = workspace_->integral;
-  if (options_.use_fast_path) {
-    FastMaximumFinder& finder = workspace_->finder;
-    const auto maxima = finder.Find(integral, options_.detector, options_.threads);
-    features.keypoints = SelectKeypoints(integral, finder.scale_space(), maxima, options_.detector);
-    DescribeFast(integral, options_.descriptor, options_.threads, features);
-  } else {
-    const ScaleSpace space = ComputeScaleSpace(integral, options_.detector);
-    const auto maxima = FindMaxima(space, grey.size(), options_.detector);
-    features.keypoints = SelectKeypoints(integral, space, maxima, options_.detector);
-    SurfDescriptor(options_.descriptor).Describe(integral, features);
-  }
+  MaximumFinder& finder = workspace_->finder;
+  const auto maxima = finder.Find(integral, options_.detector, options_.threads);
+  features.keypoints = SelectKeypoints(integral, finder.scale_space(), maxima, options_.detector);
+  DescribeKeypoints(integral, options_.descriptor, options_.threads, features);
   return features;
 }
 

@@ -1,6 +1,7 @@
 #include "arfm_vo/matching/exact_matcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
@@ -19,12 +20,13 @@ bool IsFinite(const float* descriptor) {
   return std::isfinite(sum);
 }
 
-std::vector<Group> SplitIntoGroups(const Features& features, bool use_laplacian_sign) {
-  std::vector<Group> groups(use_laplacian_sign ? 2 : 1);
+/// Dark blobs on bright ground, and bright ones on dark.
+std::array<Group, 2> SplitIntoGroups(const Features& features) {
+  std::array<Group, 2> groups;
   for (int i = 0; i < features.size(); ++i) {
     if (!IsFinite(features.descriptors.ptr<float>(i))) continue;
     const bool is_dark = features.keypoints[i].laplacian_sign > 0;
-    groups[use_laplacian_sign && is_dark].push_back(i);
+    groups[is_dark].push_back(i);
   }
   return groups;
 }
@@ -63,7 +65,7 @@ void Scatter(const Scores& scores, const Group& from, const Group& to,
 }
 
 void SearchGroup(const cv::Mat& first, const Group& first_group, const cv::Mat& second,
-                 const Group& second_group, bool use_simd, TwoWayNeighbours& neighbours) {
+                 const Group& second_group, TwoWayNeighbours& neighbours) {
   if (first_group.empty() || second_group.empty()) return;
   std::vector<const float*> rows;
   for (const int i : first_group) rows.push_back(first.ptr<float>(i));
@@ -74,7 +76,7 @@ void SearchGroup(const cv::Mat& first, const Group& first_group, const cv::Mat& 
                            panels.data(),   static_cast<int>(second_group.size()),
                            of_rows.Spans(), of_columns.Spans()};
   static const bool can_search_avx2 = CanSearchExactlyAvx2();
-  if (use_simd && can_search_avx2) {
+  if (can_search_avx2) {
     SearchExactlyAvx2(search);
   } else {
     SearchExactlyBaseline(search);
@@ -93,20 +95,19 @@ void CheckDescriptors(const Features& features) {
 
 }  // namespace
 
-TwoWayNeighbours FindNeighboursExactly(const Features& first, const Features& second,
-                                       const ExactMatcherOptions& options) {
+TwoWayNeighbours FindNeighboursExactly(const Features& first, const Features& second) {
   CheckDescriptors(first);
   CheckDescriptors(second);
   TwoWayNeighbours neighbours;
   neighbours.of_first.resize(first.size());
   neighbours.of_second.resize(second.size());
-  const auto first_groups = SplitIntoGroups(first, options.use_laplacian_sign);
-  const auto second_groups = SplitIntoGroups(second, options.use_laplacian_sign);
+  const auto first_groups = SplitIntoGroups(first);
+  const auto second_groups = SplitIntoGroups(second);
   // The groups are disjoint, so that threads write to different elements.
   cv::parallel_for_(cv::Range(0, static_cast<int>(first_groups.size())), [&](const cv::Range& r) {
     for (int g = r.start; g < r.end; ++g) {
       SearchGroup(first.descriptors, first_groups[g], second.descriptors, second_groups[g],
-                  options.use_simd, neighbours);
+                  neighbours);
     }
   });
   return neighbours;

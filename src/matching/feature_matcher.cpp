@@ -27,7 +27,6 @@ void Keep(Matches& matches, IsWanted&& is_wanted) {
 }  // namespace
 
 void FeatureMatcherOptions::Check() const {
-  exact.Check();
   flann.Check();
   selection.Check();
   epipolar.Check();
@@ -46,7 +45,7 @@ Matches FeatureMatcher::MatchFeatures(const Features& first, const Features& sec
   const bool uses_ransac =
       strategy == MatchStrategy::kSurfRansac || strategy == MatchStrategy::kSurfFlannRansac;
   Matches matches = SelectMatches(uses_flann ? FindNeighboursByFlann(first, second, options_.flann)
-                                             : FindNeighboursExactly(first, second, options_.exact),
+                                             : FindNeighboursExactly(first, second),
                                   ratio_threshold, options_.selection);
   if (options_.max_row_difference_px > 0) {
     Keep(matches, [&](size_t i) {

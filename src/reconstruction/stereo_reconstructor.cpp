@@ -35,10 +35,6 @@ void StereoReconstructionOptions::Check() const {
   matcher.Check();
   threshold.Check();
   slant.Check();
-  Require(
-      threshold.rule != ThresholdRule::kFalseMatches,
-      "threshold.rule false_matches learns from searches over the whole image and is not offered "
-      "here: fixed or variance");
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
   Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
   Require(sigma_inflation > 0, "sigma_inflation must be positive");
@@ -50,7 +46,6 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
     : camera_(camera),
       options_(options),
       matcher_(options.matcher),
-      threshold_(options.threshold),
       aligner_(options.alignment, options.slant),
       row_model_(camera, CorrectionBelief::OfCalibration(camera)),
       row_search_(options.row_search) {

@@ -47,16 +47,13 @@ void OpenCvBruteForceBothWays(benchmark::State& state) {
 }
 BENCHMARK(OpenCvBruteForceBothWays)->Apply(Sizes);
 
-void Exact(benchmark::State& state, bool use_laplacian_sign, bool use_simd) {
+void Exact(benchmark::State& state) {
   const Pair pair(state);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        FindNeighboursExactly(pair.first, pair.second, {use_laplacian_sign, use_simd}));
+    benchmark::DoNotOptimize(FindNeighboursExactly(pair.first, pair.second));
   }
 }
-BENCHMARK_CAPTURE(Exact, sign_split, true, true)->Apply(Sizes);
-BENCHMARK_CAPTURE(Exact, all_with_all, false, true)->Apply(Sizes);
-BENCHMARK_CAPTURE(Exact, all_with_all_portable_kernel, false, false)->Apply(Sizes);
+BENCHMARK(Exact)->Apply(Sizes);
 
 }  // namespace
 }  // namespace arfm_vo

@@ -7,20 +7,10 @@
 #include <limits>
 #include <string>
 
-#include "arfm_vo/pose/chi_square.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
 namespace {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-Vector6d StepBetween(const Rigid3& truth, const Rigid3& estimate) {
-  const Rigid3 difference = estimate * truth.Inverse();
-  Vector6d step;
-  step << LogSO3(difference.rotation), difference.translation;
-  return step;
-}
 
 double WorstPoseError(const CorridorScene& scene, const BundleResult& result) {
   double worst = 0;
@@ -83,7 +73,6 @@ TEST(BundleAdjustment, OwnSolverAgreesWithCeres) {
     if (loss != LossKind::kHuber) scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
     BundleOptions options = ExactOptions(BundleSolver::kOwn);
     options.loss = loss;
-    options.with_newest_pose_covariance = true;
     const BundleResult own = AdjustBundle(scene.problem, options);
     options.solver = BundleSolver::kCeres;
     const BundleResult ceres = AdjustBundle(scene.problem, options);
@@ -188,27 +177,6 @@ TEST(BundleAdjustment, MeasuresTheScaleOfTheResiduals) {
   CorridorScene scene = MakeCorridor({});
   for (BundleObservation& observation : scene.problem.observations) observation.sigma_px /= 2;
   EXPECT_NEAR(AdjustBundle(scene.problem, {}).scale, 2, 0.15);
-}
-
-TEST(BundleAdjustment, NewestPoseCovarianceIsHonest) {
-  constexpr int kTrials = 150;
-  double sum = 0;
-  CorridorOptions corridor;
-  corridor.num_poses = 5;
-  corridor.num_points = 80;
-  BundleOptions options;
-  options.with_newest_pose_covariance = true;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    corridor.seed = trial + 1;
-    const CorridorScene scene = MakeCorridor(corridor);
-    const BundleResult result = AdjustBundle(scene.problem, options);
-    ASSERT_TRUE(result.newest_pose_covariance);
-    const Vector6d step =
-        StepBetween(scene.camera_from_world.back(), result.camera_from_world.back());
-    sum += step.dot(result.newest_pose_covariance->ldlt().solve(step));
-  }
-  EXPECT_GT(sum, ChiSquareQuantile(6 * kTrials, 0.025));
-  EXPECT_LT(sum, ChiSquareQuantile(6 * kTrials, 0.975));
 }
 
 TEST(BundleAdjustment, PointCovarianceIsThatOfStereoForAPointSeenOnce) {

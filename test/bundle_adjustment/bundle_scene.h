@@ -21,6 +21,14 @@ inline Eigen::Vector3d RandomGaussian3(RandomEngine& engine) {
   return {x, y, RandomGaussian(engine)};
 }
 
+/// The step (rad, m) of BoxPlus that takes one pose to the other.
+inline Eigen::Matrix<double, 6, 1> StepBetween(const Rigid3& truth, const Rigid3& estimate) {
+  const Rigid3 difference = estimate * truth.Inverse();
+  Eigen::Matrix<double, 6, 1> step;
+  step << LogSO3(difference.rotation), difference.translation;
+  return step;
+}
+
 struct CorridorOptions {
   int num_poses = 8;
   int num_points = 400;

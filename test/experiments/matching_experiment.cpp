@@ -1,5 +1,6 @@
 // Matches and right ones on image pairs with truth: by ratio threshold, by rule of the threshold,
 // by the paper's strategy and by feature method. CSV on stdout, pictures on demand.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,9 +10,10 @@
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/datasets/kitti_sequence.h"
-#include "arfm_vo/matching/adaptive_threshold.h"
 #include "arfm_vo/matching/feature_matcher.h"
+#include "arfm_vo/matching/ratio_threshold.h"
 #include "arfm_vo/odometry/stereo_frontend.h"
+#include "experiments/false_match_threshold.h"
 #include "experiments/feature_method.h"
 #include "experiments/judged_pair.h"
 #include "experiments/match_drawing.h"
@@ -110,14 +112,23 @@ void PrintCurve(const SurfPair& surf) {
   }
 }
 
-AdaptiveThreshold MakeRule(ThresholdRule rule, VarianceNormalisation normalisation) {
-  AdaptiveThresholdOptions options;
-  options.rule = rule;
-  options.normalisation = normalisation;
-  return AdaptiveThreshold(options);
+double PapersRatio(const GreyStatistics& grey) {
+  RatioThresholdOptions options;
+  options.rule = ThresholdRule::kVariance;
+  return RatioThreshold(grey, options);
 }
 
-void PrintRules(const JudgedPair& pair, const SurfPair& surf, AdaptiveThreshold& learner) {
+/// The variance of the image in other scalings that the paper may mean.
+struct OtherScaling {
+  const char* name;
+  double divisor;
+};
+constexpr OtherScaling kOtherScalings[] = {
+    {"variance_over_10000", 10000},                  // grey levels as if per cent
+    {"variance_over_127_5_squared", 127.5 * 127.5},  // in [-1, 1]
+    {"variance_over_255_squared", 255.0 * 255.0}};   // in [0, 1]: at most 0.25
+
+void PrintRules(const JudgedPair& pair, const SurfPair& surf, FalseMatchThreshold& learner) {
   Row row{"rule"};
   for (const double ratio : {0.6, 0.7, 0.8, 0.9}) {
     row.ratio = ratio;
@@ -125,14 +136,18 @@ void PrintRules(const JudgedPair& pair, const SurfPair& surf, AdaptiveThreshold&
     surf.PrintSelected(row);
   }
   const GreyStatistics grey = ComputeGreyStatistics(pair.first);
-  for (const auto& [name, normalisation] : ListNames(VarianceNormalisation{})) {
-    row.rule = name;
-    row.ratio = MakeRule(ThresholdRule::kVariance, normalisation).Ratio(grey);
+  row.rule = "variance_over_mean_squared";
+  row.ratio = PapersRatio(grey);
+  surf.PrintSelected(row);
+  for (const OtherScaling& scaling : kOtherScalings) {
+    const RatioThresholdOptions limits;
+    row.rule = scaling.name;
+    row.ratio = std::clamp(grey.variance / scaling.divisor, limits.min_ratio, limits.max_ratio);
     surf.PrintSelected(row);
   }
   if (!pair.is_stereo) return;
   row.rule = "false_matches";
-  row.ratio = learner.Ratio(grey);
+  row.ratio = learner.Ratio();
   surf.PrintSelected(row);
   learner.Learn(surf.RateMatches(), surf.SeenShare());
 }
@@ -155,8 +170,7 @@ Matches PrintStrategy(const SurfPair& surf, const std::string& name, MatchStrate
 }
 
 void PrintStrategies(const JudgedPair& pair, const SurfPair& surf, const std::string& pictures) {
-  const double adaptive =
-      MakeRule(ThresholdRule::kVariance, {}).Ratio(ComputeGreyStatistics(pair.first));
+  const double adaptive = PapersRatio(ComputeGreyStatistics(pair.first));
   const auto save = [&](const std::string& name, const Matches& matches) {
     if (pictures.empty()) return;
     SavePicture(pictures + "/" + pair.set + "_" + name + ".jpg",
@@ -204,7 +218,7 @@ void Run(const Experiment& experiment) {
   std::puts("experiment,set,pair,method,strategy,rule,ratio,points,matches,correct,ms");
   for (const std::string& folder : experiment.folders) {
     const std::vector<JudgedPair> pairs = ReadJudgedPairs(folder, experiment.max_pairs);
-    AdaptiveThreshold learner = MakeRule(ThresholdRule::kFalseMatches, {});
+    FalseMatchThreshold learner;
     SurfOptions options;
     options.detector.target_keypoints = experiment.num_points;
     for (const JudgedPair& pair : pairs) {

@@ -49,7 +49,6 @@ struct BundleOptions {
   int num_threads = 1;                 ///< that adjust
   double max_time_share = 1;           ///< of the wall time; a thread sleeps in between (Pacer)
   bool with_point_covariance = false;  ///< of the landmarks, as a result
-  bool with_newest_pose_covariance = false;  ///< of its pose, as a result
 
   void Check() const;
   template <class Visitor>
@@ -99,8 +98,6 @@ struct BundleResult {
       Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>::Zero();
   /// [points] m^2, given the poses; zero for points not used. Empty unless asked for.
   std::vector<Eigen::Matrix3d> point_covariances;
-  /// Of the step of BoxPlus of the last free pose, (rad, m). Nothing unless asked for.
-  std::optional<Eigen::Matrix<double, 6, 6>> newest_pose_covariance;
 
   int num_iterations = 0;
   double initial_cost = 0, final_cost = 0;

@@ -14,8 +14,7 @@ struct SurfOptions {
   SurfDescriptorOptions descriptor;
   /// Smooth the image by (1 2 1) / 4 before: box filters and wavelets of whole pixels alias.
   bool smooth = true;
-  bool use_fast_path = true;  ///< false: the readable reference, same result
-  int threads = 1;            ///< for one image, with the fast path
+  int threads = 1;  ///< for one image
 
   /// Throws std::invalid_argument naming the key that is out of range.
   void Check() const;

@@ -35,15 +35,6 @@ struct SurfDetectorOptions {
   }
 };
 
-/// The scale space of the fast-Hessian detector (Bay, Ess, Tuytelaars, Van Gool, SURF, CVIU 2008),
-/// the readable reference.
-ScaleSpace ComputeScaleSpace(const IntegralImage& integral, const SurfDetectorOptions& options);
-
-/// Maxima of 3 x 3 x 3 neighbours, octave by octave, layer by layer, row by row. `image` is the
-/// size of the image.
-std::vector<ScaleSpaceMaximum> FindMaxima(const ScaleSpace& space, const cv::Size& image,
-                                          const SurfDetectorOptions& options);
-
 /// The keypoints of the maxima that the budget chooses, with position and scale from the quadratic
 /// fit of Brown and Lowe (BMVC 2002), ordered by row, then column; angles are 0.
 std::vector<Keypoint> SelectKeypoints(const IntegralImage& integral, const ScaleSpace& space,

@@ -26,7 +26,6 @@ inline std::vector<std::pair<std::string, MatchStrategy>> ListNames(MatchStrateg
 
 struct FeatureMatcherOptions {
   MatchStrategy strategy = MatchStrategy::kSurfFlannRansac;  ///< of stereo
-  ExactMatcherOptions exact;
   FlannMatcherOptions flann;
   MatchSelectionOptions selection;
   EpipolarRansacOptions epipolar;
@@ -50,7 +49,7 @@ class FeatureMatcher {
   /// Throws std::invalid_argument where an option is wrong.
   explicit FeatureMatcher(const FeatureMatcherOptions& options);
 
-  /// `ratio_threshold`: nearest over second-nearest distance, see AdaptiveThreshold. Empty where a
+  /// `ratio_threshold`: nearest over second-nearest distance, see RatioThreshold. Empty where a
   /// strategy with RANSAC finds no consensus.
   Matches MatchFeatures(const Features& first, const Features& second,
                         double ratio_threshold) const;

@@ -7,17 +7,17 @@
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/slant_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
-#include "arfm_vo/matching/adaptive_threshold.h"
 #include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/guided_matcher.h"
+#include "arfm_vo/matching/ratio_threshold.h"
 #include "arfm_vo/reconstruction/row_model.h"
 #include "arfm_vo/reconstruction/row_search.h"
 #include "arfm_vo/reconstruction/stereo_point.h"
 
 namespace arfm_vo {
 
-inline AdaptiveThresholdOptions FixedThreshold(double ratio) {
-  AdaptiveThresholdOptions options;
+inline RatioThresholdOptions FixedThreshold(double ratio) {
+  RatioThresholdOptions options;
   options.fixed_ratio = ratio;
   return options;
 }
@@ -27,7 +27,7 @@ struct StereoReconstructionOptions {
   StereoSearchOptions search;
   MatchSelectionOptions selection;
   FeatureMatcherOptions matcher;  ///< the paper's four strategies, over the whole image
-  AdaptiveThresholdOptions threshold = FixedThreshold(0.9);
+  RatioThresholdOptions threshold = FixedThreshold(0.9);
   bool refine_subpixel = true;  ///< align patches, rather than trust the detector's positions
   PatchAlignmentOptions alignment;
   SlantAlignmentOptions slant;
@@ -70,7 +70,9 @@ class StereoReconstructor {
   StereoPoints Reconstruct(const Features& left, const Features& right, const StereoImages& images);
 
   /// The ratio (nearest / second-nearest distance) that matches of an image may have.
-  double RatioThreshold(const GreyStatistics& grey) const { return threshold_.Ratio(grey); }
+  double RatioThreshold(const GreyStatistics& grey) const {
+    return arfm_vo::RatioThreshold(grey, options_.threshold);
+  }
 
   const RowModel& row_model() const { return row_model_; }
   /// Share of what was found in both images of the last pair that lies on the rows it should.
@@ -106,7 +108,6 @@ class StereoReconstructor {
   StereoCamera camera_;
   StereoReconstructionOptions options_;
   FeatureMatcher matcher_;
-  AdaptiveThreshold threshold_;
   SlantAligner aligner_;
   RowModel row_model_;
   RowSearch row_search_;

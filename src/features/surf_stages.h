@@ -14,10 +14,11 @@ inline IntegralView View(const IntegralImage& integral) {
   return {integral.row(0), integral.stride(), integral.rows(), integral.cols()};
 }
 
-/// The vectorised detector: the same maxima as the reference's, to the bit. Keeps its memory.
-class FastMaximumFinder {
+/// The fast-Hessian detector (Bay 2008, section 3). Keeps its memory.
+class MaximumFinder {
  public:
-  /// The scale-space maxima of the image, in the reference's order.
+  /// Maxima of 3 x 3 x 3 neighbours of the scale space, octave by octave, layer by layer, row by
+  /// row.
   std::vector<ScaleSpaceMaximum> Find(const IntegralImage& integral,
                                       const SurfDetectorOptions& options, int threads);
   /// Of the last image.
@@ -29,8 +30,11 @@ class FastMaximumFinder {
   ScaleSpace space_;
 };
 
-/// The vectorised descriptor: fills descriptors and angles as the reference does.
-void DescribeFast(const IntegralImage& integral, const SurfDescriptorOptions& options, int threads,
+/// SURF-64 (Bay 2008, section 4): Haar wavelet responses of a window of some 20 s around a keypoint
+/// of scale s, turned to its orientation, summed in 4 x 4 regions as (sum dx, sum dy, sum |dx|,
+/// sum |dy|). Samples beyond the image are taken at its border. Fills the descriptors of
+/// features.keypoints, and their angles (0 where upright).
+void DescribeKeypoints(const IntegralImage& integral, const SurfDescriptorOptions& options, int threads,
                   Features& features);
 
 }  // namespace arfm_vo

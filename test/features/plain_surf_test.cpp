@@ -8,6 +8,7 @@
 
 #include "arfm_vo/features/surf.h"
 #include "base/shared_data.h"
+#include "features/plain_surf.h"
 
 namespace arfm_vo {
 namespace {
@@ -28,18 +29,16 @@ cv::Mat MakeScene(int width, int height) {
   return grey;
 }
 
-Features ExtractWith(const cv::Mat& grey, bool use_fast_path, bool upright, int threads) {
+Features ExtractWith(const cv::Mat& grey, int threads) {
   SurfOptions options;
-  options.use_fast_path = use_fast_path;
-  options.descriptor.upright = upright;
   options.threads = threads;
   return Surf(options).Extract(grey);
 }
 
-void ExpectSame(const Features& plain, const Features& fast) {
-  ASSERT_EQ(plain.size(), fast.size());
+void ExpectSame(const Features& plain, const Features& found) {
+  ASSERT_EQ(plain.size(), found.size());
   for (int i = 0; i < plain.size(); ++i) {
-    const Keypoint &a = plain.keypoints[i], &b = fast.keypoints[i];
+    const Keypoint &a = plain.keypoints[i], &b = found.keypoints[i];
     ASSERT_EQ(a.x, b.x) << i;
     ASSERT_EQ(a.y, b.y) << i;
     ASSERT_EQ(a.scale, b.scale) << i;
@@ -48,57 +47,59 @@ void ExpectSame(const Features& plain, const Features& fast) {
     ASSERT_NEAR(a.angle, b.angle, 1e-5) << i;
   }
   if (plain.size() > 0) {
-    EXPECT_LT(cv::norm(plain.descriptors, fast.descriptors, cv::NORM_INF), 1e-4);
+    EXPECT_LT(cv::norm(plain.descriptors, found.descriptors, cv::NORM_INF), 1e-4);
   }
 }
 
-void ExpectPathsAgree(const cv::Mat& grey) {
+void ExpectAgreement(const SurfOptions& options, const cv::Mat& grey) {
+  ExpectSame(ExtractPlainly(options, grey), Surf(options).Extract(grey));
+}
+
+void ExpectAgreement(const cv::Mat& grey) {
   for (const bool upright : {false, true}) {
-    ExpectSame(ExtractWith(grey, false, upright, 1), ExtractWith(grey, true, upright, 1));
+    SurfOptions options;
+    options.descriptor.upright = upright;
+    ExpectAgreement(options, grey);
   }
   for (const int initial_step : {2, 3, 4}) {
     SCOPED_TRACE(initial_step);
-    SurfOptions fast;
-    fast.detector.initial_step = initial_step;
-    SurfOptions plain = fast;
-    plain.use_fast_path = false;
-    ExpectSame(Surf(plain).Extract(grey), Surf(fast).Extract(grey));
+    SurfOptions options;
+    options.detector.initial_step = initial_step;
+    ExpectAgreement(options, grey);
   }
   SurfOptions bay;  // as published
   bay.smooth = bay.detector.merge_octaves = bay.descriptor.overlapping_regions = false;
-  SurfOptions plain_bay = bay;
-  plain_bay.use_fast_path = false;
-  ExpectSame(Surf(plain_bay).Extract(grey), Surf(bay).Extract(grey));
+  ExpectAgreement(bay, grey);
 }
 
-TEST(SurfFastPath, AgreesWithTheReferenceOnAScene) {
+TEST(PlainSurf, AgreesOnAScene) {
   const cv::Mat scene = MakeScene(421, 283);
-  EXPECT_GT(ExtractWith(scene, true, false, 1).size(), 200);
-  ExpectPathsAgree(scene);
+  EXPECT_GT(ExtractWith(scene, 1).size(), 200);
+  ExpectAgreement(scene);
 }
 
-TEST(SurfFastPath, AgreesOnOddAndTinyImages) {
+TEST(PlainSurf, AgreesOnOddAndTinyImages) {
   const cv::Mat scene = MakeScene(131, 97);
   for (const cv::Size size : {cv::Size(131, 97), cv::Size(60, 97), cv::Size(35, 33),
                               cv::Size(17, 40), cv::Size(9, 9), cv::Size(1, 1)}) {
     SCOPED_TRACE(size);
-    ExpectPathsAgree(scene(cv::Rect(cv::Point(), size)).clone());
+    ExpectAgreement(scene(cv::Rect(cv::Point(), size)).clone());
   }
 }
 
-TEST(SurfFastPath, DoesNotDependOnThreads) {
+TEST(PlainSurf, DoesNotDependOnThreads) {
   const cv::Mat scene = MakeScene(421, 283);
-  ExpectSame(ExtractWith(scene, true, false, 1), ExtractWith(scene, true, false, 2));
+  ExpectSame(ExtractWith(scene, 1), ExtractWith(scene, 2));
 }
 
-TEST(SurfFastPath, KeepsNothingFromTheImageBefore) {
+TEST(PlainSurf, KeepsNothingFromTheImageBefore) {
   Surf surf{SurfOptions{}};
   surf.Extract(MakeScene(421, 283));
   const cv::Mat smaller = MakeScene(200, 150);
   ExpectSame(Surf(SurfOptions{}).Extract(smaller), surf.Extract(smaller));
 }
 
-TEST(SurfFastPath, AgreesOnRealImages) {
+TEST(PlainSurf, AgreesOnRealImages) {
   for (const char* name :
        {"kitti/odometry_06_000-050/image_0/000000.png", "matching/oxford_graf/img1.png",
         "matching/oxford_boat/img4.png", "matching/oxford_leuven/img6.png"}) {
@@ -107,7 +108,7 @@ TEST(SurfFastPath, AgreesOnRealImages) {
     if (path.empty()) GTEST_SKIP() << "the real image " << name << " is not there";
     const cv::Mat grey = cv::imread(path, cv::IMREAD_GRAYSCALE);
     ASSERT_FALSE(grey.empty());
-    ExpectPathsAgree(grey);
+    ExpectAgreement(grey);
   }
 }
 

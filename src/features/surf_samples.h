@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/features/features.h"
-#include "arfm_vo/features/surf_descriptor.h"
-#include "arfm_vo/image/integral_image.h"
 #include "region_window.h"
 
 namespace arfm_vo {
 
-// The samples of SURF-64, for both paths.
+// The samples of SURF-64.
 constexpr int kDescriptorLength = 64;
 constexpr int kOrientationRadius = 6;  ///< scales
 
@@ -27,13 +24,5 @@ inline int OrientationHalf(float scale) { return static_cast<int>(std::lround(2 
 inline int DescriptorHalf(float scale, const RegionWindow& window) {
   return std::max(1, static_cast<int>(std::lround(window.wavelet * scale)));
 }
-
-/// Direction of a keypoint, rad, from the Haar responses on the disc of radius 6 s around it.
-float ComputeOrientation(const IntegralImage& integral, const Keypoint& keypoint);
-/// [64], not normalised: for each region of the window the weighted sums of dx, dy, |dx|, |dy|.
-void ComputeDescriptor(const IntegralImage& integral, const Keypoint& keypoint,
-                       const RegionWindow& window, float* descriptor);
-/// Scales a descriptor to unit length; leaves one of zeros.
-void NormaliseDescriptor(float* descriptor);
 
 }  // namespace arfm_vo

@@ -1,9 +1,9 @@
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/features/box_hessian.h"
-#include "fast_surf.h"
 #include "scale_space.h"
 #include "surf_kernels.h"
+#include "surf_stages.h"
 
 namespace arfm_vo {
 namespace {
@@ -25,7 +25,7 @@ void TakeEvery(int stride, const float* from, int num, float* to) {
 
 }  // namespace
 
-void FastMaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int layer,
+void MaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int layer,
                                      int threads) {
   const int step = space_.Step(octave);
   const int rows = (integral.rows() + step - 1) / step, cols = (integral.cols() + step - 1) / step;
@@ -53,7 +53,7 @@ void FastMaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, 
   });
 }
 
-std::vector<ScaleSpaceMaximum> FastMaximumFinder::Find(const IntegralImage& integral,
+std::vector<ScaleSpaceMaximum> MaximumFinder::Find(const IntegralImage& integral,
                                                        const SurfDetectorOptions& options,
                                                        int threads) {
   const SurfKernels& kernels = ChooseSurfKernels();
