@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <opencv2/calib3d.hpp>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/calibration/pair_consistency.h"
 

@@ -1,7 +1,6 @@
 #include "arfm_vo/configuration/learned_correction_file.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>

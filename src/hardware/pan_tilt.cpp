@@ -1,6 +1,5 @@
 #include "arfm_vo/hardware/pan_tilt.h"
 
-#include <cmath>
 #include <system_error>
 
 namespace arfm_vo {

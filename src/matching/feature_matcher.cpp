@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/matching/exact_matcher.h"
 
 namespace arfm_vo {
 namespace {

@@ -1,6 +1,5 @@
 #include "arfm_vo/odometry/keyframe_policy.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "arfm_vo/base/median.h"

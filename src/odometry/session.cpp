@@ -1,6 +1,5 @@
 #include "arfm_vo/odometry/session.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

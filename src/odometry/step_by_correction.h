@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
-#include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/mapping/local_map.h"
 
 namespace arfm_vo {

@@ -1,7 +1,5 @@
 #include "window_adjustment.h"
 
-#include <utility>
-
 namespace arfm_vo {
 
 void WindowAdjustment::Start(const StereoCamera& camera, const StereoCorrection& correction,

@@ -1,7 +1,5 @@
 #include "arfm_vo/pose/pose_estimator.h"
 
-#include <algorithm>
-
 #include "pose_election.h"
 
 namespace arfm_vo {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/reprojection.h"
 #include "pose_equations.h"

@@ -1,6 +1,5 @@
 #include "arfm_vo/reconstruction/motion_stereo.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

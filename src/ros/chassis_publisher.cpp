@@ -2,7 +2,6 @@
 
 #include <std_msgs/Bool.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "arfm_vo/ros/chassis_messages.h"

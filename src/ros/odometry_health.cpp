@@ -2,7 +2,6 @@
 
 #include <ros/time.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -1,6 +1,5 @@
 #include "arfm_vo/simulation/sensor.h"
 
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/simulation/hash_noise.h"

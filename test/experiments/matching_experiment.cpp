@@ -10,6 +10,7 @@
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/datasets/kitti_sequence.h"
+#include "arfm_vo/matching/exact_matcher.h"
 #include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/ratio_threshold.h"
 #include "arfm_vo/odometry/stereo_frontend.h"

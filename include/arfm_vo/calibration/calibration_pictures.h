@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "arfm_vo/calibration/chessboard.h"
 #include "arfm_vo/calibration/rectification.h"
 

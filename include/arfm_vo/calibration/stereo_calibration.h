@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/calibration/eye.h"
 #include "arfm_vo/geometry/rigid3.h"
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "arfm_vo/hardware/file_descriptor.h"
 #include "arfm_vo/hardware/image_conversion.h"

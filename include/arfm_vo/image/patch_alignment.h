@@ -3,7 +3,6 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/matx.hpp>
 #include <opencv2/core/types.hpp>
-#include <optional>
 
 #include "arfm_vo/image/patch.h"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "arfm_vo/matching/epipolar_ransac.h"
-#include "arfm_vo/matching/exact_matcher.h"
 #include "arfm_vo/matching/flann_matcher.h"
 
 namespace arfm_vo {

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/pose/point_observation.h"

@@ -6,9 +6,7 @@
 #include <std_msgs/Empty.h>
 #include <tf2/buffer_core.h>
 
-#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "arfm_vo/hardware/bus_lock.h"

@@ -7,8 +7,6 @@
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
 
-#include <cstdint>
-
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
