@@ -5,6 +5,7 @@
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <signal.h>
@@ -67,6 +68,7 @@ class World {
   World()
       : chassis_(OpenChassisBus(), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
         goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
+        waypoints_(node_.advertise<nav_msgs::Path>("waypoints", 1)),
         velocity_(node_.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
         emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
         odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
@@ -113,6 +115,20 @@ class World {
     goal.pose.orientation.w = 1;
     goal_.publish(goal);
   }
+  /// By way of places seen from the map.
+  void SendWaypoints(const std::vector<Eigen::Vector2d>& places) {
+    nav_msgs::Path path;
+    path.header.frame_id = "map";
+    path.header.stamp = ros::Time::now();
+    for (const Eigen::Vector2d& place : places) {
+      path.poses.emplace_back();
+      path.poses.back().header = path.header;
+      path.poses.back().pose.position.x = place.x();
+      path.poses.back().pose.position.y = place.y();
+      path.poses.back().pose.orientation.w = 1;
+    }
+    waypoints_.publish(path);
+  }
   void SetEmergencyStop(bool is_set) {
     std_msgs::Bool message;
     message.data = is_set;
@@ -121,7 +137,8 @@ class World {
   /// Waits until every topic has its other end, and the node has told of itself.
   bool IsConnected() {
     return RunUntil([this] {
-      return goal_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
+      return goal_.getNumSubscribers() > 0 && waypoints_.getNumSubscribers() > 0 &&
+             velocity_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
              emergency_stop_.getNumSubscribers() > 0 && heartbeat_.getNumSubscribers() > 1 &&
              odometry_status_.getNumSubscribers() > 0 && has_status_;
     });
@@ -218,7 +235,8 @@ class World {
   void TakeReport(const GoalReport& report) { reports_.push_back(report); }
 
   ros::NodeHandle node_;
-  ros::Publisher goal_, velocity_, emergency_stop_, odom_, odometry_status_, heartbeat_, clock_;
+  ros::Publisher goal_, waypoints_, velocity_, emergency_stop_, odom_, odometry_status_, heartbeat_,
+      clock_;
   ros::Subscriber heartbeat_subscriber_, status_subscriber_, report_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
   bool has_status_ = false;
@@ -335,6 +353,22 @@ TEST_F(ChassisNodeTest, DrivesToAGoalBeforeTheRoverAndReportsIt) {
   EXPECT_NEAR(world_->chassis_.plant().Pose().x_m, 0.4, 0.05);
   EXPECT_LE(world_->log_.fastest_mps, 0.1);
   EXPECT_TRUE(world_->log_.last.IsZero());
+}
+
+TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
+  ASSERT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  const Eigen::Vector2d start = Place().head<2>(), corner(start.x() + 0.3, start.y()),
+                        end(start.x() + 0.3, start.y() + 0.35);
+  const int num_arrived = NumArrived();
+  world_->SendWaypoints({corner, end});
+  double nearest_to_corner_m = 1;
+  const bool has_arrived = world_->RunUntil([&] {
+    nearest_to_corner_m = std::min(nearest_to_corner_m, (Place().head<2>() - corner).norm());
+    return NumArrived() > num_arrived;
+  });
+  ASSERT_TRUE(has_arrived) << world_->status_.reason;
+  EXPECT_LT(nearest_to_corner_m, 0.15);  // straight ahead it would be 0.23
+  EXPECT_LT((Place().head<2>() - end).norm(), 0.05);
 }
 
 TEST_F(ChassisNodeTest, TheStopServiceStops) {

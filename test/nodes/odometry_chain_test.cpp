@@ -162,6 +162,8 @@ TEST_F(OdometryChain, FollowsTheCameraAndTellsItInAllWays) {
       odometry.pose.pose.position.x);
 
   const OdometryStatus status = status_.last();
+  EXPECT_EQ(status.num_dropped_arfm, 0u);
+  EXPECT_EQ(status.num_dropped_pose, 0u);
   EXPECT_GT(status.num_features, 100u);
   EXPECT_GT(status.num_inliers, 30u);
   EXPECT_GE(status.stage_names.size(), 3u);

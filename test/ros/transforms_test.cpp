@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "arfm_vo/odometry/base_motion.h"
+#include "arfm_vo/ros/add_transform.h"
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/truth_path.h"
 #include "ros/expect_throw.h"
@@ -128,6 +129,48 @@ TEST(BaseMotion, ANewWorldContinuesWhereTheBaseStands) {
   EXPECT_LT((before.Inverse() * after).translation.norm(), 1e-12);
   EXPECT_LT((before.Inverse() * after).Angle(), 1e-12);
   EXPECT_LT((motion.odom_from_world().translation - (before * turned).translation).norm(), 1e-12);
+}
+
+TEST(AddTransform, TakesWhatIsNotFromTheFutureAndSaysSo) {
+  tf2::BufferCore buffer;
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "base_link";
+  transform.child_frame_id = "camera";
+  transform.transform.rotation.w = 1;
+  const ros::Time now(100);
+  transform.header.stamp = ros::Time(101.5);
+  EXPECT_FALSE(AddTransform(transform, false, now, "test", buffer));
+  EXPECT_FALSE(buffer.canTransform("base_link", "camera", ros::Time(0)));
+  EXPECT_TRUE(AddTransform(transform, true, now, "test", buffer)) << "a fixed one has no time";
+  transform.child_frame_id = "wheel";
+  transform.header.stamp = ros::Time(100.9);
+  EXPECT_TRUE(AddTransform(transform, false, now, "test", buffer));
+  EXPECT_TRUE(buffer.canTransform("base_link", "wheel", transform.header.stamp));
+}
+
+TEST(TruthAlignment, IsThatOfTheFirstPoseWhateverTheOdometryDoesThen) {
+  tf2::BufferCore buffer;
+  SetCamera(buffer, 1, BaseFromCamera(0, 0));
+  SetCamera(buffer, 2, BaseFromCamera(0, 0));
+  const auto set_odom = [&](double stamp_s, double x_m) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp.fromSec(stamp_s);
+    transform.header.frame_id = "odom";
+    transform.child_frame_id = "base_link";
+    transform.transform.translation.x = x_m;
+    transform.transform.rotation.w = 1;
+    buffer.setTransform(transform, "test");
+  };
+  set_odom(1, 5);
+  set_odom(2, 99);  // wrong
+  TruthAlignment alignment(buffer, "odom", "base_link", "camera");
+  const auto first = alignment.Align(ros::Time(1), Rigid3());
+  ASSERT_TRUE(first);
+  EXPECT_NEAR((first->translation - Eigen::Vector3d(5, 0, 0)).norm(), 0, 1e-9);
+  const Rigid3 two_ahead(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 2));
+  const auto second = alignment.Align(ros::Time(2), two_ahead);
+  ASSERT_TRUE(second);
+  EXPECT_NEAR((second->translation - Eigen::Vector3d(7, 0, 0)).norm(), 0, 1e-9);
 }
 
 // tf2 takes each of the two; their product is not finite.
