@@ -6,6 +6,8 @@ import unittest
 
 import rospy
 import rostest
+from arfm_vo.msg import KeyframeStamped
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -54,6 +56,25 @@ class BaNodeTest(unittest.TestCase):
             stated.publish(pose)
             time.sleep(0.05)
         self.assertTrue(is_moved(), transforms[-1:])
+
+    def test_a_malformed_keyframe_is_refused_by_name(self):
+        told = []
+        rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: told.extend(
+            status for status in message.status if "global adjustment" in status.name))
+        clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        keyframes = rospy.Publisher("keyframe", KeyframeStamped, queue_size=1)
+
+        def is_refused():
+            return any(status.level == DiagnosticStatus.ERROR and "keyframe refused: stereo camera: fx" in status.message
+                       for status in told)
+
+        now_s, end = 9000, time.monotonic() + 60
+        while not is_refused() and time.monotonic() < end:
+            now_s += 0.5
+            clock.publish(Clock(clock=rospy.Time(now_s)))
+            keyframes.publish(KeyframeStamped())  # without a camera
+            time.sleep(0.1)
+        self.assertTrue(is_refused(), told[-1:])
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/SetCameraInfo.h>
 
 #include <algorithm>
@@ -183,8 +184,16 @@ TEST_F(StereoCameraNodeTest, ACalibrationForAnotherSizeIsAnErrorAndNotPublished)
 
 TEST_F(StereoCameraNodeTest, AnUnpluggedEyeIsAnErrorAndSurvived) {
   AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
+  Inbox<rosgraph_msgs::Log> console("/rosout");
+  WaitUntil([&] { return console.has_publisher(); }, "the console");
   world_.faults[1].is_unplugged = true;
   AwaitDiagnosis("camera", DiagnosticStatus::ERROR, "device");
+  AwaitDiagnosis("camera", DiagnosticStatus::ERROR, "device");
+  // It is tried again and again, and said once (or twice, where it ends in two ways).
+  const auto is_error = [](const auto& line) { return line.level == rosgraph_msgs::Log::ERROR; };
+  WaitUntil([&] { return std::any_of(console.all().begin(), console.all().end(), is_error); },
+            "the console to tell of it");
+  EXPECT_LE(std::count_if(console.all().begin(), console.all().end(), is_error), 2);
   world_.faults[1].is_unplugged = false;
   AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
 }

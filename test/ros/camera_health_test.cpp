@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/ros/stereo_camera_node.h"
 
@@ -36,6 +39,32 @@ Wrapper Camera(const StereoCameraStatus& status) {
 
 TEST(CameraHealth, PairsAsAskedAreOk) {
   EXPECT_EQ(Camera(GoodStatus()).level, DiagnosticStatus::OK);
+}
+
+TEST(CameraHealth, FiguresAreTold) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_unpaired_left = 3;
+  status.num_unpaired_right = 4;
+  status.num_ambiguous = 5;
+  status.num_dropped = 6;
+  status.num_corrupted = 7;
+  status.num_stamped_late = 8;
+  status.num_failures = 9;
+  status.skew_s = 0.001;
+  status.max_skew_s = 0.002;
+  std::map<std::string, std::string> told;
+  for (const auto& figure : Camera(status).values) told[figure.key] = figure.value;
+  EXPECT_EQ(told["pairs"], "110");
+  EXPECT_EQ(told["pairs a second"], "10.00");
+  EXPECT_EQ(told["skew, right - left, last pair (ms)"], "1.000");
+  EXPECT_EQ(told["skew, largest (ms)"], "2.000");
+  EXPECT_EQ(told["frames without partner, left"], "3");
+  EXPECT_EQ(told["frames without partner, right"], "4");
+  EXPECT_EQ(told["frames too close to be told apart"], "5");
+  EXPECT_EQ(told["frames dropped by the driver"], "6");
+  EXPECT_EQ(told["frames corrupted"], "7");
+  EXPECT_EQ(told["frames without a usable stamp"], "8");
+  EXPECT_EQ(told["failures"], "9");
 }
 
 TEST(CameraHealth, AFailureIsAnErrorWithItsReason) {
