@@ -65,6 +65,12 @@ TEST_F(DrivePanelTest, SaysWhatTheRoverDoesAndThatNobodyTellsItAnyMore) {
   AwaitWords("paused: pose is stale\ndriving, 2.3 m to go");
   AwaitWords("chassis_node is silent");
   EXPECT_EQ(panel_.all().back().markers[0].header.frame_id, "base_link");
+  for (const auto& control : panel_.all().back().markers[0].controls) {
+    for (const auto& marker : control.markers) {
+      EXPECT_EQ(marker.color.a, 1) << control.name << " cannot be seen";
+      EXPECT_GT(marker.scale.z, 0) << control.name;
+    }
+  }
 }
 
 TEST_F(DrivePanelTest, TheButtonsStartAndStopAndTheAnswerIsShown) {

@@ -64,6 +64,7 @@ TEST_F(ChassisMessagesTest, TheBatteryIsAFractionAndWhatIsUnknownNotANumber) {
   EXPECT_NEAR(battery.percentage, 0.88, 1e-6);
   EXPECT_NEAR(battery.voltage, 28.6, 1e-5);
   EXPECT_NEAR(battery.current, -2.5, 1e-6);
+  EXPECT_TRUE(battery.present);
   EXPECT_TRUE(std::isnan(battery.capacity));
   EXPECT_TRUE(std::isnan(ToBatteryMessage(ChassisReadings{}).percentage));
 }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {
@@ -37,6 +40,26 @@ int LevelOfRows(double row_residual_px) {
   Wrapper status;
   health.ReportCalibration(status);
   return status.level;
+}
+
+TEST(OdometryHealth, PairsAreCounted) {
+  OdometryHealth health{OdometryHealthOptions()};
+  health.Count(FrameWithRows(0), kTracked, 1);
+  health.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1);
+  health.CountRefused("a pair without a picture");
+  health.CountRefused("a pair without a picture");
+  health.CountRefused("a pair without a picture");
+  health.CountDropped(4);
+  Wrapper status;
+  health.ReportOdometry(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(status.message, "pair refused: a pair without a picture");
+  std::map<std::string, std::string> told;
+  for (const auto& figure : status.values) told[figure.key] = figure.value;
+  EXPECT_EQ(told["pairs"], "2");
+  EXPECT_EQ(told["pairs without a pose"], "1");
+  EXPECT_EQ(told["pairs refused"], "3");
+  EXPECT_EQ(told["pairs dropped"], "4");
 }
 
 TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {

@@ -18,6 +18,8 @@ TEST(DepthColors, NearIsBlueAndFarIsRed) {
   EXPECT_TRUE(IsBlue(colors.BgrOf(2)));
   EXPECT_TRUE(IsRed(colors.BgrOf(64)));
   EXPECT_LT(colors.BgrOf(6)[2], colors.BgrOf(20)[2]);
+  EXPECT_NEAR(colors.BgrOf(8)[0], 255, 1e-6) << "half way from 2 to 32";
+  EXPECT_NEAR(colors.BgrOf(8)[2], 255, 1e-6);
 }
 
 TEST(DepthColors, OneDepthOrNoneIsNoTrouble) {

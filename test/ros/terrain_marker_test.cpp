@@ -18,6 +18,10 @@ TEST(TerrainMarker, ItsTrianglesLieOnTheGroundAndFaceTheSky) {
   const visualization_msgs::Marker marker = MakeTerrainMarker(terrain, map_from_world, "map");
   EXPECT_EQ(marker.header.frame_id, "map");
   EXPECT_EQ(marker.pose.position.z, -0.7);
+  EXPECT_EQ(marker.scale.x, 1);  // rviz warns of 0
+  EXPECT_EQ(marker.scale.y, 1);
+  EXPECT_EQ(marker.scale.z, 1);
+  EXPECT_EQ(marker.color.a, 1);
   ASSERT_EQ(marker.points.size(), marker.colors.size());
   ASSERT_EQ(marker.points.size() % 3, 0u);
   double area_m2 = 0, lowest_m = 1e9, highest_m = -1e9;
