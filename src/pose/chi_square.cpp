@@ -5,6 +5,15 @@
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+namespace {
+
+/// log Gamma(x). std::lgamma writes the sign into a variable that all threads share.
+double LogGamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
+}  // namespace
 
 double ChiSquareProbability(int dof, double x) {
   Require(dof >= 1, "chi-square needs at least one degree of freedom");
@@ -13,7 +22,7 @@ double ChiSquareProbability(int dof, double x) {
   double k = dof % 2 == 1 ? 1 : 2;
   double tail = dof % 2 == 1 ? std::erfc(std::sqrt(x / 2)) : std::exp(-x / 2);
   for (; k < dof; k += 2) {
-    tail += std::exp(k / 2 * std::log(x / 2) - x / 2 - std::lgamma(k / 2 + 1));
+    tail += std::exp(k / 2 * std::log(x / 2) - x / 2 - LogGamma(k / 2 + 1));
   }
   return 1 - tail;
 }
