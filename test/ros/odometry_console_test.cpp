@@ -98,7 +98,8 @@ TEST(OdometryConsole, CountsAllPairsInTheTotals) {
   console.Take({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1);
   console.Take({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 2);
   EXPECT_EQ(console.Totals(4, 5),
-            "3 pairs: 1 with a pose, 1 lost, 0 degraded, 1 without tf or skipped while the head turned; 4 "
+            "3 pairs: 1 with a pose, 1 lost, 0 degraded, 1 without tf or skipped while the head "
+            "turned; 4 "
             "dropped, 5 refused");
 }
 
