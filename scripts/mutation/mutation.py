@@ -43,6 +43,10 @@ for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
                        ("pan_tilt", ["pan_tilt_node", "test_pan_tilt"]),
                        ("stereo_camera", ["stereo_camera_node", "test_stereo_camera"])):
     SUITES[suite] = (targets, CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
+for suite, targets in (("odometry_chain_nodes", ["all", "test_odometry_chain"]), ("kitti_player", ["all", "test_kitti_player"]),
+                       ("live_poses", ["all", "test_live_poses"]), ("drive_panel", ["all", "test_drive_panel"]),
+                       ("ba_node", ["all"])):
+    SUITES[suite] = (targets, CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_%s.test$" % suite])
 SUITES["simulated_graph"] = (["chassis_node", "simulator_node", "arfm_vo_nodelets", "truth_path_node", "pan_tilt_node"],
                              CTEST + ["^_ctest_arfm_vo_rostest_test_nodes_simulation.test$"])
 # Of a suite: some times what it takes with nothing changed.
@@ -52,7 +56,17 @@ COMPILE_LIMIT_S, TIMED_OUT = 300, 124
 FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
 # The suites that are to notice the changes by rule to a folder's sources.
-FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry", "simulated_run"), "src/ros": ("ros",)}
+FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry", "simulated_run"),
+           "src/ros": ("ros", "live_poses", "ba_node", "kitti_player", "odometry_chain_nodes")}
+# The same of those sources that another node's test runs.
+FILES = {"chassis_|goal_reader|epoch_reader|driving_clock|rover_sight": ("ros", "chassis_node"),
+         "camera_node|camera_health|camera_info_server": ("ros", "stereo_camera"),
+         "pan_tilt_node": ("ros", "pan_tilt"), "drive_panel": ("ros", "drive_panel"),
+         "simulator_node|truth_path|terrain_marker": ("ros", "simulated_graph")}
+
+
+def suites_of_file(folder, file):
+    return next((suites for names, suites in FILES.items() if folder == "src/ros" and re.search(names, file)), FOLDERS[folder])
 
 
 def find_failure(suite, number):
@@ -160,8 +174,9 @@ def try_rules(folder, size, seed):
         raise
     possible = [change for source in sources for change in source.changes_by_rule()]
     sample = random.Random(seed).sample(possible, min(size, len(possible)))
-    suites = FOLDERS[folder]
-    return try_switched(sources, sample, set(suites), lambda change: suites), len(possible)
+    suites = {change.number: suites_of_file(folder, change.file) for change in sample}
+    return try_switched(sources, sample, {one for some in suites.values() for one in some},
+                        lambda change: suites[change.number]), len(possible)
 
 
 def make_page(protections, sampled, seed, num_possible):

@@ -17,7 +17,8 @@ def find_changes(source):
         change_limits_and_signs(source, number, line, bare)
         change_returns(source, number, line, bare)
         if STATEMENT.match(bare) and bare.count("(") == bare.count(")") and is_whole(source, number):
-            source.add("line removed", number, 0, len(line), "if (!%s) { %s }" % (MUTANT, INNER))
+            # (Braces outside, that an `else` that follows stays with its `if`.)
+            source.add("line removed", number, 0, len(line), "{ if (!%s) { %s } }" % (MUTANT, INNER))
 
 
 def is_whole(source, number):

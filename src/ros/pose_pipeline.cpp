@@ -8,6 +8,7 @@
 #include "arfm_vo/ros/image_conversion.h"
 #include "arfm_vo/ros/mount_log.h"
 #include "arfm_vo/ros/mounted_session.h"
+#include "arfm_vo/ros/pair_numbers.h"
 #include "arfm_vo/ros/parameters.h"
 #include "arfm_vo/ros/pose_node_options.h"
 #include "arfm_vo/ros/trajectory_output.h"
@@ -50,7 +51,6 @@ class OdometryPipeline : public PosePipeline {
 
  private:
   bool AcceptStamp(const ros::Time& stamp);
-  uint32_t CountDropped(uint32_t pair_number);
   Trajectory MakeTrajectory() const;
 
   const PoseNodeOptions options_;
@@ -63,7 +63,7 @@ class OdometryPipeline : public PosePipeline {
   LearnedCalibration learned_;
   GreyWindow window_;
   ros::Time last_stamp_;
-  uint32_t first_pair_ = 0, last_pair_ = 0, num_taken_ = 0;
+  PairNumbers numbers_;
 };
 
 OdometryPipeline::OdometryPipeline(const ros::NodeHandle& node, const PoseNodeOptions& options,
@@ -82,7 +82,7 @@ bool OdometryPipeline::Process(const StereoFrameStamped& message,
                                const sensor_msgs::ImageConstPtr& left,
                                const sensor_msgs::ImageConstPtr& right) {
   Stopwatch stopwatch;
-  const uint32_t num_dropped = CountDropped(message.pair_number);
+  const uint32_t num_dropped = numbers_.CountMissing(message.pair_number);
   health_.CountDropped(num_dropped);
   if (!AcceptStamp(message.header.stamp)) return false;
   const StereoCamera camera = FromMessage(message.camera);
@@ -122,17 +122,6 @@ bool OdometryPipeline::AcceptStamp(const ros::Time& stamp) {
   }
   last_stamp_ = stamp;
   return true;
-}
-
-uint32_t OdometryPipeline::CountDropped(uint32_t pair_number) {
-  const bool is_other_arfm_node = pair_number <= last_pair_;
-  if (num_taken_ == 0 || is_other_arfm_node) {
-    first_pair_ = pair_number;
-    num_taken_ = 0;
-  }
-  last_pair_ = pair_number;
-  ++num_taken_;
-  return pair_number - first_pair_ + 1 - num_taken_;
 }
 
 Trajectory OdometryPipeline::MakeTrajectory() const {
