@@ -97,37 +97,39 @@ class OdometryChain : public testing::Test {
     return trigger.response;
   }
 
-  /// Waits for a diagnostic of the node with this text.
-  void ExpectDiagnostic(const std::string& node, int level, const std::string& text) {
-    const auto matches = [&](const DiagnosticStatus& status) {
-      return status.name.find(node) != std::string::npos && status.level == level &&
-             status.message.find(text) != std::string::npos;
+  /// Waits for a diagnostic of the node that `matches`.
+  template <class Matches>
+  void AwaitDiagnostic(const std::string& node, const Matches& matches, const std::string& what) {
+    const auto is_it = [&](const DiagnosticStatus& status) {
+      return status.name.find(node) != std::string::npos && matches(status);
     };
     WaitUntil(
         [&] {
           for (const auto& array : diagnostics_.all())
-            for (const DiagnosticStatus& status : array.status)
-              if (matches(status)) return true;
+            if (std::any_of(array.status.begin(), array.status.end(), is_it)) return true;
           return false;
         },
-        "a diagnostic of " + node + ": " + text);
+        "a diagnostic of " + node + ": " + what);
   }
-
+  void ExpectDiagnostic(const std::string& node, int level, const std::string& text) {
+    AwaitDiagnostic(
+        node,
+        [&](const DiagnosticStatus& status) {
+          return status.level == level && status.message.find(text) != std::string::npos;
+        },
+        text);
+  }
   /// Waits until the diagnostics of the node count at least one under this name.
   void ExpectCounted(const std::string& node, const std::string& figure) {
-    const auto is_counted = [&](const DiagnosticStatus& status) {
-      return status.name.find(node) != std::string::npos &&
-             std::any_of(status.values.begin(), status.values.end(), [&](const auto& value) {
-               return value.key == figure && std::atoi(value.value.c_str()) > 0;
-             });
+    const auto is_counted = [&](const auto& value) {
+      return value.key == figure && std::atoi(value.value.c_str()) > 0;
     };
-    WaitUntil(
-        [&] {
-          for (const auto& array : diagnostics_.all())
-            if (std::any_of(array.status.begin(), array.status.end(), is_counted)) return true;
-          return false;
+    AwaitDiagnostic(
+        node,
+        [&](const DiagnosticStatus& status) {
+          return std::any_of(status.values.begin(), status.values.end(), is_counted);
         },
-        node + " to count " + figure);
+        figure);
   }
 
   double WayX() { return odom_.last().pose.pose.position.x - start_m_; }
