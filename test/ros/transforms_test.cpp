@@ -24,13 +24,18 @@ Rigid3 BaseFromCamera(double pan_rad, double tilt_rad) {
   return base_from_pan * pan_from_tilt * tilt_from_camera;
 }
 
-void SetCamera(tf2::BufferCore& buffer, double stamp_s, const Rigid3& base_from_camera) {
+geometry_msgs::TransformStamped Transform(const std::string& parent, const std::string& child,
+                                          double stamp_s, const Rigid3& parent_from_child) {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp.fromSec(stamp_s);
-  transform.header.frame_id = "base_link";
-  transform.child_frame_id = "camera";
-  transform.transform = ToTransformMessage(base_from_camera);
-  buffer.setTransform(transform, "test");
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform = ToTransformMessage(parent_from_child);
+  return transform;
+}
+
+void SetCamera(tf2::BufferCore& buffer, double stamp_s, const Rigid3& base_from_camera) {
+  buffer.setTransform(Transform("base_link", "camera", stamp_s, base_from_camera), "test");
 }
 
 CameraMountOptions WithoutWaiting() {
@@ -133,12 +138,8 @@ TEST(BaseMotion, ANewWorldContinuesWhereTheBaseStands) {
 
 TEST(AddTransform, TakesWhatIsNotFromTheFutureAndSaysSo) {
   tf2::BufferCore buffer;
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = "base_link";
-  transform.child_frame_id = "camera";
-  transform.transform.rotation.w = 1;
+  geometry_msgs::TransformStamped transform = Transform("base_link", "camera", 101.5, Rigid3());
   const ros::Time now(100);
-  transform.header.stamp = ros::Time(101.5);
   EXPECT_FALSE(AddTransform(transform, false, now, "test", buffer));
   EXPECT_FALSE(buffer.canTransform("base_link", "camera", ros::Time(0)));
   EXPECT_TRUE(AddTransform(transform, true, now, "test", buffer)) << "a fixed one has no time";
@@ -153,13 +154,8 @@ TEST(TruthAlignment, IsThatOfTheFirstPoseWhateverTheOdometryDoesThen) {
   SetCamera(buffer, 1, BaseFromCamera(0, 0));
   SetCamera(buffer, 2, BaseFromCamera(0, 0));
   const auto set_odom = [&](double stamp_s, double x_m) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp.fromSec(stamp_s);
-    transform.header.frame_id = "odom";
-    transform.child_frame_id = "base_link";
-    transform.transform.translation.x = x_m;
-    transform.transform.rotation.w = 1;
-    buffer.setTransform(transform, "test");
+    const Rigid3 odom_from_base(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x_m, 0, 0));
+    buffer.setTransform(Transform("odom", "base_link", stamp_s, odom_from_base), "test");
   };
   set_odom(1, 5);
   set_odom(2, 99);  // wrong
@@ -176,15 +172,9 @@ TEST(TruthAlignment, IsThatOfTheFirstPoseWhateverTheOdometryDoesThen) {
 // tf2 takes each of the two; their product is not finite.
 TEST(TruthAlignment, ATransformThatIsNotOneGivesNoPlace) {
   tf2::BufferCore buffer;
-  geometry_msgs::TransformStamped far;
-  far.header.frame_id = "base_link";
-  far.child_frame_id = "mast";
-  far.transform.translation.x = 1e308;
-  far.transform.rotation.w = 1;
-  buffer.setTransform(far, "test", true);
-  far.header.frame_id = "mast";
-  far.child_frame_id = "camera";
-  buffer.setTransform(far, "test", true);
+  const Rigid3 far(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1e308, 0, 0));
+  buffer.setTransform(Transform("base_link", "mast", 0, far), "test", true);
+  buffer.setTransform(Transform("mast", "camera", 0, far), "test", true);
   TruthAlignment alignment(buffer, "base_link", "base_link", "camera");
   EXPECT_FALSE(alignment.Align(ros::Time(1), Rigid3()));
 }
