@@ -109,7 +109,7 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
       }
     }
   }
-  const int num_coefficients = selection.num_free_coefficients();
+  const int num_coefficients = selection.num_free_coefficients;
   if (num_coefficients == 0) return;
   if (!FactorizeHardlyDamped(equations)) return;
   const int size = equations.reduced_size();
@@ -136,7 +136,7 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
     result.is_inlier[i] =
         selection.point_is_used[observation.point] && squared[i] <= bounds[observation.has_right];
   }
-  if (options.with_point_covariance || selection.correction_is_free) {
+  if (options.with_point_covariance || selection.num_free_coefficients > 0) {
     result.covariance_factor = CovarianceFactor(problem, selection, options, freedom, squared);
     FindCovariances(problem, selection, structure, options, equations, result);
   }

@@ -84,7 +84,7 @@ BundleSelection::BundleSelection(const BundleProblem& problem)
     observation_is_used[i] &= point_is_used[problem.observations[i].point];
   }
   pose_is_free = FindFreePoses(problem, *this);
-  correction_is_free = problem.correction_prior.has_value();
+  num_free_coefficients = problem.correction_prior ? StereoCorrection::kSize : 0;
 }
 
 }  // namespace arfm_vo

@@ -11,10 +11,9 @@ struct BundleSelection {
   std::vector<char> observation_is_used;  ///< its point is used and in front of the camera
   std::vector<char> point_is_used;        ///< seen in stereo, or by two poses
   std::vector<char> pose_is_free;         ///< not fixed, and tied to a fixed pose
-  bool correction_is_free;                ///< has a prior that leaves it so
+  int num_free_coefficients;              ///< of the correction, the first ones: 0 without a prior
 
   explicit BundleSelection(const BundleProblem& problem);
-  int num_free_coefficients() const { return correction_is_free ? StereoCorrection::kSize : 0; }
 };
 
 }  // namespace arfm_vo

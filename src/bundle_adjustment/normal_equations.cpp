@@ -30,14 +30,14 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
               RobustLoss(options.loss, options.loss_threshold_sigma, 4)},
       num_threads_(options.num_threads),
       max_time_share_(options.max_time_share),
-      num_coefficients_(selection.num_free_coefficients()),
+      num_coefficients_(selection.num_free_coefficients),
       solver_(structure.blocks, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
       point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
       point_rights_(structure.tracks.size()),
       point_inverses_(structure.tracks.size()) {
-  if (num_coefficients_ > 0) prior_information_ = problem.correction_prior->Information();
+  if (problem.correction_prior) prior_information_ = problem.correction_prior->Information();
   const int64_t num_tracks = static_cast<int64_t>(structure.tracks.size());
   pieces_.resize(num_tracks < kMinTracksToSplit ? 1 : kNumPieces);
   const int64_t count = static_cast<int64_t>(pieces_.size());
@@ -124,6 +124,7 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
   const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
   // The coefficients of u move row 2 alone, those of v row 3, the radial ones all four.
   for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
+    if (first >= num_coefficients_) break;
     const Eigen::Vector3d by_x = weighted.row(row);
     point_borders_[track].middleCols<kNumField>(first).noalias() +=
         (rotation.transpose() * by_x) * field.transpose();
@@ -166,11 +167,11 @@ double NormalEquations::AddConstraints(const BundleState& state) {
 }
 
 double NormalEquations::AddPrior(const BundleState& state) {
-  if (num_coefficients_ == 0) return 0;
+  if (!problem_.correction_prior || num_coefficients_ == 0) return 0;
   const StereoCorrection::Coefficients off =
       state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
-  held_.corner += prior_information_;
-  held_.corner_right -= prior_information_ * off;
+  held_.corner += prior_information_.topLeftCorner(num_coefficients_, num_coefficients_);
+  held_.corner_right -= prior_information_.topRows(num_coefficients_) * off;
   return off.dot(prior_information_ * off);
 }
 

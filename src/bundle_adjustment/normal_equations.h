@@ -34,6 +34,8 @@ class NormalEquations {
 
   /// Sets up the equations at a state and returns its cost.
   double Linearize(const BundleState& state);
+  /// After Linearize: what is left with the points eliminated, `damping` times the diagonal added.
+  const ReducedSystem& EliminatePoints(double damping);
   /// Solves with `damping` times the diagonal added. Returns false where the equations are not
   /// positive definite.
   bool Solve(double damping, BundleStep& step);

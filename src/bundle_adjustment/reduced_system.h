@@ -10,8 +10,7 @@
 namespace arfm_vo {
 
 constexpr int kMaxCoefficients = StereoCorrection::kSize;
-/// Rows of poses or of points by columns of the correction: kMaxCoefficients, or none where it is
-/// not free.
+/// Rows of poses or of points by the columns of the correction that are free.
 template <int kRows>
 using BorderMatrix =
     Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::ColMajor, kRows, kMaxCoefficients>;

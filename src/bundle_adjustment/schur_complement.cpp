@@ -32,12 +32,17 @@ void NormalEquations::ForEachPiece(const std::function<void(Piece&)>& work) {
   for (std::thread& other : others) other.join();
 }
 
-bool NormalEquations::Solve(double damping, BundleStep& step) {
+const ReducedSystem& NormalEquations::EliminatePoints(double damping) {
   ForEachPiece([&](Piece& piece) { EliminatePiece(damping, piece); });
-  Pacer pacer(max_time_share_);
   reduced_ = held_;
   Damp(damping);
   for (const Piece& piece : pieces_) reduced_ -= piece.sum;
+  return reduced_;
+}
+
+bool NormalEquations::Solve(double damping, BundleStep& step) {
+  EliminatePoints(damping);
+  Pacer pacer(max_time_share_);
   if (!solver_.Factorize(reduced_)) return false;
   pacer.Pause();
   step.reduced = solver_.SolveFor(reduced_);
@@ -79,11 +84,11 @@ void NormalEquations::EliminatePiece(double damping, Piece& piece) {
         block = structure_.blocks.Find(row, column, block);
         piece.sum.blocks[block].noalias() += product * sighting_blocks_[j].transpose();
       }
-      if (with_correction) piece.sum.border[row].noalias() += product * point_borders_[track];
+      if (with_correction) piece.sum.border[row] += product.lazyProduct(point_borders_[track]);
     }
     if (!with_correction) continue;
     const BorderMatrix<3> product = inverse * point_borders_[track];
-    piece.sum.corner.noalias() += point_borders_[track].transpose() * product;
+    piece.sum.corner += point_borders_[track].transpose().lazyProduct(product);
     piece.sum.corner_right.noalias() += point_borders_[track].transpose() * inverse_right;
   }
 }
@@ -148,7 +153,8 @@ void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
     point = state.camera_from_world[host.pose].Inverse() * moved_x;
   }
   if (num_coefficients_ > 0) {
-    state.correction.coefficients_px += step.reduced.tail<kMaxCoefficients>();
+    state.correction.coefficients_px.head(num_coefficients_) +=
+        step.reduced.tail(num_coefficients_);
   }
 }
 

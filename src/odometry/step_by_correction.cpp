@@ -16,9 +16,12 @@ Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     const PosedObservations& before, const PosedObservations& now, const BundleOptions& solver) {
   BundleProblem problem;
   problem.camera = camera;
+  problem.correction = correction;
   BundleResult result;
   result.correction = correction;
-  result.camera_from_world = {before.camera_from_world, now.camera_from_world};
+  problem.camera_from_world = {before.camera_from_world, now.camera_from_world};
+  problem.pose_is_fixed = {1, 0};
+  result.camera_from_world = problem.camera_from_world;
   const size_t every = 1 + now.observations.size() / kNumPoints;
   size_t num_shared = 0;
   auto seen = before.observations.begin();
@@ -27,13 +30,13 @@ Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     if (seen == before.observations.end()) break;
     if (seen->landmark != observation.landmark) continue;
     if (num_shared++ % every != 0) continue;
-    const int point = static_cast<int>(result.points.size());
-    result.points.push_back(landmarks.at(observation.landmark).x_in_world);
+    const int point = static_cast<int>(problem.points.size());
+    problem.points.push_back(landmarks.at(observation.landmark).x_in_world);
     for (const auto* sighting : {&*seen, &observation}) {
       problem.observations.push_back({*sighting, sighting == &*seen ? 0 : 1, point});
     }
   }
-  problem.points = result.points;
+  result.points = problem.points;
   result.point_is_used.assign(result.points.size(), 1);
   const PoseInformation information = FindPoseInformation(problem, result, solver);
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(
