@@ -7,6 +7,7 @@
 #include "arfm_vo/ros/conversions.h"
 #include "arfm_vo/ros/image_conversion.h"
 #include "arfm_vo/ros/stereo_camera_model.h"
+#include "bag_records.h"
 
 namespace arfm_vo {
 namespace {
@@ -70,6 +71,7 @@ BagSequence::BagSequence(const std::string& path, const StereoTopics& topics,
 }
 
 void BagSequence::Open() {
+  CheckBagRecords(path_);
   bag_.open(path_, rosbag::bagmode::Read);
   const int num_images =
       std::min(RequireTopic(bag_, topics_.left_image), RequireTopic(bag_, topics_.right_image));

@@ -157,6 +157,33 @@ TEST_F(BagSequenceTest, TruncationAnywhereIsAnError) {
   EXPECT_THAT(ErrorOf(), testing::HasSubstr("truncated or damaged"));
 }
 
+TEST_F(BagSequenceTest, LengthsAndOffsetsThatLeadNowhereAreNamed) {
+  WriteBagBy(
+      [&](rosbag::Bag& bag) { bag.write(topics_.left_image, ros::Time(1), MakeMessages(0).left); });
+  const std::string bytes = ReadWholeFile(path_);
+  const auto error_with = [&](size_t at, char byte) {
+    std::string damaged = bytes;
+    damaged.at(at) = byte;
+    WriteWholeFile(path_, damaged);
+    return ErrorOf();
+  };
+  const std::string damaged = ": the bag is truncated or damaged: the record at byte ";
+  constexpr size_t kFirstField = 17;  // after the first line and the length of the header
+  EXPECT_EQ(error_with(kFirstField + 1, 1), damaged + "0: a length goes beyond the end");
+  EXPECT_EQ(error_with(bytes.find("index_pos=") + 5, 'x'),
+            damaged + "0: it has no field index_pos");
+  EXPECT_EQ(error_with(bytes.find("op=") + 2, '_'), damaged + "0: a field of a header has no name");
+  EXPECT_THAT(error_with(bytes.find("chunk_pos=") + 11, 1),
+              testing::HasSubstr("there is no chunk where it says"));
+  // The index of the chunk: its number of messages; after its last field the length of its data,
+  // a time and an offset.
+  const size_t version = bytes.find("ver=");
+  EXPECT_THAT(error_with(bytes.rfind("count=", version) + 6, 2),
+              testing::HasSubstr("it does not hold as many as it says"));
+  EXPECT_THAT(error_with(version + 4 + 4 + 4 + 8, 1),
+              testing::HasSubstr("there is no message where it says"));
+}
+
 TEST_F(BagSequenceTest, MissingTopicsAreNamed) {
   WriteBagBy(
       [&](rosbag::Bag& bag) { bag.write(topics_.left_image, ros::Time(1), MakeMessages(0).left); });
