@@ -6,12 +6,39 @@ import unittest
 
 import rospy
 import rostest
-from arfm_vo.msg import KeyframeStamped
+from arfm_vo.msg import KeyframeStamped, MapUpdateStamped
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
+
+
+def make_keyframe(number):
+    """Keyframe `number` of a camera that drives 0.3 m each towards 48 points; the first one brings the points."""
+    keyframe = KeyframeStamped(epoch=1, id=number)
+    keyframe.header.stamp = rospy.Time(100 + number)
+    keyframe.header.frame_id = "odom"
+    camera = keyframe.camera
+    camera.fx = camera.fy = 700
+    camera.cx, camera.cy, camera.baseline_m, camera.width, camera.height = 600, 180, 0.5, 1226, 370
+    for transform in keyframe.odom_from_world, keyframe.base_from_camera, keyframe.camera_from_world:
+        transform.rotation.w = 1
+    way_m = 0.3 * number
+    keyframe.camera_from_world.translation.z = -way_m
+    for landmark in range(48):
+        x, y, z = landmark % 8 - 3.5, 0.4 * (landmark // 8) - 1, 12 + landmark % 5
+        u, v = 600 + 700 * x / (z - way_m), 180 + 700 * y / (z - way_m)
+        keyframe.observation_landmark.append(landmark)
+        keyframe.observation_pixels += [u, v, u - 700 * 0.5 / (z - way_m), v]
+        keyframe.observation_has_right.append(True)
+        keyframe.observation_sigma.append(0.3)
+        if number == 0:
+            keyframe.landmark_id.append(landmark)
+            keyframe.landmark_position += [x, y, z]
+            keyframe.landmark_laplacian_sign.append(1)
+            keyframe.landmark_descriptors += [1.0] + 63 * [0.0]
+    return keyframe
 
 
 class BaNodeTest(unittest.TestCase):
@@ -75,6 +102,23 @@ class BaNodeTest(unittest.TestCase):
             keyframes.publish(KeyframeStamped())  # without a camera
             time.sleep(0.1)
         self.assertTrue(is_refused(), told[-1:])
+
+    def test_the_map_is_adjusted_to_its_last_keyframe_once_none_comes_and_the_odometry_is_not_told(self):
+        adjustments, updates = [], []
+        rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: adjustments.extend(
+            int(value.value) for status in message.status if "global adjustment" in status.name
+            for value in status.values if value.key == "adjustments"))
+        rospy.Subscriber("map_update", MapUpdateStamped, updates.append)
+        keyframes = rospy.Publisher("keyframe", KeyframeStamped, queue_size=10)
+        end = time.monotonic() + 60
+        while (keyframes.get_num_connections() == 0 or not adjustments) and time.monotonic() < end:
+            time.sleep(0.05)
+        for number in range(5):  # adjustments are due at 2, 3, 4 and 6 keyframes
+            keyframes.publish(make_keyframe(number))
+        while (not adjustments or adjustments[-1] < 4) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(adjustments[-1], 4)
+        self.assertEqual([update.num_keyframes for update in updates], [2, 3, 4])
 
 
 if __name__ == "__main__":
