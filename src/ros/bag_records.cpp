@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -76,15 +77,18 @@ void FollowRecords(std::string_view bytes, Visitor&& visit) {
   }
 }
 
-/// The records of a file after its first line.
+/// Of the records of a file after its first line.
 class RecordCheck {
  public:
   bool operator()(const Record& record, size_t offset) {
+    const uint64_t position = kFormat.size() + offset;
+    is_index_reached_ |= position == index_;
     switch (Read<uint8_t>(Field(record, "op"))) {
       case kFileHeader:
-        return Read<uint64_t>(Field(record, "index_pos")) != 0;  // 0: it was never closed
+        index_ = Read<uint64_t>(Field(record, "index_pos"));
+        return index_ != 0;  // 0: it was never closed
       case kChunk:
-        chunks_.insert(kFormat.size() + offset);
+        chunks_.insert(position);
         ReadChunk(record);
         break;
       case kIndex:
@@ -99,6 +103,10 @@ class RecordCheck {
         break;
     }
     return true;
+  }
+  void CheckIndexPosition(uint64_t end) const {
+    Require(index_ == 0 || index_ == end || is_index_reached_,
+            "there is no index where its header says");
   }
 
  private:
@@ -125,6 +133,8 @@ class RecordCheck {
     }
   }
 
+  uint64_t index_ = 0;  ///< where the connections and chunks are told of, in the file
+  bool is_index_reached_ = false;
   std::set<uint64_t> chunks_;                   ///< where they begin in the file
   std::optional<std::set<uint32_t>> messages_;  ///< where they begin in the last chunk
 };
@@ -139,7 +149,9 @@ void CheckBagRecords(const std::string& path) {
   if (bytes.substr(0, kFormat.size()) != kFormat) return;
   bytes.remove_prefix(kFormat.size());
   try {
-    FollowRecords(bytes, RecordCheck());
+    RecordCheck check;
+    FollowRecords(bytes, std::ref(check));
+    check.CheckIndexPosition(file.get_size());
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("the bag is truncated or damaged: ") + error.what());
   }

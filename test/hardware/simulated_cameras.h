@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <system_error>
@@ -12,7 +13,8 @@ namespace arfm_vo {
 
 /// What one simulated eye does wrong.
 struct EyeFaults {
-  bool is_unplugged = false, is_silent = false, fails_to_read = false;
+  std::atomic<bool> is_unplugged = false;  ///< by a test, while a node reads
+  bool is_silent = false, fails_to_read = false;
   double drop_share = 0, corrupt_share = 0, late_stamp_share = 0;
   double jitter_s = 0;  ///< of stamps, uniform
   double phase_s = 0;   ///< later than the left eye's clock

@@ -173,6 +173,8 @@ TEST_F(BagSequenceTest, LengthsAndOffsetsThatLeadNowhereAreNamed) {
   EXPECT_EQ(error_with(bytes.find("index_pos=") + 5, 'x'),
             damaged + "0: it has no field index_pos");
   EXPECT_EQ(error_with(bytes.find("op=") + 2, '_'), damaged + "0: a field of a header has no name");
+  EXPECT_THAT(error_with(bytes.find("index_pos=") + 10, 1),
+              testing::HasSubstr("there is no index where its header says"));
   EXPECT_THAT(error_with(bytes.find("chunk_pos=") + 11, 1),
               testing::HasSubstr("there is no chunk where it says"));
   // The index of the chunk: its number of messages; after its last field the length of its data,
