@@ -143,12 +143,12 @@ class RecordCheck {
 
 void CheckBagRecords(const std::string& path) {
   namespace ipc = boost::interprocess;
-  if (std::filesystem::file_size(path) == 0) return;
-  const ipc::mapped_region file(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
-  std::string_view bytes(static_cast<const char*>(file.get_address()), file.get_size());
-  if (bytes.substr(0, kFormat.size()) != kFormat) return;
-  bytes.remove_prefix(kFormat.size());
   try {
+    Require(std::filesystem::file_size(path) >= kFormat.size(), "it is no bag of format 2.0");
+    const ipc::mapped_region file(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
+    std::string_view bytes(static_cast<const char*>(file.get_address()), file.get_size());
+    Require(bytes.substr(0, kFormat.size()) == kFormat, "it is no bag of format 2.0");
+    bytes.remove_prefix(kFormat.size());
     RecordCheck check;
     FollowRecords(bytes, std::ref(check));
     check.CheckIndexPosition(file.get_size());
