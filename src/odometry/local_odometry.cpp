@@ -1,17 +1,13 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
-#include <algorithm>
-
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/odometry/dispute.h"
 #include "arfm_vo/odometry/eye_skew.h"
 #include "arfm_vo/odometry/path_covariance.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
-#include "eye_faults.h"
-#include "known_depths.h"
+#include "pose_judge.h"
 #include "step_by_correction.h"
 #include "window_adjustment.h"
 
@@ -37,11 +33,6 @@ constexpr double kDoubtBySkew = 0.1;
 /// Known skew that moves what is seen by more than this is not made up for well enough to trust.
 constexpr double kMaxShiftPx = 1;
 
-void Degrade(const std::string& remark, OdometryUpdate& update) {
-  update.pose.status = PoseStatus::kDegraded;
-  update.remark = remark;
-}
-
 }  // namespace
 
 class LocalOdometry::Implementation {
@@ -55,6 +46,7 @@ class LocalOdometry::Implementation {
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive),
+        judge_(camera),
         skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);
@@ -68,10 +60,10 @@ class LocalOdometry::Implementation {
         measured.stamp_s, predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
     tracker_.SetMotionBetweenEyes(later_from_now_);
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, later_from_now_);
-    eye_faults_.Look(frame);
-    dispute_.Advance(frame.stamp_s);
-    const bool is_left_good = eye_faults_.of_left().empty();
-    const bool is_right_good = eye_faults_.of_right().empty();
+    judge_.Look(frame);
+    const std::string& left_fault = judge_.faults().of_left();
+    const bool is_left_good = left_fault.empty();
+    const bool is_right_good = judge_.faults().of_right().empty();
     if (!is_right_good) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
@@ -84,11 +76,11 @@ class LocalOdometry::Implementation {
       Start(frame, update);
     } else if (!is_left_good) {
       update.pose.status = PoseStatus::kTooFewFeatures;
-      dispute_.Interrupt();
+      judge_.Interrupt();
     } else {
       Continue(frame, images, predicted, update);
     }
-    if (!is_left_good) update.remark = eye_faults_.of_left();
+    if (!is_left_good) update.remark = left_fault;
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
       if (!is_right_good) frame.points = PointsByMotion(frame, update);
@@ -110,8 +102,7 @@ class LocalOdometry::Implementation {
 
   void Reset() {
     FinishAdjustment();
-    dispute_.Reset();
-    if (!map_.keyframes().empty()) dispute_.BeWary();
+    judge_.Reset(!map_.keyframes().empty());
     map_.Clear();
     standstill_.Reset();
     skew_.Interrupt();
@@ -140,16 +131,18 @@ class LocalOdometry::Implementation {
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
     TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted,
-                                          eye_faults_.of_right().empty(), dispute_.IsWary());
+                                          judge_.faults().of_right().empty(), judge_.IsWary());
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
       skew_.Interrupt();
-      dispute_.Interrupt();
+      judge_.Interrupt();
       Recover(frame, update);
       return;
     }
-    if (!Judge(tracked, update)) return;
+    const PoseJudge::Verdict verdict = judge_.Judge(map_, tracked, update);
+    if (!verdict.is_believed) return;
+    covariance_.FollowWay(update.pose.camera_from_world, verdict.are_depths_known);
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
     if (resting) {
       update.pose.camera_from_world = *resting;
@@ -157,39 +150,13 @@ class LocalOdometry::Implementation {
       map_.CountSightings(tracked.expected, tracked.observations);
     }
     update.is_keyframe =
-        !resting && !dispute_.IsDoubtful() &&
+        !resting && !judge_.IsDoubtful() &&
         NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
                       tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     LearnSkew(update);
     FindCovariance(update);
-  }
-
-  /// Whether the pose is to be believed, and how far.
-  bool Judge(const TrackedFrame& tracked, OdometryUpdate& update) {
-    const bool is_believed =
-        dispute_.Judge(tracked.pose, CountProven(tracked.observations), tracked.shares);
-    const bool is_contested = tracked.pose.status == PoseStatus::kDegraded;
-    if (is_contested || !is_believed) update.remark = "two groups of points move differently";
-    if (!is_believed) {
-      update.pose.status = PoseStatus::kNoConsensus;
-      update.is_disputed = dispute_.MayEnd();
-      return false;
-    }
-    if (update.pose.IsTracked() && dispute_.IsDoubtful()) {
-      Degrade("two groups of points moved differently a moment ago", update);
-    }
-    const std::string& right_fault = eye_faults_.of_right();
-    if (!is_contested && !right_fault.empty()) {
-      Degrade(right_fault + ", the left one alone tells", update);
-    }
-    const bool are_depths_known = AreDepthsKnown(camera_, map_, tracked);
-    if (update.pose.IsTracked() && !are_depths_known) {
-      Degrade("most points are too far to tell how long the way is", update);
-    }
-    covariance_.FollowWay(update.pose.camera_from_world, are_depths_known);
-    return true;
   }
 
   void LearnSkew(OdometryUpdate& update) {
@@ -204,15 +171,7 @@ class LocalOdometry::Implementation {
     const double shift_px =
         skew_.MedianShiftPx(later_from_now_, map_, update.observations, camera_from_world);
     if (shift_px < kMaxShiftPx) return;
-    Degrade("the right picture is taken far from the left one's time", update);
-  }
-
-  /// Those that agreed with an earlier pose.
-  int CountProven(const LandmarkObservations& observations) const {
-    return static_cast<int>(
-        std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
-          return map_.landmarks().at(observation.landmark).num_agreed > 0;
-        }));
+    update.Degrade("the right picture is taken far from the left one's time");
   }
 
   /// New points without a right image.
@@ -280,8 +239,7 @@ class LocalOdometry::Implementation {
   LocalMap map_;
   StandstillLock standstill_;
   KeyframeArchive archive_;
-  Dispute dispute_;
-  EyeFaults eye_faults_;
+  PoseJudge judge_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;

@@ -29,6 +29,12 @@ struct OdometryUpdate {
   std::optional<EyeSkew> skew;        ///< where the right picture is late or early, and made up for
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
+
+  /// The pose is not quite good, for this reason.
+  void Degrade(const std::string& why) {
+    pose.status = PoseStatus::kDegraded;
+    remark = why;
+  }
 };
 
 }  // namespace arfm_vo
