@@ -1,21 +1,17 @@
 #include "arfm_vo/pose/pose_refinement.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/reprojection.h"
 #include "pose_equations.h"
+#include "scaled_normal_matrix.h"
 
 namespace arfm_vo {
 namespace {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Expected fall of the cost at which a search ends: a tenth of the pose's standard deviation while
 /// the inliers may change, a thousandth at the end.
@@ -40,15 +36,6 @@ struct ResidualModel {
 struct Linearization : PoseNormalEquations {
   double cost = 0;
 };
-
-/// Whether a normal matrix fixes all six directions, to working precision; NaN does not.
-bool IsFullRank(const Matrix6d& hessian) {
-  const Vector6d diagonal = hessian.diagonal();
-  if (!(diagonal.minCoeff() > 0) || !diagonal.allFinite()) return false;
-  const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Matrix6d scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
-  return scaled.ldlt().vectorD().minCoeff() > 1e-11;
-}
 
 class Refiner {
  public:
@@ -160,14 +147,15 @@ class Refiner {
     Linearization equations = Linearize(result_.camera_from_world);
     double damping = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      const std::optional<Vector6d> step = Solve(equations, damping);
-      if (!step) {
+      const ScaledNormalMatrix matrix(equations.hessian);
+      if (!matrix.IsFullRank()) {
         result_.status = RefinementStatus::kRankDeficient;
         return false;
       }
       ++result_.num_iterations;
-      const Rigid3 moved = BoxPlus(result_.camera_from_world, *step);
-      const double expected = equations.gradient.dot(*step);
+      const ScaledNormalMatrix::Vector6d step = matrix.Solve(equations.gradient, damping);
+      const Rigid3 moved = BoxPlus(result_.camera_from_world, step);
+      const double expected = equations.gradient.dot(step);
       const Linearization moved_equations = Linearize(moved);
       if (moved_equations.cost <= equations.cost) {
         result_.camera_from_world = moved;
@@ -181,16 +169,6 @@ class Refiner {
       if (expected < enough) break;
     }
     return true;
-  }
-
-  /// The step of the damped equations, scaled to a unit diagonal.
-  std::optional<Vector6d> Solve(const Linearization& equations, double damping) const {
-    if (!IsFullRank(equations.hessian)) return std::nullopt;
-    const Vector6d scale = equations.hessian.diagonal().cwiseSqrt().cwiseInverse();
-    Matrix6d scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
-    scaled.diagonal().array() += damping;
-    const Vector6d step = scaled.ldlt().solve(scale.cwiseProduct(equations.gradient));
-    return Vector6d(scale.cwiseProduct(step));
   }
 
   /// (b / a^2) (J^T S^-1 J)^-1 with a the mean slope and b the mean square of the influence
@@ -213,20 +191,19 @@ class Refiner {
           rotation * observations_[i].x_in_world + result_.camera_from_world.translation;
       squared_px += ReprojectionError(camera_, observations_[i], x).squaredNorm();
     }
-    const Matrix6d hessian = equations_.Accumulate(result_.camera_from_world, weights_).hessian;
+    const ScaledNormalMatrix matrix(
+        equations_.Accumulate(result_.camera_from_world, weights_).hessian);
     result_.rms_px = std::sqrt(squared_px / num_coordinates);
     const double freedom = std::max(1.0, num_coordinates - 6);
     // The stated noise stands in where the residuals are too small or too few to tell.
     const double least = options_.min_scale * options_.min_scale * inverse_variance;
     const double b = std::max(square / freedom, least);
     const double a = std::max(slope / num_coordinates, 0.1);
-    if (!IsFullRank(hessian)) {
+    if (!matrix.IsFullRank()) {
       result_.status = RefinementStatus::kRankDeficient;
       return false;
     }
-    const Vector6d scale = hessian.diagonal().cwiseSqrt().cwiseInverse();
-    const Matrix6d scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
-    result_.covariance = b / (a * a) * (scale.asDiagonal() * scaled.inverse() * scale.asDiagonal());
+    result_.covariance = b / (a * a) * matrix.Inverse();
     result_.covariance = (result_.covariance + result_.covariance.transpose()).eval() / 2;
     return true;
   }
