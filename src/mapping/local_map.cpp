@@ -17,30 +17,6 @@ void LocalMapOptions::Check() const {
           "local_map.min_separation_px must be in (0, grid_cell_px]");
 }
 
-Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
-                                        const Eigen::Vector3d& x_in_camera, double sigma_px) {
-  // d(x, y, z) / d(u, v, disparity) of eq 6; left and right columns err independently.
-  const double z = x_in_camera.z();
-  const double dz = -z * z / (camera.fx * camera.baseline_m);
-  Eigen::Matrix3d jacobian;
-  jacobian << z / camera.fx, 0, x_in_camera.x() / z * dz,  //
-      0, z / camera.fy, x_in_camera.y() / z * dz,          //
-      0, 0, dz;
-  Eigen::Matrix3d pixels;
-  pixels << 1, 0, 1, 0, 1, 0, 1, 0, 2;
-  return sigma_px * sigma_px * jacobian * pixels * jacobian.transpose();
-}
-
-Eigen::Vector3d SurfaceNormal(const StereoCamera& camera, const StereoPoint& point) {
-  // The plane m X = 1 has the disparity f b m r along the ray r = X / z.
-  const Eigen::Vector3d& x = point.x_in_camera;
-  Eigen::Vector3d m;
-  m.head<2>() = point.disparity_gradient / camera.baseline_m;
-  m.y() *= camera.fy / camera.fx;
-  m.z() = (1 - m.head<2>().dot(x.head<2>())) / x.z();
-  return m.normalized();
-}
-
 LocalMap::LocalMap(const StereoCamera& camera, const LocalMapOptions& options)
     : camera_(camera), options_(options) {
   camera.Check();
@@ -117,9 +93,7 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, b
   Landmark landmark;
   landmark.id = next_landmark_++;
   landmark.x_in_world = world_from_camera * point.x_in_camera;
-  landmark.covariance = rotation *
-                        TriangulationCovariance(camera_, point.x_in_camera, point.sigma_px) *
-                        rotation.transpose();
+  landmark.covariance = rotation * PointCovariance(camera_, point) * rotation.transpose();
   landmark.normal_in_world = rotation * SurfaceNormal(camera_, point);
   landmark.reference = keyframe.id;
   landmark.keypoint = frame.features.keypoints[point.keypoint];

@@ -133,19 +133,6 @@ TEST(LocalMap, RemovingTheLastObservationRemovesTheLandmark) {
   EXPECT_TRUE(map.keyframes().back().observations.empty());
 }
 
-TEST(TriangulationCovariance, AgreesWithNumericPropagation) {
-  const Eigen::Vector3d pixels(400, 300, 380);
-  const Eigen::Vector3d x = kCamera.Triangulate(pixels.x(), pixels.y(), pixels.x() - pixels.z());
-  Eigen::Matrix3d jacobian;
-  for (int i = 0; i < 3; ++i) {
-    Eigen::Vector3d moved = pixels;
-    moved[i] += 1e-6;
-    jacobian.col(i) = (kCamera.Triangulate(moved.x(), moved.y(), moved.x() - moved.z()) - x) / 1e-6;
-  }
-  const Eigen::Matrix3d expected = 0.25 * jacobian * jacobian.transpose();
-  EXPECT_LT((TriangulationCovariance(kCamera, x, 0.5) - expected).norm(), 1e-4 * expected.norm());
-}
-
 TEST(LocalMapOptions, CheckNamesTheKey) {
   LocalMapOptions options;
   options.max_keyframes = 1;

@@ -84,11 +84,4 @@ class LocalMap {
   LandmarkId next_landmark_ = 0;
 };
 
-/// Covariance of a point triangulated from a left pixel with disparity (eq 6), m^2, camera frame.
-Eigen::Matrix3d TriangulationCovariance(const StereoCamera& camera,
-                                        const Eigen::Vector3d& x_in_camera, double sigma_px);
-
-/// The unit normal of the surface around a stereo point, camera frame, from its disparity gradient.
-Eigen::Vector3d SurfaceNormal(const StereoCamera& camera, const StereoPoint& point);
-
 }  // namespace arfm_vo

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "arfm_vo/geometry/stereo_camera.h"
+
 namespace arfm_vo {
 
 /// A left keypoint that was found in the right image, and its point in space (eq 6).
@@ -19,5 +21,12 @@ struct StereoPoint {
   bool has_right = true;
 };
 using StereoPoints = std::vector<StereoPoint>;
+
+/// Covariance of a point's place (eq 6), m^2, camera frame.
+Eigen::Matrix3d PointCovariance(const StereoCamera& camera, const StereoPoint& point);
+
+/// The unit normal of the surface around a point, camera frame, away from the camera, from its
+/// disparity gradient.
+Eigen::Vector3d SurfaceNormal(const StereoCamera& camera, const StereoPoint& point);
 
 }  // namespace arfm_vo
