@@ -1,6 +1,5 @@
 #include "pose_election.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/epnp.h"
 #include "arfm_vo/pose/reprojection.h"
+#include "point_spread.h"
 
 namespace arfm_vo {
 namespace {
@@ -16,21 +16,6 @@ namespace {
 constexpr double kImplausible = 0.25;
 /// Poses with a smaller part of the best one's votes are not looked for.
 constexpr double kLeastRival = kContested / 2;
-
-/// The covariance of a point as one long axis in a round rest: what stereo makes of a point, and
-/// quick to carry through a projection.
-struct PointSpread {
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< m, world frame
-  double rest = 0;                                 ///< m^2, the second largest variance
-
-  explicit PointSpread(const Eigen::Matrix3d& covariance) {
-    if (covariance.isZero(0)) return;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(covariance);
-    rest = std::max(0.0, solver.eigenvalues()[1]);
-    axis = std::sqrt(std::max(0.0, solver.eigenvalues()[2] - rest)) * solver.eigenvectors().col(2);
-  }
-};
 
 /// Generates and scores the hypotheses of RANSAC.
 class Consensus {

@@ -17,8 +17,7 @@ namespace arfm_vo {
 /// Start, and Stop always wins. A pose that is missing pauses the drive: after a short pause it
 /// goes on by itself, with a warning first, where the pose agrees with the tracks. A pose that is
 /// wrong drops the goal and blocks; every other fault blocks too, until it is started again.
-/// Has no clock of its own: `now_s` is a time that never jumps, and Tick is to be called every 20
-/// ms.
+/// Has no clock of its own: `now_s` never jumps, and Tick is to be called every 20 ms.
 class Pilot {
  public:
   explicit Pilot(const PilotOptions& options);
@@ -49,8 +48,7 @@ class Pilot {
   bool ObserveUncertainty(double now_s, const PoseUncertainty& uncertainty) {
     return pose_.Observe(now_s, uncertainty);
   }
-  /// The odometry's epoch, told with a pair taken at `taken_s`. Another one than before drops the
-  /// goal and blocks.
+  /// Of the odometry, with a pair of `taken_s`. Another than before drops the goal and blocks.
   void ObserveEpoch(uint32_t epoch, double taken_s);
   void ObserveChassis(double now_s, const ChassisStatus& status) {
     chassis_.Observe(now_s, status);
