@@ -3,11 +3,11 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/odometry/eye_skew.h"
 #include "arfm_vo/odometry/path_covariance.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
 #include "pose_judge.h"
+#include "skew_compensation.h"
 #include "step_by_correction.h"
 #include "window_adjustment.h"
 
@@ -25,15 +25,6 @@ void LocalOdometryOptions::Check() const {
   Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
   Require(restart_after_lost_s >= 0, "odometry.restart_after_lost_s must not be negative");
 }
-
-namespace {
-
-/// Share of the way by which the pose may be off for a skew that was not known on it.
-constexpr double kDoubtBySkew = 0.1;
-/// Known skew that moves what is seen by more than this is not made up for well enough to trust.
-constexpr double kMaxShiftPx = 1;
-
-}  // namespace
 
 class LocalOdometry::Implementation {
  public:
@@ -56,10 +47,10 @@ class LocalOdometry::Implementation {
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images,
                          const std::optional<PredictedPose>& predicted) {
     Stopwatch stopwatch;
-    later_from_now_ = skew_.MotionBetweenEyes(
-        measured.stamp_s, predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
-    tracker_.SetMotionBetweenEyes(later_from_now_);
-    StereoFrame frame = Corrected(measured, camera_, correction_.mean, later_from_now_);
+    skew_.Advance(measured.stamp_s,
+                  predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
+    tracker_.SetMotionBetweenEyes(skew_.later_from_now());
+    StereoFrame frame = Corrected(measured, camera_, correction_.mean, skew_.later_from_now());
     judge_.Look(frame);
     const std::string& left_fault = judge_.faults().of_left();
     const bool is_left_good = left_fault.empty();
@@ -155,23 +146,8 @@ class LocalOdometry::Implementation {
                       tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
-    LearnSkew(update);
+    covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
     FindCovariance(update);
-  }
-
-  void LearnSkew(OdometryUpdate& update) {
-    const Rigid3& camera_from_world = update.pose.camera_from_world;
-    skew_.Add(map_, update.observations, update.stamp_s, camera_from_world);
-    update.skew = skew_.Find();
-    if (update.skew && !has_found_skew_) {
-      has_found_skew_ = true;
-      covariance_.AddDoubtOfWay(kDoubtBySkew * camera_from_world.Inverse().translation.norm());
-    }
-    if (!update.pose.IsTracked()) return;
-    const double shift_px =
-        skew_.MedianShiftPx(later_from_now_, map_, update.observations, camera_from_world);
-    if (shift_px < kMaxShiftPx) return;
-    update.Degrade("the right picture is taken far from the left one's time");
   }
 
   /// New points without a right image.
@@ -243,9 +219,7 @@ class LocalOdometry::Implementation {
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;
-  EyeSkewEstimator skew_;
-  bool has_found_skew_ = false;
-  Rigid3 later_from_now_;        ///< the camera's motion between the two pictures of the last frame
+  SkewCompensation skew_;
   WindowAdjustment adjustment_;  ///< the map stays as it is while one runs
 };
 
