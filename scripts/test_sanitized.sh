@@ -47,10 +47,11 @@ log=log_path=$reports/report
 export ASAN_OPTIONS=$log:detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
 export UBSAN_OPTIONS=$log:print_stacktrace=1
 export TSAN_OPTIONS=$log:second_deadlock_stack=1:suppressions=$PWD/test/sanitizers/thread.txt
+package=$PWD
 cd "$BUILD_DIR"
 status=0
 for name in "${names[@]}"; do
-  if [[ $name == *_nodelets.test ]]; then
+  if grep -qs ARFM_VO_PRELOAD "$package/test/nodes/${name#_rostest_test_nodes_}"; then
     # The nodelets' manager is not built with the sanitizer: it gets it at its start, and what it leaks is not ours.
     ARFM_VO_PRELOAD=$(gcc -print-file-name="lib${kind:0:1}san.so") ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 \
       ctest --timeout 7200 --output-on-failure -R "$name$" || status=1
