@@ -27,14 +27,14 @@ mkdir -p "$BUILD_DIR/devel/lib/python3/dist-packages"
   -DCMAKE_CXX_FLAGS_SANITIZED="-O1 -g1 -fno-omit-frame-pointer -fsanitize=$sanitizers -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS"
 targets=("$@")
 [ $# -gt 0 ] || mapfile -t targets < <(cd "$BUILD_DIR" && ctest -N | sed -n 's/.*_gtest_\(test_\w*\)$/\1/p')
-build=() names=()
+build=() unit_tests=() node_tests=()
 for target in "${targets[@]}"; do
   if [ -f "test/nodes/$target.test" ]; then
     build=(all tests arfm_vo_generate_messages_py)
-    names+=("_rostest_test_nodes_$target.test")
+    node_tests+=("$target")
   else
     build+=("$target")
-    names+=("_gtest_$target")
+    unit_tests+=("_gtest_$target")
   fi
 done
 scripts/build.sh "${build[@]}"
@@ -50,13 +50,15 @@ export TSAN_OPTIONS=$log:second_deadlock_stack=1:suppressions=$PWD/test/sanitize
 package=$PWD
 cd "$BUILD_DIR"
 status=0
-for name in "${names[@]}"; do
-  if grep -qs ARFM_VO_PRELOAD "$package/test/nodes/${name#_rostest_test_nodes_}"; then
+run() { ctest --timeout 7200 --output-on-failure "$@" || status=1; }
+[ ${#unit_tests[@]} -eq 0 ] || run -j "$(nproc)" -R "($(IFS='|'; echo "${unit_tests[*]}"))$"
+for target in "${node_tests[@]}"; do
+  if grep -q ARFM_VO_PRELOAD "$package/test/nodes/$target.test"; then
     # The nodelets' manager is not built with the sanitizer: it gets it at its start, and what it leaks is not ours.
     ARFM_VO_PRELOAD=$(gcc -print-file-name="lib${kind:0:1}san.so") ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 \
-      ctest --timeout 7200 --output-on-failure -R "$name$" || status=1
+      run -R "_rostest_test_nodes_$target.test$"
   else
-    ctest --timeout 7200 --output-on-failure -R "$name$" || status=1
+    run -R "_rostest_test_nodes_$target.test$"
   fi
 done
 if compgen -G "$reports/*" > /dev/null; then cat "$reports"/*; status=1; fi
