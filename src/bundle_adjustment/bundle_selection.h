@@ -11,8 +11,10 @@ struct BundleSelection {
   std::vector<char> observation_is_used;  ///< its point is used and in front of the camera
   std::vector<char> point_is_used;        ///< seen in stereo, or by two poses
   std::vector<char> pose_is_free;         ///< not fixed, and tied to a fixed pose
-  int num_free_coefficients;              ///< of the correction, the first ones: 0 without a prior
+  int num_free_coefficients = 0;          ///< of the correction, the first ones
 
+  BundleSelection() = default;
+  /// The correction is free where it has a prior.
   explicit BundleSelection(const BundleProblem& problem);
 };
 

@@ -167,7 +167,7 @@ double NormalEquations::AddConstraints(const BundleState& state) {
 }
 
 double NormalEquations::AddPrior(const BundleState& state) {
-  if (!problem_.correction_prior || num_coefficients_ == 0) return 0;
+  if (!problem_.correction_prior) return 0;
   const StereoCorrection::Coefficients off =
       state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
   held_.corner += prior_information_.topLeftCorner(num_coefficients_, num_coefficients_);

@@ -6,12 +6,14 @@ namespace arfm_vo {
 namespace {
 
 /// All poses, and what of the correction moves them, also what the adjustment held.
+/// (What lies behind a camera adds nothing to the equations.)
 BundleSelection SelectAll(const BundleProblem& problem, const BundleResult& result) {
-  BundleSelection selection(problem);
+  BundleSelection selection;
+  selection.point_is_used = result.point_is_used;
   selection.pose_is_free.assign(problem.camera_from_world.size(), 1);
   selection.num_free_coefficients = StereoCorrection::kNumPlacing;
-  for (size_t i = 0; i < problem.observations.size(); ++i) {
-    selection.observation_is_used[i] &= result.point_is_used[problem.observations[i].point];
+  for (const BundleObservation& observation : problem.observations) {
+    selection.observation_is_used.push_back(result.point_is_used[observation.point]);
   }
   return selection;
 }

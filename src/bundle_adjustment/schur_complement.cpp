@@ -152,10 +152,7 @@ void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
                                     old[host.pose].rotation * step.points[track];
     point = state.camera_from_world[host.pose].Inverse() * moved_x;
   }
-  if (num_coefficients_ > 0) {
-    state.correction.coefficients_px.head(num_coefficients_) +=
-        step.reduced.tail(num_coefficients_);
-  }
+  state.correction.coefficients_px.head(num_coefficients_) += step.reduced.tail(num_coefficients_);
 }
 
 Eigen::MatrixXd NormalEquations::InverseColumns(int first, int count) const {

@@ -16,11 +16,9 @@ Eigen::Matrix<double, 6, StereoCorrection::kNumPlacing> FindStepByCorrection(
     const PosedObservations& before, const PosedObservations& now, const BundleOptions& solver) {
   BundleProblem problem;
   problem.camera = camera;
-  problem.correction = correction;
   BundleResult result;
   result.correction = correction;
   problem.camera_from_world = {before.camera_from_world, now.camera_from_world};
-  problem.pose_is_fixed = {1, 0};
   result.camera_from_world = problem.camera_from_world;
   const size_t every = 1 + now.observations.size() / kNumPoints;
   size_t num_shared = 0;

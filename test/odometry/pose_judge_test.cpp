@@ -49,6 +49,10 @@ class PoseJudgeTest : public testing::Test {
     update_.pose = tracked_.pose;
     return judge_.Judge(map_, tracked_, update_);
   }
+  void ExpectPose(PoseStatus status, const std::string& remark) const {
+    EXPECT_EQ(update_.pose.status, status);
+    EXPECT_EQ(update_.remark, remark);
+  }
 
   LocalMap map_{kCamera, LocalMapOptions()};
   StereoFrame frame_;
@@ -63,8 +67,7 @@ TEST_F(PoseJudgeTest, BelievesWhatNobodyContests) {
   const PoseJudge::Verdict verdict = Judge();
   EXPECT_TRUE(verdict.is_believed);
   EXPECT_TRUE(verdict.are_depths_known);
-  EXPECT_EQ(update_.pose.status, PoseStatus::kTracked);
-  EXPECT_EQ(update_.remark, "");
+  ExpectPose(PoseStatus::kTracked, "");
 }
 
 TEST_F(PoseJudgeTest, AContestedPoseOfNewPointsIsNoneAndMayBeToldLater) {
@@ -72,8 +75,7 @@ TEST_F(PoseJudgeTest, AContestedPoseOfNewPointsIsNoneAndMayBeToldLater) {
   tracked_.pose.contest = 0.8;
   judge_.Look(frame_);
   EXPECT_FALSE(Judge().is_believed);
-  EXPECT_EQ(update_.pose.status, PoseStatus::kNoConsensus);
-  EXPECT_EQ(update_.remark, "two groups of points move differently");
+  ExpectPose(PoseStatus::kNoConsensus, "two groups of points move differently");
   EXPECT_TRUE(update_.is_disputed);
   EXPECT_TRUE(judge_.IsWary());
   judge_.Reset(false);
@@ -92,8 +94,7 @@ TEST_F(PoseJudgeTest, WhatKnownPointsDenyLeavesADoubt) {
   EXPECT_TRUE(judge_.IsDoubtful());
   tracked_.shares.known = 0.9;
   EXPECT_TRUE(Judge().is_believed);
-  EXPECT_EQ(update_.pose.status, PoseStatus::kDegraded);
-  EXPECT_EQ(update_.remark, "two groups of points moved differently a moment ago");
+  ExpectPose(PoseStatus::kDegraded, "two groups of points moved differently a moment ago");
 }
 
 TEST_F(PoseJudgeTest, TheLeftEyeAloneDegrades) {
@@ -101,8 +102,8 @@ TEST_F(PoseJudgeTest, TheLeftEyeAloneDegrades) {
   frame_.right_is_repeated = true;
   judge_.Look(frame_);
   EXPECT_TRUE(Judge().is_believed);
-  EXPECT_EQ(update_.pose.status, PoseStatus::kDegraded);
-  EXPECT_EQ(update_.remark, "the right camera repeats its picture, the left one alone tells");
+  ExpectPose(PoseStatus::kDegraded,
+             "the right camera repeats its picture, the left one alone tells");
 }
 
 TEST_F(PoseJudgeTest, PointsTooFarToTellTheLengthOfTheWayDegrade) {
@@ -111,8 +112,7 @@ TEST_F(PoseJudgeTest, PointsTooFarToTellTheLengthOfTheWayDegrade) {
   const PoseJudge::Verdict verdict = Judge();
   EXPECT_TRUE(verdict.is_believed);
   EXPECT_FALSE(verdict.are_depths_known);
-  EXPECT_EQ(update_.pose.status, PoseStatus::kDegraded);
-  EXPECT_EQ(update_.remark, "most points are too far to tell how long the way is");
+  ExpectPose(PoseStatus::kDegraded, "most points are too far to tell how long the way is");
 }
 
 }  // namespace
