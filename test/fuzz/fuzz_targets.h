@@ -13,14 +13,17 @@ struct FuzzTarget {
   void (*run)(const std::string& bytes);
 };
 
+std::vector<FuzzTarget> DrivingTargets();
 std::vector<FuzzTarget> FileTargets();
 std::vector<FuzzTarget> HardwareTargets();
+std::vector<FuzzTarget> ImportTargets();
 std::vector<FuzzTarget> MessageTargets();
 std::vector<FuzzTarget> SessionTargets();
 
 inline std::vector<FuzzTarget> AllFuzzTargets() {
   std::vector<FuzzTarget> all;
-  for (const auto& part : {FileTargets(), HardwareTargets(), MessageTargets(), SessionTargets()})
+  for (const auto& part : {DrivingTargets(), FileTargets(), HardwareTargets(), ImportTargets(),
+                           MessageTargets(), SessionTargets()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

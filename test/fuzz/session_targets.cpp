@@ -6,6 +6,7 @@
 #include "arfm_vo/ros/conversions.h"
 #include "fuzz/byte_source.h"
 #include "fuzz/fuzz_targets.h"
+#include "fuzz/message_editor.h"
 #include "fuzz/promise.h"
 
 namespace arfm_vo {
@@ -60,76 +61,6 @@ StereoImages MakeImages(int number) {
           static_cast<uint8_t>(255 * Hash(row * 96 + (column + 3) % 96));
     }
   return images;
-}
-
-void EditField(ByteSource& bytes, geometry_msgs::Transform& field) {
-  double* const values[] = {&field.translation.x, &field.translation.y, &field.translation.z,
-                            &field.rotation.x,    &field.rotation.y,    &field.rotation.z,
-                            &field.rotation.w};
-  *values[bytes.Byte() % std::size(values)] = bytes.Value<double>();
-}
-
-void EditField(ByteSource& bytes, RectifiedStereo& field) {
-  double* const values[] = {&field.fx, &field.fy, &field.cx, &field.cy, &field.baseline_m};
-  const uint8_t which = bytes.Byte() % 7;
-  if (which < 5) {
-    *values[which] = bytes.Value<double>();
-  } else {
-    (which == 5 ? field.width : field.height) = bytes.Value<uint32_t>();
-  }
-}
-
-template <class Number>
-std::enable_if_t<std::is_arithmetic_v<Number>> EditField(ByteSource& bytes, Number& field) {
-  field = bytes.Value<Number>();
-}
-
-/// Changes the size or an element.
-template <class Element>
-void EditField(ByteSource& bytes, std::vector<Element>& field) {
-  if (bytes.Byte() % 8 == 0)
-    field.resize(bytes.Byte());
-  else if (!field.empty())
-    EditField(bytes, field[bytes.Below(static_cast<uint32_t>(field.size()))]);
-}
-
-/// Changes one of the fields, chosen by the bytes.
-template <class... Fields>
-void EditOneOf(ByteSource& bytes, Fields&... fields) {
-  const uint32_t chosen = bytes.Byte() % sizeof...(fields);
-  uint32_t index = 0;
-  const auto edit = [&](auto& field) {
-    if (index++ == chosen) EditField(bytes, field);
-  };
-  (edit(fields), ...);
-}
-
-void EditMessage(ByteSource& bytes, StereoFrameStamped& message) {
-  EditOneOf(bytes, message.camera, message.keypoint_x, message.keypoint_y, message.keypoint_scale,
-            message.keypoint_angle, message.keypoint_response, message.keypoint_laplacian_sign,
-            message.descriptors, message.point_keypoint, message.point_observation,
-            message.point_row_residual, message.point_sigma, message.point_position,
-            message.point_disparity_gradient, message.num_right_keypoints, message.grey_mean,
-            message.grey_variance, message.ratio_threshold, message.header.stamp.sec);
-}
-
-void EditMessage(ByteSource& bytes, KeyframeStamped& message) {
-  EditOneOf(bytes, message.epoch, message.camera, message.odom_from_world, message.base_from_camera,
-            message.id, message.camera_from_world, message.observation_landmark,
-            message.observation_pixels, message.observation_has_right, message.observation_sigma,
-            message.landmark_id, message.landmark_position, message.landmark_laplacian_sign,
-            message.landmark_descriptors, message.header.stamp.sec);
-}
-
-void EditMessage(ByteSource& bytes, MapUpdateStamped& message) {
-  EditOneOf(bytes, message.keyframe_id, message.camera_from_world, message.landmark_id,
-            message.landmark_position, message.num_keyframes, message.correction_px,
-            message.correction_covariance);
-}
-
-template <class Message>
-void EditSometimes(ByteSource& bytes, Message& message) {
-  for (int i = bytes.Byte() % 4; i > 0; --i) EditMessage(bytes, message);
 }
 
 /// What pose_node and ba_node do with their messages, which come from anywhere.
