@@ -2,14 +2,13 @@
 # Builds apart with gcc's coverage counters, runs the unit tests, and prints for each layer how many of its lines and
 # branches they reached, as a table; with --lines also the lines that none reached. Needs gcovr (apt-get install gcovr).
 # Usage: scripts/coverage.sh [--lines] [LAYER ...]     default: all; with LAYER .. only the tests of these
-#        scripts/coverage.sh [--lines] --nodes         all tests, those of programs and nodes too: about an hour
+# For the layer ros the nodes' tests run too.
 # BUILD_DIR (default _b_coverage) is the build tree.
 set -euo pipefail
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
-lines='' nodes=''
+lines=
 if [[ ${1-} == --lines ]]; then lines=1; shift; fi
-if [[ ${1-} == --nodes ]]; then nodes=1; shift; fi
 command -v gcovr > /dev/null || { echo "coverage: gcovr is missing (apt-get install gcovr)" >&2; exit 2; }
 export BUILD_DIR=${BUILD_DIR:-_b_coverage} PATH=/usr/bin:$PATH
 mkdir -p "$BUILD_DIR/devel/lib/python3/dist-packages"
@@ -19,13 +18,12 @@ mkdir -p "$BUILD_DIR/devel/lib/python3/dist-packages"
 mapfile -t tests < <(cd "$BUILD_DIR" && ctest -N | sed -n 's/.*_gtest_\(test_\w*\)$/\1/p')
 filter=src/
 if [ $# -gt 0 ]; then tests=("${@/#/test_}"); filter="src/($(IFS='|'; echo "$*"))/"; fi
-# (What install_space and readme_blocks run is built without counters.)
-if [ $nodes ]; then targets=() chosen=(-E '^(install_space|readme_blocks)$')
-else targets=("${tests[@]}") chosen=(-R "_gtest_($(IFS='|'; echo "${tests[*]}"))$"); fi
-scripts/build.sh "${targets[@]}"
+chosen="_gtest_($(IFS='|'; echo "${tests[*]}"))$"
+if [[ " ${tests[*]} " == *" test_ros "* ]]; then tests=() chosen+="|_rostest_"; fi
+scripts/build.sh "${tests[@]}"
 find "$BUILD_DIR" -name '*.gcda' -delete
 status=0
-(cd "$BUILD_DIR" && ctest --timeout 7200 --output-on-failure "${chosen[@]}") || status=1
+(cd "$BUILD_DIR" && ctest --timeout 7200 --output-on-failure -R "$chosen") || status=1
 gcovr --root . --object-directory "$BUILD_DIR" --filter "$filter" --exclude-throw-branches --csv "$BUILD_DIR/coverage.csv" \
   ${lines:+--txt /dev/stderr}
 echo "| layer | lines | reached | branches | reached |"
