@@ -25,7 +25,7 @@ find "$BUILD_DIR" -name '*.gcda' -delete
 status=0
 (cd "$BUILD_DIR" && ctest --timeout 7200 --output-on-failure -R "$chosen") || status=1
 gcovr --root . --object-directory "$BUILD_DIR" --filter "$filter" --exclude-throw-branches --csv "$BUILD_DIR/coverage.csv" \
-  ${lines:+--txt /dev/stderr}
+  ${lines:+--txt -} >&2
 echo "| layer | lines | reached | branches | reached |"
 echo "|---|---|---|---|---|"
 awk -F, 'NR > 1 {split($1, part, "/"); layer = part[2]; lines[layer] += $2; hit[layer] += $3; branches[layer] += $5; taken[layer] += $6}
