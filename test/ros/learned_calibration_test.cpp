@@ -1,6 +1,7 @@
 #include "arfm_vo/ros/learned_calibration.h"
 
 #include <gtest/gtest.h>
+#include <ros/time.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -80,6 +81,15 @@ TEST_F(LearnedCalibrationTest, AFileThatIsNoneStopsNothing) {
   std::filesystem::create_directories(home_ / "arfm_vo");
   std::ofstream(File()) << "neither: [here";
   EXPECT_FALSE(LearnedCalibration({}).ReadFor(kCamera));
+}
+
+TEST_F(LearnedCalibrationTest, AFolderThatCannotBeMadeStopsNothing) {
+  ros::Time::init();  // the warning's
+  std::ofstream(home_ / "file") << "no folder";
+  LearnedCalibration learned({true, home_ / "file"});
+  EXPECT_FALSE(learned.ReadFor(kCamera));
+  learned.Write(Learned(0.25));
+  EXPECT_TRUE(std::filesystem::is_regular_file(home_ / "file"));
 }
 
 TEST_F(LearnedCalibrationTest, AFolderThatIsGivenTakesThePlaceOfRossOwn) {

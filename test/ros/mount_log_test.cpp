@@ -70,6 +70,21 @@ TEST(MountLog, LostPairsAreInterpolatedAsPosesOfTheBase) {
   ExpectNear(base[1].world_from_camera, Rigid3(ExpSO3({0, 0, 0.2}), Eigen::Vector3d(0.1, 0, 0)));
 }
 
+TEST(MountLog, AHeadThatNeverRestsIsKeptAtFewerTimesInTheEnd) {
+  MountLog log;
+  const int num_pairs = static_cast<int>(kMaxFramesKept) + 10;
+  const auto mount = [](int pair) { return BaseFromCamera(1e-5 * pair); };
+  for (int i = 0; i < num_pairs; ++i) log.Add(i, mount(i));
+  const Rigid3 first = mount(0), last = mount(num_pairs - 1);
+  const Trajectory camera = {{0, Rigid3(), true},
+                             {1001, first.Inverse() * mount(1001), true},
+                             {num_pairs - 1., first.Inverse() * last, true}};
+  const Trajectory base = log.OfBase(camera);
+  ExpectNear(base[0].world_from_camera, Rigid3());
+  EXPECT_LT(base[1].world_from_camera.Angle(), 1.5e-5) << "by the pair before it";
+  ExpectNear(base[2].world_from_camera, Rigid3());
+}
+
 TEST(MountLog, WithoutATrackedPairNothingIsTold) {
   const Trajectory lost = {{1, Rigid3(), false}};
   EXPECT_EQ(MountLog().OfBase(lost).size(), 1u);

@@ -92,6 +92,29 @@ TEST(OdometryConsole, EyesThatDoNotFitAreTold) {
   EXPECT_THAT(line->text, HasSubstr("the eyes not swapped"));
 }
 
+TEST(OdometryConsole, WhereEyesFitAndTheMapIsNotFoundTheMotionMayBeTooFast) {
+  OdometryConsole console;
+  StereoFrame frame;
+  for (int i = 0; i < 500; ++i) frame.features.keypoints.emplace_back();
+  frame.features.descriptors.create(500, 64, CV_32F);
+  frame.points.resize(300);
+  const auto line =
+      Watch(console, 0, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), frame);
+  ASSERT_TRUE(line);
+  EXPECT_THAT(line->text, HasSubstr("too fast"));
+}
+
+TEST(OdometryConsole, SaysWhyAPoseIsDegraded) {
+  OdometryConsole console;
+  console.Take({}, kTracked, 0);
+  const auto degraded =
+      Watch(console, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
+  ASSERT_TRUE(degraded);
+  EXPECT_TRUE(degraded->is_warning);
+  EXPECT_EQ(degraded->text, "the right camera is dark");
+  EXPECT_THAT(console.Take({}, kTracked, 20)->text, HasSubstr("tracked again"));
+}
+
 TEST(OdometryConsole, CountsAllPairsInTheTotals) {
   OdometryConsole console;
   console.Take({}, kTracked, 0);
