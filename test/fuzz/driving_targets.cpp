@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kTick_s = 0.02;
 constexpr double kNever_s = -std::numeric_limits<double>::infinity();
+constexpr double kMaxFromFuture_s = 0.2;  ///< what is told to be of a later time is not believed
 
 /// A rover on ground without slip, whose chassis, eyes and operator are well unless the bytes say
 /// otherwise. The pilot's options are the defaults.
@@ -117,15 +119,19 @@ class FuzzedDrive {
     if (bits & 128) pilot_.motion_watch().ObserveCurrent(now_s_, bytes_.Value<double>());
   }
 
+  void Note(double taken_s, double& newest_s) const {
+    if (taken_s <= now_s_ + kMaxFromFuture_s) newest_s = std::max(newest_s, taken_s);
+  }
+
   void ObservePose(const PoseObservation& pose) {
     if (pose.odom_from_base.IsFinite() && pose.map_from_odom.IsFinite())
-      seen_s_ = std::max(seen_s_, pose.taken_s);
+      Note(pose.taken_s, seen_s_);
     pilot_.ObservePose(now_s_, pose);
   }
 
   void ObserveUncertainty(const PoseUncertainty& uncertainty) {
     if (std::isfinite(uncertainty.position_sigma_m) && std::isfinite(uncertainty.heading_sigma_rad))
-      known_s_ = std::max(known_s_, uncertainty.taken_s);
+      Note(uncertainty.taken_s, known_s_);
     pilot_.ObserveUncertainty(now_s_, uncertainty);
   }
 
