@@ -22,6 +22,9 @@ constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
 constexpr double kRadialSigmaPx = 3;
 /// Of both images' focal length: what calibrations after Zhang say of themselves.
 constexpr double kFocalLengthSigma = 1e-3;
+/// The same from one drive to the next: the cameras' rotation against each other, their centres.
+constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3,
+                                                    0.3,  0,    0,    0, 0, 0};
 /// The pixels above are of a camera with this focal length: what a calibration is off by are
 /// angles.
 constexpr double kFocalLengthPx = 700;
@@ -66,6 +69,13 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
   return coefficients;
 }
 
+CorrectionBelief::Matrix CovarianceByErrors(const StereoCamera& camera,
+                                            const double (&sigmas)[kNumErrors]) {
+  const auto by_errors = CoefficientsByErrors(camera);
+  const Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>> sigma(sigmas);
+  return by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
+}
+
 }  // namespace
 
 CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
@@ -75,10 +85,8 @@ CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
 }
 
 CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
-  const auto by_errors = CoefficientsByErrors(camera);
-  const Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>> sigma(kErrorSigma);
-  const Matrix explained = by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose() +
-                           Isotropic(kUnmodelledSigmaPx).covariance;
+  const Matrix explained =
+      CovarianceByErrors(camera, kErrorSigma) + Isotropic(kUnmodelledSigmaPx).covariance;
   CorrectionBelief belief;
   belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
   belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
@@ -86,6 +94,13 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
   belief.covariance.diagonal()[kNumTerms + RadialBasis::kFocalLength] =
       std::pow(kFocalLengthSigma * RadialBasis::CornerPx(camera), 2);
+  return belief;
+}
+
+CorrectionBelief CorrectionBelief::Unconfirmed(const StereoCamera& camera) const {
+  CorrectionBelief belief = *this;
+  belief.is_of_earlier_drive = false;
+  belief.covariance += CovarianceByErrors(camera, kSigmaBetweenDrives);
   return belief;
 }
 

@@ -1,10 +1,12 @@
 #include "arfm_vo/odometry/correction_learner.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {
@@ -27,6 +29,10 @@ constexpr double kModelSigmaPx = 0.05;
 constexpr double kContradictionPx = 0.5;
 constexpr int kMaxContradictions = 10;
 
+/// What an earlier drive has learnt stands where its columns lie within this quantile of what is
+/// found.
+constexpr double kSameProbability = 0.95;
+
 /// The focal length of both images shows in turns: after so much more turning the correction is
 /// learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
@@ -37,6 +43,14 @@ bool IsKnown(const CorrectionBelief& correction, const StereoCamera& camera) {
          std::hypot(std::sqrt(kTrackCorrelation) * kKnownSigmaPx, model_px);
 }
 
+/// Whether the columns of a camera with the correction `mean` would be found so.
+bool Allows(const CorrectionBelief& found, const StereoCorrection& mean) {
+  constexpr int kNum = StereoCorrection::kNumField;
+  const auto apart = (found.mean.coefficients_px - mean.coefficients_px).head<kNum>().eval();
+  const auto allowed = found.covariance.topLeftCorner<kNum, kNum>().eval();
+  return apart.dot(allowed.llt().solve(apart)) <= ChiSquareQuantile(kNum, kSameProbability);
+}
+
 }  // namespace
 
 CorrectionLearner::CorrectionLearner(const StereoCamera& camera, bool may_learn,
@@ -45,7 +59,13 @@ CorrectionLearner::CorrectionLearner(const StereoCamera& camera, bool may_learn,
       may_learn_(may_learn),
       prior_(known),
       correction_(known),
-      is_learning_(may_learn && !IsKnown(known, camera)) {}
+      is_learning_(may_learn && !IsKnown(known, camera)) {
+  if (!known.is_of_earlier_drive || !may_learn || is_learning_) return;
+  earlier_ = known;
+  earlier_->is_of_earlier_drive = false;
+  prior_ = correction_ = known.Unconfirmed(camera);
+  is_learning_ = true;
+}
 
 std::optional<CorrectionBelief> CorrectionLearner::Prior() const {
   return is_learning_ ? std::optional(prior_) : std::nullopt;
@@ -75,15 +95,24 @@ void CorrectionLearner::LearnFromTurns() {
   is_learning_ |= may_learn_ && turned_rad_ > learnt_at_rad_ + kTellingTurn_rad;
 }
 
-void CorrectionLearner::Learn(const BundleResult& result) {
-  if (!is_learning_) return;
+bool CorrectionLearner::Learn(const BundleResult& result) {
+  if (!is_learning_) return false;
   const bool is_whole =
       result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
-  if (!is_whole || result.correction_covariance.isZero(0)) return;
-  correction_ = {result.correction, kTrackCorrelation * result.correction_covariance};
-  correction_.covariance.diagonal().array() += kModelSigmaPx * kModelSigmaPx;
-  is_learning_ = !IsKnown(correction_, camera_);
+  if (!is_whole || result.correction_covariance.isZero(0)) return false;
+  CorrectionBelief found{result.correction, kTrackCorrelation * result.correction_covariance};
+  found.covariance.diagonal().array() += kModelSigmaPx * kModelSigmaPx;
+  is_learning_ = !IsKnown(found, camera_);
   learnt_at_rad_ = turned_rad_;
+  if (earlier_ && !Allows(found, earlier_->mean)) earlier_.reset();
+  const bool stands = earlier_.has_value();
+  if (stands) found.mean = earlier_->mean;
+  correction_ = found;
+  if (stands && !is_learning_) {
+    prior_ = *earlier_;
+    earlier_.reset();
+  }
+  return stands;
 }
 
 }  // namespace arfm_vo

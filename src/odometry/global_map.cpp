@@ -202,9 +202,14 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (is_bent) BendOntoLoops();
   BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
-  const BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
+  BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
   if (result.status == BundleStatus::kFailed) return std::nullopt;
-  learner_.Learn(result);
+  if (learner_.Learn(result)) {
+    problem = MakeProblem();
+    problem.correction_prior.reset();
+    result = AdjustBundle(std::move(problem), options_.solver, progress);
+    if (result.status == BundleStatus::kFailed) return std::nullopt;
+  }
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
   map_from_odom_ = store_.keyframes.back().camera_from_world.Inverse() * newest_from_odom;

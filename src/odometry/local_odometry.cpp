@@ -84,8 +84,10 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     FinishAdjustment();
-    const bool is_new = correction_.mean.coefficients_px != update.correction.mean.coefficients_px;
-    if (is_new) covariance_.SetCorrection(update.correction);
+    const CorrectionBelief& learnt = update.correction;
+    const bool is_new = correction_.mean.coefficients_px != learnt.mean.coefficients_px ||
+                        correction_.covariance != learnt.covariance;
+    if (is_new) covariance_.SetCorrection(learnt);
     correction_ = update.correction;
     tracker_.SetCorrection(correction_.mean);
     ApplyMapUpdate(update, map_);

@@ -49,6 +49,7 @@ TEST_F(LearnedCorrectionFileTest, ComesBackToTheLastBit) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->mean.coefficients_px, belief_.mean.coefficients_px);
   EXPECT_EQ(back->covariance, belief_.covariance);
+  EXPECT_TRUE(back->is_of_earlier_drive);
 }
 
 TEST_F(LearnedCorrectionFileTest, BelongsToItsCameraAlone) {

@@ -89,6 +89,23 @@ TEST(CorrectionBelief, FocalLengthExcessIsAShareOfIt) {
   EXPECT_LT((ProjectStereo4(kCamera, belief.mean, x) - ProjectStereo4(longer, {}, x)).norm(), 1e-9);
 }
 
+TEST(CorrectionBelief, ThatOfAnEarlierDriveLeavesOpenWhetherTheCamerasHaveTurned) {
+  CorrectionBelief earlier = CorrectionBelief::Isotropic(0.01);
+  earlier.mean.coefficients_px[4] = 0.4;
+  earlier.is_of_earlier_drive = true;
+  const CorrectionBelief now = earlier.Unconfirmed(kCamera);
+  EXPECT_FALSE(now.is_of_earlier_drive);
+  EXPECT_EQ(now.mean.coefficients_px, earlier.mean.coefficients_px);
+  const StereoCorrection yaw = Fit([](const Eigen::Vector2d& pixel) {
+    const double x = (pixel.x() - kCamera.cx) / kCamera.fx;
+    const double y = (pixel.y() - kCamera.cy) / kCamera.fy;
+    return Eigen::Vector2d(1e-3 * kCamera.fx * (1 + x * x), 1e-3 * kCamera.fy * x * y);
+  });
+  const auto& turned = yaw.coefficients_px;
+  EXPECT_NEAR(turned.dot(now.Information() * turned), 1, 0.01) << "one standard deviation";
+  EXPECT_NEAR(std::sqrt(now.covariance(11, 11)), 0.01, 0.01) << "radial: the lens is the same";
+}
+
 /// A roll of 1 mrad: rows by 0.6 px at the edges, columns by 0.2 px at top and bottom.
 TEST(CorrectionBelief, RowsThatShowARollTellOfColumns) {
   const CorrectionBelief prior = CorrectionBelief::OfCalibration(kCamera);

@@ -38,6 +38,49 @@ TEST(CorrectionLearner, WhatIsKnownIsHeldAndWhatIsNotIsLearnt) {
   EXPECT_FALSE(CorrectionLearner(kCamera, false, calibration).Prior());
 }
 
+/// With 0.2 px in the columns from an earlier drive.
+CorrectionLearner RememberingLearner(bool may_learn = true) {
+  CorrectionBelief earlier = CorrectionBelief::Isotropic(0.01);
+  earlier.mean.coefficients_px[0] = 0.2;
+  earlier.is_of_earlier_drive = true;
+  return {kCamera, may_learn, earlier};
+}
+
+TEST(CorrectionLearner, WhatAnEarlierDriveToldIsHeldOnceThisOneFindsTheSame) {
+  CorrectionLearner learner = RememberingLearner();
+  EXPECT_EQ(learner.correction().mean.coefficients_px[0], 0.2);
+  EXPECT_GT(learner.correction().covariance(0, 0), 0.1) << "it may have changed";
+  ASSERT_TRUE(learner.Prior());
+  EXPECT_TRUE(learner.Learn(Found(0.4, 0.3, BundleStatus::kConverged)));
+  EXPECT_EQ(learner.correction().mean.coefficients_px[0], 0.2) << "stands, as far as that tells";
+  EXPECT_GT(learner.correction().covariance(0, 0), 0.1);
+  ASSERT_TRUE(learner.Prior());
+  EXPECT_TRUE(learner.Learn(Found(0.22, 0.01, BundleStatus::kConverged)));
+  EXPECT_EQ(learner.correction().mean.coefficients_px[0], 0.2);
+  EXPECT_LT(learner.correction().covariance(0, 0), 0.06 * 0.06);
+  EXPECT_FALSE(learner.Prior());
+  learner.AddTurn(0.6);
+  learner.LearnFromTurns();
+  EXPECT_NEAR(learner.Prior()->covariance(0, 0), 1e-4, 1e-12) << "as the earlier drive told";
+}
+
+TEST(CorrectionLearner, WhatAnEarlierDriveToldIsDroppedWhereThisOneFindsAnother) {
+  CorrectionLearner learner = RememberingLearner();
+  EXPECT_FALSE(learner.Learn(Found(0.6, 0.03, BundleStatus::kConverged)));
+  EXPECT_EQ(learner.correction().mean.coefficients_px[0], 0.6);
+  EXPECT_FALSE(learner.Prior()) << "0.03 px is known";
+  learner.AddTurn(0.6);
+  learner.LearnFromTurns();
+  EXPECT_FALSE(learner.Learn(Found(0.2, 0.03, BundleStatus::kConverged)));
+  EXPECT_EQ(learner.correction().mean.coefficients_px[0], 0.2);
+}
+
+TEST(CorrectionLearner, WhereNothingIsToBeLearntWhatAnEarlierDriveToldIsHeld) {
+  CorrectionLearner learner = RememberingLearner(false);
+  EXPECT_FALSE(learner.Prior());
+  EXPECT_NEAR(learner.correction().covariance(0, 0), 1e-4, 1e-12);
+}
+
 TEST(CorrectionLearner, LearnsUntilItIsKnown) {
   CorrectionLearner learner(kCamera, true, CorrectionBelief::OfCalibration(kCamera));
   learner.Learn(Found(0.3, 0.3, BundleStatus::kConverged));

@@ -178,6 +178,27 @@ TEST(GlobalMap, HoldsWhatAnEarlierDriveHasLearntUntilTurnsTellMore) {
   EXPECT_GE(num_anew, 1);
 }
 
+/// As after a knock: rows do not tell of it.
+TEST(GlobalMap, ForgetsWhatAnEarlierDriveHasToldWhereTheColumnsContradict) {
+  for (const double earlier_px : {0.3, -0.2}) {
+    CorrectionBelief earlier = CorrectionBelief::Isotropic(0.03);
+    earlier.mean.coefficients_px[0] = earlier_px;
+    earlier.mean.coefficients_px[kFirstRow] = -0.3;
+    earlier.is_of_earlier_drive = true;
+    GlobalMap map(kBundleCamera, {}, earlier);
+    std::vector<MapUpdate> updates;
+    for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
+      map.Add(placed.keyframe, placed.landmarks);
+      if (!map.IsAdjustmentDue()) continue;
+      if (auto update = map.Adjust()) updates.push_back(std::move(*update));
+    }
+    const auto told_px = [&](size_t i) { return updates[i].correction.mean.coefficients_px[0]; };
+    ASSERT_GE(updates.size(), 6u);
+    EXPECT_NEAR(told_px(5), 0.3, 0.1);
+    EXPECT_EQ(told_px(3) == earlier_px, earlier_px == 0.3);
+  }
+}
+
 TEST(GlobalMap, ForgetsACorrectionThatTheRowsContradict) {
   CorrectionBelief wrong = CorrectionBelief::Isotropic(0.01);  // as from another camera's drive
   wrong.mean.coefficients_px[kFirstRow] = 0.8;

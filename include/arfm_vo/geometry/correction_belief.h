@@ -10,6 +10,7 @@ struct CorrectionBelief {
 
   StereoCorrection mean;
   Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
+  bool is_of_earlier_drive = false;    ///< and not yet confirmed by this one
 
   /// Each coefficient zero within `sigma_px`, independently of the others.
   static CorrectionBelief Isotropic(double sigma_px);
@@ -21,6 +22,10 @@ struct CorrectionBelief {
   /// the corners, both images may be off radially by some pixels (at a focal length of 700 px;
   /// others in proportion), and the focal length of both by 0.1 %.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
+
+  /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have
+  /// turned the cameras against each other by a milliradian, and moved a centre by 0.3 px.
+  CorrectionBelief Unconfirmed(const StereoCamera& camera) const;
 
   Matrix Information() const;
   using Placing =

@@ -11,7 +11,8 @@ namespace arfm_vo {
 /// What is known of the stereo correction, and whether an adjustment is to find it too: until it is
 /// known better than any single observation is trusted. From then on it is held, and learnt anew
 /// only where the rows contradict it, or where the camera has turned so much more that the focal
-/// length of both images shows.
+/// length of both images shows. What an earlier drive has learnt is held once this one has found
+/// the same, and dropped where it finds another.
 class CorrectionLearner {
  public:
   /// `known`: before the first keyframe. It is held for good unless `may_learn`.
@@ -33,14 +34,16 @@ class CorrectionLearner {
   void LearnFromTurns();
   /// Holds what is known.
   void Hold() { is_learning_ = false; }
-  /// Takes what an adjustment found.
-  void Learn(const BundleResult& result);
+  /// Takes what an adjustment found. True where what an earlier drive has told stands against it:
+  /// poses and points are to be adjusted with that, correction().mean.
+  bool Learn(const BundleResult& result);
 
  private:
   StereoCamera camera_;
   bool may_learn_;
-  CorrectionBelief prior_;       ///< without the keyframes
-  CorrectionBelief correction_;  ///< with them
+  CorrectionBelief prior_;                   ///< without the keyframes
+  CorrectionBelief correction_;              ///< with them
+  std::optional<CorrectionBelief> earlier_;  ///< of an earlier drive, until it is confirmed
   bool is_learning_;
   double turned_rad_ = 0;       ///< sum over the keyframes' rotations
   double learnt_at_rad_ = 0;    ///< when the correction was learnt
