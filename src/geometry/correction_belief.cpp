@@ -29,6 +29,7 @@ constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3,
 /// angles.
 constexpr double kFocalLengthPx = 700;
 
+using ErrorSigmas = Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>>;
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
 
 /// Displacement (du, dv) of a pixel by a unit of each error.
@@ -69,13 +70,6 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
   return coefficients;
 }
 
-CorrectionBelief::Matrix CovarianceByErrors(const StereoCamera& camera,
-                                            const double (&sigmas)[kNumErrors]) {
-  const auto by_errors = CoefficientsByErrors(camera);
-  const Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>> sigma(sigmas);
-  return by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
-}
-
 }  // namespace
 
 CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
@@ -85,8 +79,10 @@ CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
 }
 
 CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
-  const Matrix explained =
-      CovarianceByErrors(camera, kErrorSigma) + Isotropic(kUnmodelledSigmaPx).covariance;
+  const auto by_errors = CoefficientsByErrors(camera);
+  const ErrorSigmas sigma(kErrorSigma);
+  const Matrix explained = by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose() +
+                           Isotropic(kUnmodelledSigmaPx).covariance;
   CorrectionBelief belief;
   belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
   belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
@@ -98,9 +94,11 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
 }
 
 CorrectionBelief CorrectionBelief::Unconfirmed(const StereoCamera& camera) const {
+  const auto by_errors = CoefficientsByErrors(camera);
+  const ErrorSigmas sigma(kSigmaBetweenDrives);
   CorrectionBelief belief = *this;
   belief.is_of_earlier_drive = false;
-  belief.covariance += CovarianceByErrors(camera, kSigmaBetweenDrives);
+  belief.covariance += by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
   return belief;
 }
 
