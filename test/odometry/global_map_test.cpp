@@ -155,20 +155,22 @@ TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenHoldsIt) {
   EXPECT_EQ(told.back().mean.coefficients_px, told[told.size() - 2].mean.coefficients_px);
 }
 
+/// The updates of a drive in which `known` was known before.
+std::vector<MapUpdate> DriveDisplaced(const CorrectionBelief& known) {
+  GlobalMap map(kBundleCamera, {}, known);
+  std::vector<MapUpdate> updates;
+  for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
+    map.Add(placed.keyframe, placed.landmarks);
+    if (!map.IsAdjustmentDue()) continue;
+    if (auto update = map.Adjust()) updates.push_back(std::move(*update));
+  }
+  return updates;
+}
+
 TEST(GlobalMap, HoldsWhatAnEarlierDriveHasLearntUntilTurnsTellMore) {
-  const auto drive = [](const CorrectionBelief& known) {
-    GlobalMap map(kBundleCamera, {}, known);
-    std::vector<MapUpdate> updates;
-    for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
-      map.Add(placed.keyframe, placed.landmarks);
-      if (!map.IsAdjustmentDue()) continue;
-      if (auto update = map.Adjust()) updates.push_back(std::move(*update));
-    }
-    return updates;
-  };
-  const CorrectionBelief learnt = drive(kCalibration).back().correction;
+  const CorrectionBelief learnt = DriveDisplaced(kCalibration).back().correction;
   int num_anew = 0;
-  for (const MapUpdate& update : drive(learnt)) {
+  for (const MapUpdate& update : DriveDisplaced(learnt)) {
     const auto& told = update.correction.mean.coefficients_px;
     const bool is_held = told == learnt.mean.coefficients_px;
     EXPECT_TRUE(is_held || update.num_keyframes > 25);  // 0.01 rad each, and their errors
@@ -185,13 +187,7 @@ TEST(GlobalMap, ForgetsWhatAnEarlierDriveHasToldWhereTheColumnsContradict) {
     earlier.mean.coefficients_px[0] = earlier_px;
     earlier.mean.coefficients_px[kFirstRow] = -0.3;
     earlier.is_of_earlier_drive = true;
-    GlobalMap map(kBundleCamera, {}, earlier);
-    std::vector<MapUpdate> updates;
-    for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(0.3, -0.3)) {
-      map.Add(placed.keyframe, placed.landmarks);
-      if (!map.IsAdjustmentDue()) continue;
-      if (auto update = map.Adjust()) updates.push_back(std::move(*update));
-    }
+    const std::vector<MapUpdate> updates = DriveDisplaced(earlier);
     const auto told_px = [&](size_t i) { return updates[i].correction.mean.coefficients_px[0]; };
     ASSERT_GE(updates.size(), 6u);
     EXPECT_NEAR(told_px(5), 0.3, 0.1);

@@ -81,11 +81,18 @@ TEST(OdometryConsole, SaysWhyItIsLostAndWhenItIsBack) {
   EXPECT_THAT(back->text, HasSubstr("after 5.0 s"));
 }
 
+/// With 500 features, of which so many are stereo points.
+StereoFrame MakeFrame(int num_points) {
+  StereoFrame frame;
+  frame.features.keypoints.resize(500);
+  frame.features.descriptors.create(500, 64, CV_32F);
+  frame.points.resize(num_points);
+  return frame;
+}
+
 TEST(OdometryConsole, EyesThatDoNotFitAreTold) {
   OdometryConsole console;
-  StereoFrame frame;
-  for (int i = 0; i < 500; ++i) frame.features.keypoints.emplace_back();
-  frame.features.descriptors.create(500, 64, CV_32F);
+  const StereoFrame frame = MakeFrame(0);
   const auto line =
       Watch(console, 0, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few"), frame);
   ASSERT_TRUE(line);
@@ -94,10 +101,7 @@ TEST(OdometryConsole, EyesThatDoNotFitAreTold) {
 
 TEST(OdometryConsole, WhereEyesFitAndTheMapIsNotFoundTheMotionMayBeTooFast) {
   OdometryConsole console;
-  StereoFrame frame;
-  for (int i = 0; i < 500; ++i) frame.features.keypoints.emplace_back();
-  frame.features.descriptors.create(500, 64, CV_32F);
-  frame.points.resize(300);
+  const StereoFrame frame = MakeFrame(300);
   const auto line =
       Watch(console, 0, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), frame);
   ASSERT_TRUE(line);
