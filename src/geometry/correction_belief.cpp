@@ -22,12 +22,13 @@ constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
 constexpr double kRadialSigmaPx = 3;
 /// Of both images' focal length: what calibrations after Zhang say of themselves.
 constexpr double kFocalLengthSigma = 1e-3;
-/// The same from one drive to the next: the cameras' rotation against each other, their centres.
-constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3,
-                                                    0.3,  0,    0,    0, 0, 0};
 /// The pixels above are of a camera with this focal length: what a calibration is off by are
 /// angles.
 constexpr double kFocalLengthPx = 700;
+/// How much the errors of kErrorSigma change from one drive to the next, whatever the focal length:
+/// rotation (rad) and centre (px).
+constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3,
+                                                    0.3,  0,    0,    0, 0, 0};
 
 using ErrorSigmas = Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>>;
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
