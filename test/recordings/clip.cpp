@@ -1,0 +1,137 @@
+#include "recordings/clip.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "arfm_vo/base/whole_file.h"
+#include "arfm_vo/datasets/kitti_sequence.h"
+#include "arfm_vo/geometry/kitti_poses.h"
+#include "arfm_vo/odometry/trajectory_files.h"
+
+namespace arfm_vo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMatchedWidth = 640;  ///< px, of the pictures that block matching is done on
+
+/// Depth of the left image by block matching at a lower resolution; 0 where there is none.
+cv::Mat MatchBlocks(const StereoImages& images, const StereoCamera& camera) {
+  const double scale = std::min(1.0, static_cast<double>(kMatchedWidth) / images.left.cols);
+  cv::Mat left, right, disparity;
+  cv::resize(images.left, left, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(images.right, right, {}, scale, scale, cv::INTER_AREA);
+  const int num_disparities = std::max(16, left.cols / 6 / 16 * 16);
+  cv::StereoBM::create(num_disparities, 15)->compute(left, right, disparity);
+  cv::Mat depth = cv::Mat::zeros(images.left.size(), CV_32FC1);
+  for (int v = 0; v < depth.rows; ++v) {
+    for (int u = 0; u < depth.cols; ++u) {
+      const int x = std::min(static_cast<int>(u * scale), disparity.cols - 1);
+      const int y = std::min(static_cast<int>(v * scale), disparity.rows - 1);
+      const double disparity_px = disparity.at<short>(y, x) / 16.0 / scale;
+      if (disparity_px > 0.5) depth.at<float>(v, u) = camera.Depth(disparity_px);
+    }
+  }
+  return depth;
+}
+
+std::vector<Rigid3> RunOdometry(const Clip& clip, const OdometryOptions& options) {
+  KittiSequence sequence(clip.folder);
+  VisualOdometry odometry(sequence.camera(), options);
+  while (const auto pair = sequence.Next()) odometry.Process(pair->images);
+  std::vector<Rigid3> poses;
+  for (const TrajectoryPose& pose : odometry.Finish()) poses.push_back(pose.world_from_camera);
+  return poses;
+}
+
+}  // namespace
+
+std::vector<Clip> FindClips(const std::string& data) {
+  // KITTI's official poses are good to about 1 % of short ways and jump by some 3 cm from pair to
+  // pair; those of the raw drive and of the odometry itself to 1.5 %.
+  const std::vector<Clip> known{
+      {"kitti_06", "kitti/odometry_06_000-050", "drive", "street", true, 1, 0.03, 0, {}},
+      {"kitti_04", "kitti/odometry_04_000-050", "drive", "street", true, 1, 0.03, 0, {}},
+      {"kitti_05", "kitti/odometry_05_100-159", "drive_bend", "street", true, 1, 0.03, 0, {}},
+      {"kitti_0001", "kitti/raw_2011_09_26_drive_0001", "drive", "street", true, 1.5, 0.03, 0, {}},
+      {"backyard", "handheld/boofcv_backyard", "walk", "leaves", false, 1.5, 0.002, 0, {}},
+      {"library", "handheld/boofcv_library", "walk", "indoors", false, 1.5, 0.002, 0, {}},
+      {"room1", "handheld/tumvi_room1", "turning", "indoors_dark", true, 1.5, 0.002, 0, {}},
+  };
+  std::vector<Clip> clips;
+  for (Clip clip : known) {
+    clip.folder = data + "/" + clip.folder;
+    if (!fs::is_directory(clip.folder)) continue;
+    const KittiSequence sequence(clip.folder);
+    clip.num_pairs = sequence.size();
+    clip.camera = sequence.camera();
+    clips.push_back(clip);
+  }
+  return clips;
+}
+
+ClipPlan DrawClipPlan(const std::vector<Clip>& clips, int max_pairs, Draw& draw) {
+  ClipPlan plan;
+  plan.clip = draw.Integer(0, static_cast<int>(clips.size()) - 1);
+  const int all = clips[plan.clip].num_pairs;
+  plan.stride = draw.OneOf<int>({1, 1, 1, 2, 2, 3, 5});
+  plan.num_pairs =
+      std::min(draw.Integer(max_pairs * 2 / 3, max_pairs), 1 + (all - 1) / plan.stride);
+  plan.first = draw.Integer(0, all - 1 - (plan.num_pairs - 1) * plan.stride);
+  plan.is_backward = draw.Chance(0.4);
+  plan.transform.swap = draw.OneOf<EyeSwap>(
+      {EyeSwap::kNone, EyeSwap::kNone, EyeSwap::kNone, EyeSwap::kMirrored, EyeSwap::kTurned});
+  const double crop = draw.Between(0, 0.2), aside = draw.Between(0, 1);
+  const double scale = draw.Between(0.5, 1);
+  if (draw.Chance(0.25)) {  // at most a fifth of the width and a tenth of the height
+    const double columns = crop * clips[plan.clip].camera.width;
+    const double rows = 0.5 * crop * clips[plan.clip].camera.height;
+    plan.transform.crop_left = static_cast<int>(columns * aside);
+    plan.transform.crop_right = static_cast<int>(columns * (1 - aside));
+    plan.transform.crop_top = static_cast<int>(rows * (1 - aside));
+    plan.transform.crop_bottom = static_cast<int>(rows * aside);
+  }
+  if (draw.Chance(0.25)) plan.transform.scale = scale;
+  return plan;
+}
+
+std::vector<Rigid3> ReadClipTruth(const Clip& clip, const OdometryOptions& options,
+                                  const std::string& cache_folder) {
+  if (clip.has_truth) return ReadKittiPoses(clip.folder + "/poses.txt");
+  const std::string path = cache_folder + "/" + clip.name + ".txt";
+  if (!fs::exists(path)) {
+    fs::create_directories(cache_folder);
+    Trajectory trajectory;
+    for (const Rigid3& pose : RunOdometry(clip, options)) trajectory.push_back({0, pose, true});
+    WriteWholeFile(path, FormatKitti(trajectory));
+  }
+  return ReadKittiPoses(path);
+}
+
+ClipWindow::ClipWindow(const Clip& clip, const ClipPlan& plan, const std::vector<Rigid3>& truth) {
+  KittiSequence sequence(clip.folder);
+  const StereoCamera& whole = sequence.camera();
+  camera_ = plan.transform.Apply(whole);
+  const int last = plan.first + (plan.num_pairs - 1) * plan.stride;
+  for (int i = 0; i <= last; ++i) {
+    const auto pair = sequence.Next();
+    if (i < plan.first || (i - plan.first) % plan.stride != 0) continue;
+    pairs_.push_back(plan.transform.Apply(pair->images, whole));
+    world_from_left_.push_back(plan.transform.Apply(truth.at(i), whole.baseline_m));
+  }
+  if (!plan.is_backward) return;
+  std::reverse(pairs_.begin(), pairs_.end());
+  std::reverse(world_from_left_.begin(), world_from_left_.end());
+  const double latest_s = pairs_.front().stamp_s;
+  for (StereoImages& pair : pairs_) pair.stamp_s = latest_s - pair.stamp_s;
+}
+
+TruePair ClipWindow::Take(int pair) const {
+  const StereoImages& images = pairs_.at(pair);
+  return {{images.stamp_s, images.left.clone(), images.right.clone()},
+          MatchBlocks(images, camera_)};
+}
+
+}  // namespace arfm_vo
