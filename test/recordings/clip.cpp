@@ -1,5 +1,6 @@
 #include "recordings/clip.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/calib3d.hpp>
@@ -15,7 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMatchedWidth = 640;  ///< px, of the pictures that block matching is done on
+constexpr int kStepPairs = 5;        ///< of steps whose directions are compared
+constexpr double kHeldShare = 0.01;  ///< of the steps, that hold the camera where it was
+constexpr int kMatchedWidth = 640;   ///< px, of the pictures that block matching is done on
 
 /// Depth of the left image by block matching at a lower resolution; 0 where there is none.
 cv::Mat MatchBlocks(const StereoImages& images, const StereoCamera& camera) {
@@ -44,6 +47,27 @@ std::vector<Rigid3> RunOdometry(const Clip& clip, const OdometryOptions& options
   std::vector<Rigid3> poses;
   for (const TrajectoryPose& pose : odometry.Finish()) poses.push_back(pose.world_from_camera);
   return poses;
+}
+
+/// `truth` as a camera has it that is turned against the one it was given for.
+std::vector<Rigid3> TurnToward(const std::vector<Rigid3>& reference, std::vector<Rigid3> truth) {
+  // Small rotation vector w of least squares of step - (true_step + w x true_step); held where a
+  // straight way does not tell how the camera is rolled.
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i + kStepPairs < truth.size(); ++i) {
+    const Eigen::Vector3d true_step = (truth[i].Inverse() * truth[i + kStepPairs]).translation;
+    const Eigen::Vector3d step =
+        (reference.at(i).Inverse() * reference.at(i + kStepPairs)).translation;
+    const Eigen::Matrix3d jacobian = -Skew(true_step);
+    normal_matrix += jacobian.transpose() * jacobian;
+    right_side += jacobian.transpose() * (step - true_step);
+  }
+  normal_matrix.diagonal().array() += kHeldShare * normal_matrix.trace();
+  const Rigid3 left_from_given(ExpSO3(normal_matrix.ldlt().solve(right_side)),
+                               Eigen::Vector3d::Zero());
+  for (Rigid3& pose : truth) pose = left_from_given * pose * left_from_given.Inverse();
+  return truth;
 }
 
 }  // namespace
@@ -99,7 +123,6 @@ ClipPlan DrawClipPlan(const std::vector<Clip>& clips, int max_pairs, Draw& draw)
 
 std::vector<Rigid3> ReadClipTruth(const Clip& clip, const OdometryOptions& options,
                                   const std::string& cache_folder) {
-  if (clip.has_truth) return ReadKittiPoses(clip.folder + "/poses.txt");
   const std::string path = cache_folder + "/" + clip.name + ".txt";
   if (!fs::exists(path)) {
     fs::create_directories(cache_folder);
@@ -107,7 +130,9 @@ std::vector<Rigid3> ReadClipTruth(const Clip& clip, const OdometryOptions& optio
     for (const Rigid3& pose : RunOdometry(clip, options)) trajectory.push_back({0, pose, true});
     WriteWholeFile(path, FormatKitti(trajectory));
   }
-  return ReadKittiPoses(path);
+  const std::vector<Rigid3> reference = ReadKittiPoses(path);
+  if (!clip.has_truth) return reference;
+  return TurnToward(reference, ReadKittiPoses(clip.folder + "/poses.txt"));
 }
 
 ClipWindow::ClipWindow(const Clip& clip, const ClipPlan& plan, const std::vector<Rigid3>& truth) {

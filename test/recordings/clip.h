@@ -35,9 +35,11 @@ struct ClipPlan {
 /// `max_pairs` bounds the window.
 ClipPlan DrawClipPlan(const std::vector<Clip>& clips, int max_pairs, Draw& draw);
 
-/// world_from_left of every pair of a clip. Where it has no poses.txt they are those that the
+/// world_from_left of every pair of a clip. Beside it stands a reference: the poses that the
 /// odometry has after the whole clip, unchanged and at stride 1, computed once and kept in
-/// `cache_folder`.
+/// `cache_folder`. They are the truth where a clip has no poses.txt. Where it has one, its poses
+/// are turned about the camera by one rotation for all of them, so that its steps have the
+/// reference's directions best: KITTI's poses look aside by up to 0.3 degrees.
 std::vector<Rigid3> ReadClipTruth(const Clip& clip, const OdometryOptions& options,
                                   const std::string& cache_folder);
 

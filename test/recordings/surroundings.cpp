@@ -84,7 +84,8 @@ class Builder {
   std::vector<Solid> boxes_;
 };
 
-void SetGround(const std::string& scene, Draw& draw, Surroundings& around) {
+void SetGround(const DrivePlan& plan, Draw& draw, Surroundings& around) {
+  const std::string& scene = plan.scene;
   TerrainOptions& terrain = around.terrain;
   terrain.relief_m = draw.Between(0.1, 0.6);
   terrain.rocks.density_per_m2 = draw.Between(2, 8);
@@ -101,7 +102,8 @@ void SetGround(const std::string& scene, Draw& draw, Surroundings& around) {
     terrain.texture_contrast = draw.Between(0.1, 0.3);
     terrain.rocks.density_per_m2 = 0.05;
     terrain.relief_m = 0.02;
-    around.tile_m = draw.Between(0.08, 0.5);
+    // It moves by less than half a tile from pair to pair: what is seen is not ambiguous.
+    around.tile_m = std::max(draw.Between(0.08, 0.5), 2.2 * plan.step_m);
     around.tile_contrast = draw.Between(0.3, 0.6);
   } else if (scene == "night") {
     around.has_lamp = true;
@@ -123,7 +125,7 @@ Surroundings MakeSurroundings(const DrivePlan& plan, const PlanarPath& path) {
   terrain.seed = plan.seed;
   terrain.sun_elevation_deg = draw.Between(15, 60);
   terrain.sun_azimuth_deg = draw.Between(0, 360);
-  SetGround(plan.scene, draw, around);
+  SetGround(plan, draw, around);
   double half = kMargin;
   for (const PlanarPose& pose : path) {
     half = std::max(half, kMargin + pose.position.lpNorm<Eigen::Infinity>());
