@@ -23,7 +23,8 @@ while [ $# -gt 0 ]; do
   shift $(($# > 1 ? 2 : 1))
 done
 scripts/build.sh recordings
-"$build/devel/lib/arfm_vo/recordings" "$output" --data "${ARFM_VO_SHARED:-../shared}/data" --seconds "$seconds" \
+"$build/devel/lib/arfm_vo/recordings" "$output" --data "${ARFM_VO_SHARED:-../shared}/data" \
+  --references "$build/recordings_references" --seconds "$seconds" \
   "${options[@]}"
 work=$(mktemp)
 trap 'rm -f "$work"' EXIT

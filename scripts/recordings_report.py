@@ -6,7 +6,8 @@ import math
 import statistics
 import sys
 
-PROPERTIES = ["source", "motion", "scene", "stride", "direction", "transform", "light", "noise", "fov", "baseline", "size"]
+PROPERTIES = ["source", "motion", "scene", "stride", "direction", "swap", "cut", "light", "noise", "fov", "baseline",
+              "width"]
 MAX_WORST = 12  # seeds listed a kind
 
 
@@ -81,7 +82,7 @@ def print_table(rows, names, with_fault):
 def print_worst(rows, column):
     worst = sorted((row for row in rows if float(row[column]) > 0), key=lambda row: -float(row[column]))
     for row in worst[:MAX_WORST]:
-        what = ", ".join(row[name] for name in ("source", "motion", "scene", "fault", "direction", "transform", "light"))
+        what = ", ".join(row[name] for name in ("source", "motion", "scene", "fault", "direction", "swap", "cut", "light"))
         print(f"| {row['seed']} | {column} {row[column]} of {row['judged']} | {what}, stride {row['stride']} | "
               f"{show(float(row['worst_sigmas']), 1)} |")
 

@@ -26,6 +26,10 @@ std::string BaselineClass(double baseline_m) {
   return baseline_m < 0.1 ? "below_0.1" : baseline_m < 0.25 ? "0.1-0.25" : "from_0.25";
 }
 
+std::string SizeClass(const StereoCamera& camera) {
+  return camera.width <= 330 ? "to_330" : camera.width <= 700 ? "to_700" : "wider";
+}
+
 std::string LightClass(const LightPlan& light) {
   if (light.last_gain != 1) return "drifting";
   if (light.gain < 0.6) return "dark";
@@ -71,13 +75,15 @@ Properties DescribeRecording(const RecordingPlan& plan, const std::vector<Clip>&
       {"fault", plan.fault.kind},
       {"stride", is_real ? std::to_string(plan.clip.stride) : "1"},
       {"direction", plan.clip.is_backward ? "backward" : "forward"},
-      {"transform", plan.clip.transform.Name()},
       {"light", LightClass(plan.light)},
       {"noise", plan.light.noise_grey_levels > 0 ? "added" : "none"},
       {"fov", FovClass(camera)},
       {"baseline", BaselineClass(camera.baseline_m)},
-      {"size", std::to_string(camera.width) + "x" + std::to_string(camera.height)},
+      {"width", SizeClass(camera)},
+      {"swap", ToString(plan.clip.transform.swap)},
+      {"cut", plan.clip.transform.CutName()},
       {"interval_s", is_real ? "as_taken" : Format("%.2f", plan.drive.interval_s)},
+      {"size", std::to_string(camera.width) + "x" + std::to_string(camera.height)},
       {"first", std::to_string(plan.clip.first)},
       {"fault_begin", std::to_string(plan.fault.begin)},
       {"step_m", is_real ? "as_taken" : Format("%.3f", plan.drive.step_m)},

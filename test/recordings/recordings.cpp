@@ -20,7 +20,7 @@ using namespace arfm_vo;
 constexpr long kNoSeed = -1;
 
 struct Arguments {
-  std::string output, data = "../shared/data", config, half, only, dump;
+  std::string output, data = "../shared/data", config, references, half, only, dump;
   long first_seed = 1, seed = kNoSeed;
   long count = std::numeric_limits<int>::max();
   double seconds = std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ class Maker {
   Recording Make(const RecordingPlan& plan) const {
     if (plan.kind == Kind::kRendered) return {plan, std::make_unique<RenderedDrive>(plan.drive)};
     const Clip& clip = clips_.at(plan.clip.clip);
-    const auto truth = ReadClipTruth(clip, options_, arguments_.output + "/references");
+    const auto truth = ReadClipTruth(clip, options_, arguments_.references);
     return {plan, std::make_unique<ClipWindow>(clip, plan.clip, truth)};
   }
   Properties Describe(const Recording& recording) const {
@@ -164,6 +164,8 @@ int main(int argc, char** argv) {
       "pairs", po::value(&arguments.max_pairs)->value_name("N"), "of a recording at most (60)")(
       "data", po::value(&arguments.data)->value_name("DIR"), "the real clips (../shared/data)")(
       "config", po::value(&arguments.config)->value_name("FILE"), "options of the odometry, YAML")(
+      "references", po::value(&arguments.references)->value_name("DIR"),
+      "what the odometry makes of the clips as taken, kept there (OUTPUT_DIR/references)")(
       "seed", po::value(&arguments.seed)->value_name("SEED"), "this recording, not into the file")(
       "plain", po::bool_switch(&arguments.is_plain),
       "with seed: without transform, light and fault, forward")(
@@ -173,6 +175,7 @@ int main(int argc, char** argv) {
   program.run = [&] {
     CheckArguments(arguments);
     std::filesystem::create_directories(arguments.output);
+    if (arguments.references.empty()) arguments.references = arguments.output + "/references";
     if (arguments.seed != kNoSeed) {
       RunOne(arguments);
     } else {

@@ -55,7 +55,8 @@ TEST(ViewTransform, CameraAndPoseAgreeWithPictures) {
       const Eigen::Vector3d new_point = transform.ApplyToPoint(x_in_world, kCamera.baseline_m);
       const Eigen::Vector3d expected = Follow(transform, kCamera.ProjectStereo(x_in_left));
       const Eigen::Vector3d projected = view.ProjectStereo(new_pose.Inverse() * new_point);
-      EXPECT_LT((projected - expected).norm(), 1e-6) << transform.Name();
+      EXPECT_LT((projected - expected).norm(), 1e-6)
+          << ToString(transform.swap) << transform.CutName();
     }
   }
 }
@@ -77,9 +78,9 @@ TEST(ViewTransform, PicturesAreChangedAsPixelsAre) {
     EXPECT_EQ(view.left.size(), cv::Size(camera.width, camera.height));
     const Eigen::Vector3d expected = Follow(transform, spot);
     const Eigen::Vector2d left = FindSpot(view.left), right = FindSpot(view.right);
-    EXPECT_NEAR(left.x(), expected.x(), 0.02) << transform.Name();
-    EXPECT_NEAR(left.y(), expected.y(), 0.02) << transform.Name();
-    EXPECT_NEAR(right.x(), expected.z(), 0.02) << transform.Name();
+    EXPECT_NEAR(left.x(), expected.x(), 0.02) << ToString(transform.swap) << transform.CutName();
+    EXPECT_NEAR(left.y(), expected.y(), 0.02) << ToString(transform.swap) << transform.CutName();
+    EXPECT_NEAR(right.x(), expected.z(), 0.02) << ToString(transform.swap) << transform.CutName();
   }
 }
 

@@ -73,12 +73,10 @@ std::string ToString(EyeSwap swap) {
   return swap == EyeSwap::kMirrored ? "mirrored" : swap == EyeSwap::kTurned ? "turned" : "none";
 }
 
-std::string ViewTransform::Name() const {
-  std::string name = swap == EyeSwap::kNone ? "" : ToString(swap);
-  const auto add = [&](const char* part) { name += (name.empty() ? "" : "+") + std::string(part); };
-  if (crop_left + crop_right + crop_top + crop_bottom > 0) add("crop");
-  if (scale != 1) add("scale");
-  return name.empty() ? "none" : name;
+std::string ViewTransform::CutName() const {
+  const bool is_cropped = crop_left + crop_right + crop_top + crop_bottom > 0;
+  if (scale == 1) return is_cropped ? "crop" : "none";
+  return is_cropped ? "crop+scale" : "scale";
 }
 
 }  // namespace arfm_vo

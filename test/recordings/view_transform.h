@@ -27,8 +27,8 @@ struct ViewTransform {
   Eigen::Vector3d ApplyToPoint(const Eigen::Vector3d& x_in_left, double baseline_m) const;
   /// A pose of the left camera, as the new left camera has it in the world changed alike.
   Rigid3 Apply(const Rigid3& world_from_left, double baseline_m) const;
-  /// Such as "mirrored crop scale"; "none".
-  std::string Name() const;
+  /// Whether it is cropped and scaled, such as "crop+scale"; "none".
+  std::string CutName() const;
 };
 
 std::string ToString(EyeSwap swap);
