@@ -96,6 +96,7 @@ class Judge {
     const double tolerated = tolerance_.percent / 100 * pair.path_m + tolerance_.floor_m;
     pair.is_wrong =
         update.IsTracked() && pair.error_m > kMaxSigmas * pair.sigma_m && pair.error_m > tolerated;
+    pair.start_error_m = start_->Error(truth, update.odom_from_base);
     pair.nees = start_->Nees(truth, update.odom_from_base, update.covariance);
   }
 
@@ -121,8 +122,7 @@ JudgedRun RunAndJudge(Recording& recording, const OdometryOptions& options,
     if (before) {
       const Rigid3 before_from_now =
           source.WorldFromLeft(i - 1).Inverse() * source.WorldFromLeft(i);
-      view = CompareViews(source.camera(), *before, pair.clean, before_from_now, pair.shown,
-                          pair.hidden);
+      view = CompareViews(source.camera(), *before, pair.clean, before_from_now, pair.shown);
     }
     judge.Add(i, odometry.Process(pair.images), view);
     before = std::move(pair.clean);

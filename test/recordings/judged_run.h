@@ -19,7 +19,8 @@ struct JudgedPair {
   SharedView view;
   double path_m = 0;   ///< driven since the first pair or, where a fault begins later, since that
   double error_m = 0;  ///< of the displacement since then
-  double sigma_m = 0;  ///< root of the trace of the position's covariance
+  double start_error_m = 0;  ///< of that since the first tracked pair, to which sigma_m belongs
+  double sigma_m = 0;        ///< root of the trace of the position's covariance
   bool is_wrong = false;  ///< called tracked, off by more than 3 sigma and by more than 1 % of the
                           ///< path (the truth's own uncertainty where that is larger)
   double nees = NAN;      ///< 6 degrees of freedom, against the first camera

@@ -43,7 +43,7 @@ PairChange Cover(const FaultPlan& plan) {
         const double x = (u + disparity_px) / image.cols, y = 1. * v / image.rows;
         const double inward = edge == 0 ? 1 - y : edge == 1 ? x : 1 - x;
         if (inward > plan.share) continue;
-        const double grey = 110 + 260 * FractalNoise(60 * x + 7, 60 * y + 7, 2, 0.6, plan.seed);
+        const double grey = 110 + 150 * FractalNoise(60 * x + 7, 60 * y + 7, 2, 0.6, plan.seed);
         image.at<uchar>(v, u) = cv::saturate_cast<uchar>(grey);
       }
     }

@@ -38,6 +38,11 @@ std::string LightClass(const LightPlan& light) {
 
 }  // namespace
 
+double RecordingPlan::NoiseGreyLevels() const {
+  const double sensor = kind == Kind::kRendered ? drive.noise_grey_levels : 0;
+  return std::hypot(sensor, light.noise_grey_levels);
+}
+
 Kind KindOfSeed(uint32_t seed) {
   return HashUnit(HashWord(seed) + 17) < kRenderedShare ? Kind::kRendered : Kind::kReal;
 }
@@ -109,13 +114,14 @@ Recording::Pair Recording::Take(int index) {
   pair.images = {clean.stamp_s, clean.left.clone(), clean.right.clone()};
   fault_(index, pair.images);
   if (plan_.fault.HidesView()) {
-    pair.hidden = pair.images.left != clean.left;
+    pair.shown.hidden = pair.images.left != clean.left;
     // Grey values agree by chance within a thing: closed, and its border too.
-    cv::dilate(pair.hidden, pair.hidden, cv::Mat());
+    cv::dilate(pair.shown.hidden, pair.shown.hidden, cv::Mat());
   }
   pair.images.right = pair.images.right.clone();  // a fault may keep it for later pairs
   light_(index, pair.images);
-  pair.shown = pair.images.left.clone();
+  pair.shown.image = pair.images.left.clone();
+  pair.shown.noise_grey_levels = plan_.NoiseGreyLevels();
   noise_(index, pair.images);
   return pair;
 }

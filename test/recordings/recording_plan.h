@@ -7,6 +7,7 @@
 #include "recordings/clip.h"
 #include "recordings/drive_plan.h"
 #include "recordings/picture_plan.h"
+#include "recordings/shared_view.h"
 
 namespace arfm_vo {
 
@@ -21,6 +22,8 @@ struct RecordingPlan {
   LightPlan light;
   FaultPlan fault;
 
+  /// Standard deviation of what sensor and LightPlan put in; that of real cameras is not counted.
+  double NoiseGreyLevels() const;
   int num_pairs() const { return kind == Kind::kReal ? clip.num_pairs : drive.num_pairs; }
 };
 
@@ -44,8 +47,7 @@ class Recording {
   struct Pair {
     TruePair clean;       ///< without fault, light and noise
     StereoImages images;  ///< as the odometry gets them
-    cv::Mat shown;        ///< the left image with fault and light, without the noise put in
-    cv::Mat hidden;       ///< CV_8U, non-zero where the fault hides the scene; or empty
+    ShownPicture shown;   ///< the left image with fault and light, without the noise put in
   };
   const PairSource& source() const { return *source_; }
   const RecordingPlan& plan() const { return plan_; }

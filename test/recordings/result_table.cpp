@@ -38,7 +38,7 @@ void Count(const JudgedPair& pair, Counts& counts) {
   if (!is_tracked) return;
   if (pair.is_wrong) counts.worst = std::max(counts.worst, pair.error_m / pair.sigma_m);
   counts.sigma2_sum += pair.sigma_m * pair.sigma_m;
-  counts.error2_sum += pair.error_m * pair.error_m;
+  counts.error2_sum += pair.start_error_m * pair.start_error_m;
   if (!std::isfinite(pair.nees)) return;
   counts.nees_sum += pair.nees;
   ++counts.nees_pairs;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kGrid = 8;               ///< px between the pixels that are looked at
 constexpr int kCornerCell = 6;         ///< px
-constexpr int kFastThreshold = 10;     ///< grey levels, after a slight blur
+constexpr double kMinContrast = 10;    ///< grey levels of a corner, after a slight blur
+constexpr double kMinOverNoise = 2.5;  ///< contrast over the noise's standard deviation
 constexpr double kFar = 1e4;           ///< m, for the sky
 constexpr double kHiddenBehind = 1.3;  ///< times as far as what was seen there: hidden
 
@@ -62,15 +63,15 @@ cv::Mat FindShared(const StereoCamera& camera, const TruePair& before, const Tru
 }  // namespace
 
 SharedView CompareViews(const StereoCamera& camera, const TruePair& before, const TruePair& now,
-                        const Rigid3& before_from_now, const cv::Mat& shown,
-                        const cv::Mat& hidden) {
-  const cv::Mat shared = FindShared(camera, before, now, before_from_now, hidden);
+                        const Rigid3& before_from_now, const ShownPicture& picture) {
+  const cv::Mat shared = FindShared(camera, before, now, before_from_now, picture.hidden);
   SharedView view;
   view.share = cv::sum(shared)[0] / static_cast<double>(shared.total());
   cv::Mat smooth;
-  cv::GaussianBlur(shown, smooth, {3, 3}, 0);
+  cv::GaussianBlur(picture.image, smooth, {3, 3}, 0);
   std::vector<cv::KeyPoint> corners;
-  cv::FAST(smooth, corners, kFastThreshold);
+  const double contrast = std::max(kMinContrast, kMinOverNoise * picture.noise_grey_levels);
+  cv::FAST(smooth, corners, static_cast<int>(std::lround(contrast)));
   cv::Mat taken =
       cv::Mat::zeros(camera.height / kCornerCell + 1, camera.width / kCornerCell + 1, CV_8U);
   for (const cv::KeyPoint& corner : corners) {
