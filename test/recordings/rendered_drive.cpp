@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kLampReach = 3;  ///< times the camera's height: as bright as the sun there
 constexpr double kMaxLight = 1.6;
+constexpr double kShadeGain = 1.8;       ///< where hardly anything stands in the sun
 constexpr double kNightSkylight = 0.02;  ///< of what the day has
 
 /// Brightness, about 1, of a smooth pattern of tiles at (x, y), mean over a pixel's footprint of
@@ -30,6 +31,7 @@ RenderedDrive::RenderedDrive(const DrivePlan& plan, int num_threads) : plan_(pla
   render.num_threads = num_threads;
   render.skylight = surroundings_.skylight;
   sensor_ = render.sensor;
+  if (plan.scene == "corridor") sensor_.gain *= kShadeGain;
   sensor_.noise_grey_levels = plan.noise_grey_levels;
   sensor_.seed = plan.seed;
   renderer_ = std::make_unique<TerrainRenderer>(*terrain_, render);
