@@ -184,6 +184,11 @@ def make_page(program_dir):
     page.append("## The algorithm\n\nOf arfm_node, pose_node and ba_node: give all of them the same, by `config:=FILE` "
                 "of the launch files.\n")
     page.append(format_table(algorithm.items(), shared))
+    reasons = subprocess.run([os.path.join(program_dir, "kitti_odometry"), "--print-reasons"], check=True, text=True,
+                             stdout=subprocess.PIPE).stdout
+    page.append("## Why a pair has no pose, or one to be wary of\n\nIn `status`, on the console and in `timing.csv` "
+                "(with the log odds that the pose is the ground's, and not that\nof something that moves on its own).\n")
+    page.append(reasons)
     return "\n".join(page)
 
 

@@ -9,6 +9,7 @@
 #include "arfm_vo/evaluation/progress_bar.h"
 #include "arfm_vo/evaluation/run_files.h"
 #include "arfm_vo/evaluation/run_report.h"
+#include "arfm_vo/odometry/reason.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 
 namespace arfm_vo {
@@ -18,7 +19,7 @@ namespace po = boost::program_options;
 
 struct Arguments {
   std::string input, config, output, learned_calibration;
-  bool print_config = false, close_loops = false;
+  bool print_config = false, print_reasons = false, close_loops = false;
   PairSelection selection;
 };
 
@@ -27,6 +28,8 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
                         "options of the odometry, YAML")(
       "print-config", po::bool_switch(&arguments.print_config),
       "print all options with their values and leave")(
+      "print-reasons", po::bool_switch(&arguments.print_reasons),
+      "print why a pair may have no pose, or one to be wary of, and what follows, and leave")(
       "loop-closing", po::bool_switch(&arguments.close_loops),
       "know places again in the global adjustment (global.loops.enabled)")(
       "learned-calibration", po::value(&arguments.learned_calibration)->value_name("FILE"),
@@ -37,6 +40,14 @@ void AddOptions(Arguments& arguments, po::options_description& options) {
       "output", po::value(&arguments.output)->value_name("DIR"),
       "write poses.txt, poses_online.txt, tracked.txt, trajectory.tum, timing.csv and "
       "trajectory.png there");
+}
+
+std::string FormatReasons() {
+  std::string text = "| reason | what follows |\n|---|---|\n";
+  for (const ReasonRow& row : ListReasons()) {
+    text += std::string("| ") + row.text + " | " + row.effect + " |\n";
+  }
+  return text;
 }
 
 OdometryOptions ReadOptions(const Arguments& arguments) {
@@ -82,7 +93,8 @@ int RunOdometryProgram(int argc, const char* const* argv, const OdometryProgram&
   program.options.add(odometry_program.options);
   program.answer = [&] {
     if (arguments.print_config) std::cout << WriteYaml(ReadOptions(arguments));
-    return arguments.print_config;
+    if (arguments.print_reasons) std::cout << FormatReasons();
+    return arguments.print_config || arguments.print_reasons;
   };
   program.run = [&] { Run(odometry_program, arguments); };
   return RunProgram(argc, argv, program);

@@ -17,7 +17,7 @@ constexpr double kMinRowSigmaPx = 0.1;
 constexpr double kMaxRowPx = 3;
 /// A smaller skew may as well be what the model leaves out: recordings with one trigger for both
 /// cameras give up to 0.6 ms.
-constexpr double kMinSkew_s = 0.001, kSignificance = 5;
+constexpr double kMinSkew_s = 0.001, kSignificance = 3;
 constexpr double kMinDepth_m = 0.1;
 /// Of what frames told, at each further one: the skew may change.
 constexpr double kRemembered = 0.99;

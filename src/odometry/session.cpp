@@ -37,11 +37,11 @@ Reason ReasonOf(PoseStatus status) {
 }
 
 std::string Describe(const OdometryUpdate& update) {
-  std::string text = ToString(update.pose.status);
-  if (update.reason != ReasonOf(update.pose.status))
-    text += std::string(": ") + ToString(update.reason);
-  if (update.pose.HasPose() && !update.pose.IsMeasured()) text += ", the last motion is continued";
-  return text;
+  const std::string status = ToString(update.pose.status), reason = ToString(update.reason);
+  if (update.reason == Reason::kNone) return status;
+  if (!update.pose.HasPose()) return reason;
+  return status + ": " + reason +
+         (update.pose.IsMeasured() ? "" : ", the last motion is continued");
 }
 
 }  // namespace
@@ -203,7 +203,7 @@ PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
 
 void Session::SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const {
   const double interval_s = pose.update.stamp_s - last_->stamp_s;
-  if (interval_s > kMaxTwistInterval_s) return;
+  if (interval_s <= 0 || interval_s > kMaxTwistInterval_s) return;
   const Rigid3 motion = last_->odom_from_base.Inverse() * pose.odom_from_base;
   pose.twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
   pose.twist_covariance = base_covariance * (2 / (interval_s * interval_s));

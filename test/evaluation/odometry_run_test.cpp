@@ -125,10 +125,14 @@ TEST(FormatTiming, HasAColumnAStage) {
   ASSERT_EQ(run.memory_mb.size(), 2u);
   for (const double megabytes : run.memory_mb) EXPECT_GT(megabytes, 1);
   run.memory_mb = {90, 91.25};
-  run.states[1] = PoseStatus::kNoConsensus;
+  run.states[0] = {PoseStatus::kTracked, Reason::kNone, 5.25, 90, 80};
+  run.states[1] = {PoseStatus::kNoConsensus, Reason::kGroundHidden, -1, 30, 0};
   EXPECT_EQ(FormatTiming(run),
-            "frame,stamp_s,total_ms,memory_mb,state,features,adjustment\n"
-            "0,0,7.500,90.00,tracked,2.000,\n1,0.5,8.000,91.25,no consensus,2.000,5.250\n");
+            "frame,stamp_s,total_ms,memory_mb,state,reason,log_odds,matches,inliers,features,"
+            "adjustment\n"
+            "0,0,7.500,90.00,tracked,\"\",5.2,90,80,2.000,\n"
+            "1,0.5,8.000,91.25,no consensus,\"what is seen moves otherwise than the ground is known "
+            "to\",-1.0,30,0,2.000,5.250\n");
 }
 
 class RunFilesTest : public testing::Test {
