@@ -10,7 +10,7 @@ namespace arfm_vo {
 namespace {
 
 /// Log odds of a landmark of the ground below which it is not looked for where its match disagrees.
-constexpr double kMoves = -0.5;
+constexpr double kMoves = -1.5;
 
 /// Log odds that a pose is the ground's from which no rival is looked for.
 constexpr double kSure = 2;
