@@ -90,9 +90,12 @@ double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::v
     const bool agrees = flags[i] == flag;
     const double if_ground = ground * agreeing + (1 - ground) * kByChance;
     const double if_not = (1 - ground) * agreeing + ground * kByChance;
-    Region& region =
-        regions[static_cast<int>(points[i].pixels.y() * kRegionsDown / camera.height)]
-               [static_cast<int>(points[i].pixels.x() * kRegionsAcross / camera.width)];
+    // (A correction may place what the border shows beyond it.)
+    const auto part = [](double place, double size, int num) {
+      return std::clamp(static_cast<int>(place * num / size), 0, num - 1);
+    };
+    Region& region = regions[part(points[i].pixels.y(), camera.height, kRegionsDown)]
+                            [part(points[i].pixels.x(), camera.width, kRegionsAcross)];
     ++region.num;
     region.num_explained += flags[i] != 0;
     region.num_agreeing += agrees;

@@ -37,7 +37,6 @@ class LocalOdometry::Implementation {
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive),
-        verdict_(camera),
         skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);

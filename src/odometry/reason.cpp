@@ -32,6 +32,19 @@ const std::vector<ReasonRow>& ListReasons() {
   return rows;
 }
 
+Reason ReasonOf(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::kTooFewFeatures:
+      return Reason::kFewFeatures;
+    case PoseStatus::kTooFewMatches:
+      return Reason::kFewMatches;
+    case PoseStatus::kNoConsensus:
+      return Reason::kNoConsensus;
+    default:
+      return Reason::kNone;
+  }
+}
+
 const char* ToString(Reason reason) { return ListReasons()[static_cast<size_t>(reason)].text; }
 
 }  // namespace arfm_vo

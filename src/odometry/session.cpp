@@ -23,27 +23,6 @@ constexpr double kLeastShift_m = 0.005, kLeastTurn_rad = 0.001;
 constexpr int kMaxUnknownPairs = 3;
 constexpr double kNewGround = 0.05;
 
-Reason ReasonOf(PoseStatus status) {
-  switch (status) {
-    case PoseStatus::kTooFewFeatures:
-      return Reason::kFewFeatures;
-    case PoseStatus::kTooFewMatches:
-      return Reason::kFewMatches;
-    case PoseStatus::kNoConsensus:
-      return Reason::kNoConsensus;
-    default:
-      return Reason::kNone;
-  }
-}
-
-std::string Describe(const OdometryUpdate& update) {
-  const std::string status = ToString(update.pose.status), reason = ToString(update.reason);
-  if (update.reason == Reason::kNone) return status;
-  if (!update.pose.HasPose()) return reason;
-  return status + ": " + reason +
-         (update.pose.IsMeasured() ? "" : ", the last motion is continued");
-}
-
 }  // namespace
 
 Session::Session(const LocalOdometryOptions& options, uint32_t first_epoch)
@@ -73,7 +52,7 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
     is_map_doubtful_ = true;
     Track(frame, images, base_from_camera, pose);
   }
-  pose.text = Describe(pose.update);
+  pose.text = pose.update.Describe();
   log_.Add(pose.update, odometry_->map());
   ++num_frames_;
   return pose;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <deque>
 
 namespace arfm_vo {
@@ -107,6 +108,13 @@ TEST_F(GroundTest, MorePointsInTheSamePlacesTellNothingNew) {
   const double once = LogOdds(1);
   AddGroups(5, 0);
   EXPECT_NEAR(LogOdds(1), once, 0.1 * once);
+}
+
+TEST_F(GroundTest, PointsBeyondTheBorderCountAsAtIt) {
+  Add(0, 1, 0, -3, -3);
+  Add(1, 1, 0, 642, 483);
+  flags_ = {1, 1};
+  EXPECT_TRUE(std::isfinite(LogOdds(1)));
 }
 
 TEST_F(GroundTest, AFewThatAgreeAmongWrongMatchesDoSoByChance) {

@@ -35,7 +35,7 @@ class VerdictTest : public ::testing::Test {
 
   StereoFrame frame_;
   TrackedFrame tracked_;
-  Verdict verdict_{{400, 400, 320, 240, 0.2, 640, 480}};
+  Verdict verdict_;
   bool has_pose_ = false;
 };
 

@@ -31,6 +31,8 @@ struct OdometryUpdate {
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
 
+  /// Its status in words, and why.
+  std::string Describe() const;
   /// The pose is not quite good, for this reason.
   void Degrade(Reason why) {
     pose.status = PoseStatus::kDegraded;

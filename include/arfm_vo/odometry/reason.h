@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/pose/pose_estimate.h"
+
 namespace arfm_vo {
 
 /// Why a pair has no pose, or one to be wary of.
@@ -31,6 +33,9 @@ struct ReasonRow {
 
 /// All of them, in the order of Reason.
 const std::vector<ReasonRow>& ListReasons();
+
+/// Of a pair without a pose; kNone of others.
+Reason ReasonOf(PoseStatus status);
 
 /// ReasonRow::text
 const char* ToString(Reason reason);

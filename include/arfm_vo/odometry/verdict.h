@@ -17,8 +17,6 @@ namespace arfm_vo {
 /// (Correspondences::kRegions), however many points are seen.
 class Verdict {
  public:
-  explicit Verdict(const StereoCamera& camera) : camera_(camera) {}
-
   /// Takes the next pair's pictures.
   void Look(const StereoFrame& frame);
   /// Why the left picture is not to be used, or the right one; kNone where it is.
@@ -42,7 +40,6 @@ class Verdict {
   Reason FaultOfLeft(const StereoFrame& frame) const;
   Reason FaultOfRight(const StereoFrame& frame) const;
 
-  StereoCamera camera_;
   double stamp_s_ = 0;
   Belief right_belongs_{0.95};  ///< the right picture is of this moment and rig
   Belief another_moves_{0.01};  ///< something large moves on its own
