@@ -4,7 +4,8 @@
 data=${ARFM_VO_SHARED:-../shared}/data/kitti
 folders=("${@:2}")
 if [ ${#folders[@]} -eq 0 ]; then
-  for folder in "$data/odometry_06_000-050" "$data/raw_2011_09_26_drive_0001" "$data/odometry_05_100-159"; do
+  for folder in "$data/odometry_06_000-050" "$data/raw_2011_09_26_drive_0001" "$data/odometry_05_100-159" \
+    "$data/odometry_04_000-050"; do
     if [ -d "$folder" ]; then folders+=("$folder"); fi
   done
 fi
