@@ -210,7 +210,7 @@ TEST_F(OdometryChain, SaysThatItIsLostAndRecovers) {
     sigma_m = std::sqrt(odom_.last().pose.covariance[0]);
     EXPECT_FALSE(buffer.canTransform("odom", "base_link", odom_.last().header.stamp));
   }
-  ExpectDiagnostic("pose_node", DiagnosticStatus::WARN, "gone on as before");
+  ExpectDiagnostic("pose_node", DiagnosticStatus::WARN, "the last motion is continued");
   for (int i = 0; i < 18; ++i) StepInTheDark();
   EXPECT_EQ(status_.last().state, OdometryStatus::TOO_FEW_FEATURES);
   EXPECT_FALSE(status_.last().text.empty());

@@ -38,11 +38,11 @@ class LearnedCalibrationTest : public ::testing::Test {
 };
 
 TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
-  LearnedCalibration first({});
+  LearnedCalibration first({true, ""});
   EXPECT_FALSE(first.ReadFor(kCamera));
   first.Write(Learned(0.25));
   EXPECT_TRUE(std::filesystem::exists(File()));
-  LearnedCalibration second({});
+  LearnedCalibration second({true, ""});
   const auto known = second.ReadFor(kCamera);
   ASSERT_TRUE(known);
   EXPECT_EQ(known->mean.coefficients_px, Learned(0.25).mean.coefficients_px);
@@ -50,7 +50,7 @@ TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
 }
 
 TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
-  LearnedCalibration learned({});
+  LearnedCalibration learned({true, ""});
   learned.ReadFor(kCamera);
   learned.Write(Learned(0.25));
   std::filesystem::remove(File());
@@ -61,7 +61,7 @@ TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
 }
 
 TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
-  LearnedCalibration earlier({});
+  LearnedCalibration earlier({true, ""});
   earlier.ReadFor(kCamera);
   earlier.Write(Learned(0.25));
   LearnedCalibration off({false, ""});
@@ -72,7 +72,7 @@ TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
 }
 
 TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
-  LearnedCalibration learned({});
+  LearnedCalibration learned({true, ""});
   learned.Write(Learned(0.25));
   EXPECT_FALSE(std::filesystem::exists(home_ / "arfm_vo"));
 }
