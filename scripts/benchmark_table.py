@@ -69,7 +69,8 @@ def list_pair(lines_path, timing_path):
         lines = dict(line.strip().split(": ", 1) for line in stream if ": " in line)
     with open(timing_path) as stream:
         timing = list(csv.DictReader(stream))
-    stages = [name for name in timing[0] if name not in ("frame", "stamp_s", "total_ms", "memory_mb", "state")]
+    others = ("frame", "stamp_s", "total_ms", "memory_mb", "state", "reason", "log_odds", "matches", "inliers")
+    stages = [name for name in timing[0] if name not in others]
     medians = ", ".join(f"{stage} {statistics.median(float(r[stage]) for r in timing):.1f}"
                         for stage in stages)
     return (f"median {float(lines['ms_per_pair_median']):.1f} ms, p95 "
