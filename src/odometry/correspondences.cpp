@@ -24,7 +24,7 @@ constexpr double kLeastAgreeing = 0.3, kMostAgreeing = 0.9, kFew = 10;
 constexpr double kHidden = 0.2;
 /// Of wrong matches nearly as many agree on some pose; each one fewer is e times likelier chance.
 constexpr double kByChanceAgree = 15;
-constexpr int kRegionsAcross = 4, kRegionsDown = 3, kEnoughInRegion = 5;
+constexpr int kEnoughInRegion = 5;
 
 constexpr int kCellsAcross = 12, kFewInCell = 3;
 
@@ -71,9 +71,11 @@ LandmarkObservations Correspondences::Select(const std::vector<char>& flags, cha
 double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
                                         char flag) const {
   // Those of which little is known tell how often matches are right; where they are few, all do.
+  std::vector<double> is_ground;  // [N] its probability
   double sum = 0, sum_agreeing = 0, num_agreeing = 0;
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    const double unknown = 1 - std::abs(2 * Logistic(landmarks[i]->LogOddsOfGround()) - 1);
+    is_ground.push_back(Logistic(landmarks[i]->LogOddsOfGround()));
+    const double unknown = 1 - std::abs(2 * is_ground[i] - 1);
     sum += unknown;
     sum_agreeing += unknown * (flags[i] == flag);
     num_agreeing += flags[i] == flag;
@@ -86,7 +88,7 @@ double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::v
     double log_odds = 0;
   } regions[kRegionsDown][kRegionsAcross];
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    const double ground = Logistic(landmarks[i]->LogOddsOfGround());
+    const double ground = is_ground[i];
     const bool agrees = flags[i] == flag;
     const double if_ground = ground * agreeing + (1 - ground) * kByChance;
     const double if_not = (1 - ground) * agreeing + ground * kByChance;
@@ -115,8 +117,7 @@ double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::v
   }
   // Of two groups the larger one is likelier to be the ground.
   const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
-  const double too_few = std::max(
-      0., kByChanceAgree - static_cast<double>(std::count(flags.begin(), flags.end(), flag)));
+  const double too_few = std::max(0., kByChanceAgree - num_agreeing);
   return log_odds - std::log1p(std::exp(-larger)) - too_few;
 }
 

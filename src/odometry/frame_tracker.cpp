@@ -135,12 +135,7 @@ std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
 
 TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map,
                                  const TrackedFrame& coarse, bool use_right) const {
-  TrackedFrame tracked;
-  tracked.pose = coarse.pose;
-  tracked.contradicting = coarse.contradicting;
-  tracked.of_rival = coarse.of_rival;
-  tracked.log_odds = coarse.log_odds;
-  tracked.log_odds_of_rival = coarse.log_odds_of_rival;
+  TrackedFrame tracked = coarse;
   const Rigid3& coarse_pose = coarse.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {

@@ -165,9 +165,7 @@ void Session::DoubtNewMap(SessionUpdate& pose) {
     const Tracked& before = new_map_->before;
     drift_.StartEpoch(new_map_->doubt.odom_from_start(), before.covariance,
                       GapCovariance(before.twist, stamp_s - before.stamp_s));
-    if (pose.update.pose.IsTracked()) {
-      pose.update.Degrade(Reason::kNewMap);
-    }
+    if (pose.update.pose.IsTracked()) pose.update.Degrade(Reason::kNewMap);
   }
   if (new_map_->doubt.IsOver()) new_map_.reset();
 }

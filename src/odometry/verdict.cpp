@@ -19,8 +19,6 @@ constexpr double kRightRecovers_s = 1;
 /// Share of what both images see that lies on its rows, and of what the left image sees of the map
 /// that the right one shows as well: of pictures that belong together, and of others.
 constexpr double kTogether = 0.75, kApart = 0.25;
-/// As many independent observations is an image.
-constexpr double kRegions = 12;
 
 /// An image with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
@@ -30,8 +28,8 @@ constexpr double kMinSignificance = 3;
 
 /// Pictures that belong together show `share`, against others.
 double LogRatioTogether(double share) {
-  return kRegions * (share * std::log(kTogether / kApart) +
-                     (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
+  return Correspondences::kRegions * (share * std::log(kTogether / kApart) +
+                                      (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
 }
 
 /// The covariance of a pose that may as well be `other`.
@@ -45,9 +43,10 @@ Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
 }  // namespace
 
 void Verdict::Look(const StereoFrame& frame) {
-  right_belongs_.Advance(std::max(0., frame.stamp_s - stamp_s_), kRightFails_s, kRightRecovers_s);
-  another_moves_.Advance(std::max(0., frame.stamp_s - stamp_s_), kAnotherLeaves_s, kAnotherComes_s);
-  ground_.Advance(std::max(0., frame.stamp_s - stamp_s_), kAnotherComes_s, kAnotherLeaves_s);
+  const double interval_s = std::max(0., frame.stamp_s - stamp_s_);
+  right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
+  another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
+  ground_.Advance(interval_s, kAnotherComes_s, kAnotherLeaves_s);
   stamp_s_ = frame.stamp_s;
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {

@@ -177,11 +177,11 @@ class Election {
                         std::nullopt,
                         {},
                         best_->plausibility};
-    double most = 0;
+    const double least = kLeastRival * CountBest(), least_votes = kLeastRival * BestVotes();
+    int most = 0;
     for (const Hypothesis& other : others_) {
       const auto [num, votes] = CountOnly(observations_, other, *best_);
-      const bool is_rival = num >= kMinRival && (num >= kLeastRival * CountBest() ||
-                                                 votes >= kLeastRival * BestVotes());
+      const bool is_rival = num >= kMinRival && (num >= least || votes >= least_votes);
       if (!is_rival || num <= most) continue;
       most = num;
       agreement.rival = other.camera_from_world;

@@ -290,7 +290,7 @@ TEST_F(SessionTest, DoubtsANewMapThatMovesOtherwiseThanTheOneBefore) {
     const double error_m = std::abs(pose.odom_from_base.translation.x() - 0.3 * i);
     EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0))) << i;
   }
-  EXPECT_NEAR(num_doubted * kInterval_s, 2, 0.35);
+  EXPECT_NEAR(num_doubted * kInterval_s, 2, 0.15);
   EXPECT_GT(num_named, num_doubted / 2);
 }
 

@@ -134,6 +134,46 @@ TEST_F(VerdictTest, PicturesThatAreNotToBeUsedAreNamed) {
   EXPECT_EQ(verdict_.left_fault(), Reason::kLeftRepeated);
 }
 
+TEST_F(VerdictTest, TheLeftImageAloneDegrades) {
+  Look();
+  frame_.right_is_repeated = true;
+  Look();
+  const OdometryUpdate update = Weigh();
+  EXPECT_TRUE(has_pose_);
+  EXPECT_EQ(update.pose.status, PoseStatus::kDegraded);
+  EXPECT_EQ(update.Describe(),
+            "degraded: the right camera repeats its picture, the left one alone tells");
+}
+
+/// Whether the depths of 40 points of this disparity are known.
+bool AreKnownAt(double disparity_px) {
+  const StereoCamera camera{700, 700, 320, 240, 0.5, 640, 480};
+  StereoFrame frame;
+  frame.features.descriptors = cv::Mat(40, 64, CV_32F, cv::Scalar(0.125));
+  for (int i = 0; i < 40; ++i) {
+    Keypoint keypoint;
+    keypoint.x = static_cast<float>(60 + 70 * (i % 8));
+    keypoint.y = static_cast<float>(60 + 80 * (i / 8));
+    keypoint.scale = 2;
+    frame.features.keypoints.push_back(keypoint);
+    StereoPoint point;
+    point.keypoint = i;
+    point.observation << keypoint.x, keypoint.y, keypoint.x - disparity_px;
+    point.sigma_px = 0.3;
+    point.x_in_camera = camera.Triangulate(keypoint.x, keypoint.y, disparity_px);
+    frame.points.push_back(point);
+  }
+  LocalMap map(camera, LocalMapOptions());
+  const Keyframe& keyframe =
+      map.AddKeyframe(frame, cv::Mat(480, 640, CV_8UC1, cv::Scalar(0)), Rigid3(), {});
+  return AreDepthsKnown(camera, map, keyframe.observations, Rigid3());
+}
+
+TEST(AreDepthsKnown, PointsTooFarTellNoLengthOfThePath) {
+  EXPECT_TRUE(AreKnownAt(35));
+  EXPECT_FALSE(AreKnownAt(0.4));
+}
+
 TEST(Reasons, EachHasItsTextAndItsEffectInItsPlace) {
   std::set<std::string> texts;
   for (size_t i = 0; i < ListReasons().size(); ++i) {

@@ -41,9 +41,9 @@ class Judge {
 
   void Add(int index, const SessionUpdate& update, const SharedView& view) {
     JudgedPair pair;
-    pair.state = update.IsTracked() ? PairState::kTracked
-                 : update.HasPose() ? PairState::kDegraded
-                                    : PairState::kLost;
+    pair.state = update.IsTracked() ? Outcome::kTracked
+                 : update.HasPose() ? Outcome::kDegraded
+                                    : Outcome::kLost;
     pair.view = view;
     pair.text = update.text;
     pair.live = update.odom_from_base;
@@ -51,9 +51,7 @@ class Judge {
     const bool is_blind = fault_.IsRightUseless() && index >= fault_.begin && index < fault_.end;
     pair.can_be_tracked = view.CanBeTracked() && !is_blind;
     const Rigid3& truth = source_.WorldFromLeft(index);
-    if (index > 0) {
-      path_m_ += (truth.translation - source_.WorldFromLeft(index - 1).translation).norm();
-    }
+    if (index > 0) path_m_ += TrueStep(index);
     pair.path_m = path_m_ - anchor_path_m_;
     if (update.HasPose()) Compare(truth, update, pair);
     // The last pose before the fault is what later ones are compared with.
@@ -69,7 +67,7 @@ class Judge {
     double true_m = 0, live_m = 0;
     for (size_t i = 1; i < run_.pairs.size(); ++i) {
       const JudgedPair &before = run_.pairs[i - 1], &now = run_.pairs[i];
-      if (before.state == PairState::kLost || now.state == PairState::kLost) continue;
+      if (before.state == Outcome::kLost || now.state == Outcome::kLost) continue;
       live_m += (now.live.translation - before.live.translation).norm();
       true_m += TrueStep(static_cast<int>(i));
     }
@@ -131,10 +129,8 @@ JudgedRun RunAndJudge(Recording& recording, const OdometryOptions& options,
   return judge.Finish();
 }
 
-const char* ToString(PairState state) {
-  return state == PairState::kTracked    ? "tracked"
-         : state == PairState::kDegraded ? "degraded"
-                                         : "lost";
+const char* ToString(Outcome state) {
+  return state == Outcome::kTracked ? "tracked" : state == Outcome::kDegraded ? "degraded" : "lost";
 }
 
 }  // namespace arfm_vo

@@ -9,11 +9,12 @@
 
 namespace arfm_vo {
 
-enum class PairState { kLost, kDegraded, kTracked };
+/// What the odometry says of a pair, in short.
+enum class Outcome { kLost, kDegraded, kTracked };
 
 /// What the odometry said of a pair, against the truth.
 struct JudgedPair {
-  PairState state = PairState::kLost;
+  Outcome state = Outcome::kLost;
   bool is_judged = false;       ///< after the first, and not before the fault
   bool can_be_tracked = false;  ///< by the truth, see SharedView
   SharedView view;
@@ -44,6 +45,6 @@ struct JudgedRun {
 JudgedRun RunAndJudge(Recording& recording, const OdometryOptions& options,
                       const Tolerance& tolerance);
 
-const char* ToString(PairState state);
+const char* ToString(Outcome state);
 
 }  // namespace arfm_vo

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/simulation/hash_noise.h"
 
 namespace arfm_vo {
@@ -19,17 +18,12 @@ PairChange During(int begin, int end, const PairChange& change) {
 }
 
 /// The right camera turns by plan.turn within plan.ramp_pairs, and stays so.
-PairChange TurnRight(const FaultPlan& plan, const StereoCamera& camera) {
+PairChange TurnRightCamera(const FaultPlan& plan, const StereoCamera& camera) {
   return [=](int age, StereoImages& images) {
     const double part = std::min(1.0, (age + 1.0) / plan.ramp_pairs);
-    const Eigen::Matrix3d turn = ExpSO3(part * plan.turn).toRotationMatrix();
-    cv::Matx33d rotation;
-    for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = turn(i / 3, i % 3);
+    const cv::Vec3d turn(plan.turn.x(), plan.turn.y(), plan.turn.z());
     const cv::Matx33d projection(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-    const cv::Mat right = images.right;
-    images.right = cv::Mat();
-    cv::warpPerspective(right, images.right, projection * rotation * projection.inv(), right.size(),
-                        cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    TurnView(images.right, projection, part * turn, cv::INTER_CUBIC);
   };
 }
 
@@ -174,7 +168,7 @@ PairChange MakeFault(const FaultPlan& plan, const StereoCamera& camera) {
   if (plan.kind == "dots") change = ProjectDots(plan);
   const bool turns = plan.kind == "knock" || plan.kind.find("_step") != std::string::npos ||
                      plan.kind.find("_ramp") != std::string::npos;
-  if (turns) change = TurnRight(plan, camera);
+  if (turns) change = TurnRightCamera(plan, camera);
   return During(plan.begin, plan.end, change);
 }
 

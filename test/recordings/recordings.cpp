@@ -124,8 +124,10 @@ void RunMany(const Arguments& arguments) {
     const JudgedRun run = maker.Run(recording);
     const double seconds = watch.LapMs() / 1000;
     spent_s += seconds;
-    table.Append(recording.plan(), maker.Describe(recording), run, seconds);
-    std::printf("%s\n", FormatResult(seed, maker.Describe(recording), run, seconds).c_str());
+    const Properties properties = maker.Describe(recording);
+    const std::string line = FormatResult(seed, properties, run, seconds);
+    table.Append(seed, properties, line);
+    std::printf("%s\n", line.c_str());
     std::fflush(stdout);
   }
 }

@@ -22,13 +22,13 @@ struct Counts {
 };
 
 void Count(const JudgedPair& pair, Counts& counts) {
-  const bool is_tracked = pair.state == PairState::kTracked;
+  const bool is_tracked = pair.state == Outcome::kTracked;
   ++counts.judged;
   if (pair.can_be_tracked) {
     ++counts.trackable;
     counts.tracked += is_tracked;
-    counts.degraded += pair.state == PairState::kDegraded;
-    counts.lost += pair.state == PairState::kLost;
+    counts.degraded += pair.state == Outcome::kDegraded;
+    counts.lost += pair.state == Outcome::kLost;
     counts.wrong += pair.is_wrong;
   } else {
     ++counts.other;
@@ -90,14 +90,13 @@ ResultTable::ResultTable(const std::string& path) : path_(path) {
   while (std::getline(lines, line)) seeds_.insert(static_cast<uint32_t>(std::stoul(line)));
 }
 
-void ResultTable::Append(const RecordingPlan& plan, const Properties& properties,
-                         const JudgedRun& run, double seconds) {
+void ResultTable::Append(uint32_t seed, const Properties& properties, const std::string& line) {
   const bool is_new = !std::filesystem::exists(path_) || std::filesystem::file_size(path_) == 0;
   std::ofstream file(path_, std::ios::app);
   if (is_new) file << ResultHeader(properties) << '\n';
-  file << FormatResult(plan.seed, properties, run, seconds) << '\n' << std::flush;
+  file << line << '\n' << std::flush;
   Require(file.good(), path_ + ": cannot be written");
-  seeds_.insert(plan.seed);
+  seeds_.insert(seed);
 }
 
 }  // namespace arfm_vo

@@ -17,8 +17,8 @@ class ResultTable {
   explicit ResultTable(const std::string& path);
 
   bool Has(uint32_t seed) const { return seeds_.count(seed) > 0; }
-  void Append(const RecordingPlan& plan, const Properties& properties, const JudgedRun& run,
-              double seconds);
+  /// `line` is FormatResult's.
+  void Append(uint32_t seed, const Properties& properties, const std::string& line);
 
  private:
   std::string path_;

@@ -151,19 +151,27 @@ PairChange Skew(double skew_s) {
   };
 }
 
+void TurnView(cv::Mat& image, const cv::Matx33d& projection, const cv::Vec3d& turn,
+              int interpolation) {
+  cv::Matx33d rotation;
+  cv::Rodrigues(turn, rotation);
+  const cv::Mat before = image;
+  image = cv::Mat();  // others may hold the same pixels
+  cv::warpPerspective(before, image, projection * rotation * projection.inv(), before.size(),
+                      interpolation, cv::BORDER_REPLICATE);
+}
+
 PairChange TurnRight(const cv::Vec3d& turn, const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
     if (index <= pairs.first) return;
-    const cv::Mat right = images.right.clone();
+    const cv::Size size = images.right.size();
     // The turn moves the picture alike whatever the focal length is, but for its size: that of
     // KITTI's cameras, over the width.
-    const double focal_px = 0.58 * right.cols;
-    const cv::Matx33d camera(focal_px, 0, 0.5 * right.cols, 0, focal_px, 0.5 * right.rows, 0, 0, 1);
-    cv::Matx33d rotation;
-    cv::Rodrigues(turn * std::min(1., 1. * (index - pairs.first) / (pairs.last - pairs.first)),
-                  rotation);
-    cv::warpPerspective(right, images.right, camera * rotation * camera.inv(), right.size(),
-                        cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const double focal_px = 0.58 * size.width;
+    const cv::Matx33d camera(focal_px, 0, 0.5 * size.width, 0, focal_px, 0.5 * size.height, 0, 0,
+                             1);
+    const double part = std::min(1., 1. * (index - pairs.first) / (pairs.last - pairs.first));
+    TurnView(images.right, camera, turn * part, cv::INTER_LINEAR);
   };
 }
 

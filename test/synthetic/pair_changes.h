@@ -45,6 +45,10 @@ PairChange Miss(const PairRange& pairs);
 /// The right image is taken so much before the left one: what moved between this pair and the one
 /// before is moved back by its part of the time, by dense optical flow.
 PairChange Skew(double skew_s);
+/// The image becomes what a camera with this projection sees once it has turned: rotation vector in
+/// its optical frame, rad.
+void TurnView(cv::Mat& image, const cv::Matx33d& projection, const cv::Vec3d& turn,
+              int interpolation);
 /// The right camera turns by so much from the first of `pairs` to the last, and stays so: rotation
 /// vector in its optical frame, rad.
 PairChange TurnRight(const cv::Vec3d& turn, const PairRange& pairs);

@@ -11,6 +11,10 @@ namespace arfm_vo {
 
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
+  /// Landmarks near one another err, and move, together: an image counts as so many observations.
+  static constexpr int kRegionsAcross = 4, kRegionsDown = 3;
+  static constexpr int kRegions = kRegionsAcross * kRegionsDown;
+
   std::vector<const Landmark*> landmarks;     ///< [N] not owned
   std::vector<LandmarkObservation> observed;  ///< [N]
   std::vector<PointObservation> points;       ///< [N] the same for the pose
@@ -23,8 +27,7 @@ struct Correspondences {
   LandmarkObservations Select(const std::vector<char>& flags, char flag) const;
   /// That those whose flag is this one are the ground and not what moves on its own: by what poses
   /// before have told of them and of those that do not agree, and by how much of the image they
-  /// fill. Landmarks that are near one another err together, so that each of 4 x 3 regions of the
-  /// image counts as one.
+  /// fill; the mean of each of kRegions counts once.
   double LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
                          char flag) const;
 };
