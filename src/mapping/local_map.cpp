@@ -4,6 +4,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/pixel_scale.h"
+#include "moving_cells.h"
 #include "occupancy_grid.h"
 
 namespace arfm_vo {
@@ -13,8 +14,6 @@ namespace {
 constexpr double kRemembered = 0.9;
 /// What a match that no pose explains counts against a landmark: it is wrong as a rule.
 constexpr double kMismatch = 0.3;
-/// What a new landmark among contradicting ones begins with.
-constexpr double kContradictedNearby = 2;
 
 /// What a pose tells that is the ground's with this probability: of even odds nothing.
 double Telling(double probability) { return std::max(0., 2 * probability - 1); }
@@ -66,14 +65,9 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
   for (const LandmarkObservation& known : keyframe.observations) {
     grid.Add(known.pixels.x(), known.pixels.y());
   }
-  const OccupancyGrid agreeing = grid;
-  OccupancyGrid moving(camera_.width, camera_.height, cell_px, options_.min_separation_px);
-  for (const LandmarkObservation& other : contradicting) {
-    moving.Add(other.pixels.x(), other.pixels.y());
-  }
-  const auto num_contradicted = [&](double u, double v) {
-    return moving.Count(u, v) > std::max(1, agreeing.Count(u, v)) ? kContradictedNearby : 0;
-  };
+  const MovingCells moving(camera_, landmarks_, keyframe,
+                           keyframes_.empty() ? nullptr : &keyframes_.back(), contradicting,
+                           cell_px);
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);
   std::stable_sort(candidates.begin(), candidates.end(), [&](const auto* a, const auto* b) {
@@ -92,7 +86,7 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
         continue;
       }
       grid.Add(u, v);
-      AddLandmark(frame, *point, num_contradicted(u, v), keyframe);
+      AddLandmark(frame, *point, moving.NumContradicted(u, v), keyframe);
       --room;
     }
     candidates = std::move(later);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "arfm_vo/mapping/local_map.h"
+#include "occupancy_grid.h"
+
+namespace arfm_vo {
+
+/// Where in a frame something moves on its own: known points contradict the pose there, or have
+/// vanished behind something while others are still seen.
+class MovingCells {
+ public:
+  /// `frame`: a localised one with its observations of known points, and none of new ones yet;
+  /// `before`: the keyframe before it, if any.
+  MovingCells(const StereoCamera& camera, const Landmarks& landmarks, const Keyframe& frame,
+              const Keyframe* before, const LandmarkObservations& contradicting, int cell_px);
+
+  /// What a new point at this pixel begins with as `num_contradicted`.
+  double NumContradicted(double u, double v) const;
+
+ private:
+  double ProbabilityOfHidden(double u, double v) const;
+
+  OccupancyGrid agreeing_, contradicting_;
+  OccupancyGrid seen_, vanished_;  ///< of the points of the keyframe before
+  double usually_seen_ = 0.1;       ///< share of them that is seen where any is
+};
+
+}  // namespace arfm_vo
