@@ -139,9 +139,10 @@ class LocalOdometry::Implementation {
     if (resting) {
       update.pose.camera_from_world = *resting;
     } else {  // at rest something may stand before a good point for long
-      map_.CountSightings(tracked.expected, tracked.observations, verdict_.ProbabilityOfGround());
+      const double probability = Logistic(update.log_odds);
+      map_.CountSightings(tracked.expected, tracked.observations, probability);
       map_.CountContradictions(tracked.contradicting, tracked.of_rival, tracked.observations,
-                               verdict_.ProbabilityOfGround());
+                               probability);
     }
     update.is_keyframe =
         !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,

@@ -109,6 +109,7 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
 
 /// Whether the map has not known some good pairs in a row, and the base has moved on.
 bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
+  if (pose.update.reason == Reason::kGroundHidden) return false;  // and is still there behind
   if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
   std::vector<double> depths;
   for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
