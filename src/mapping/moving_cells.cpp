@@ -16,8 +16,11 @@ constexpr int kCellsAcross = 12;
 /// Of points that something hides so many are found all the same.
 constexpr double kSeenIfHidden = 0.05;
 constexpr double kLeastSeen = 0.1, kMostSeen = 0.9;
-/// Log odds that a cell is hidden by something that moves, before it is looked at.
-constexpr double kHiddenBefore = -3;
+/// The part of the cells that something large hides; the image counts as so many cells, and what a
+/// cell tells is bounded: neighbouring points vanish together.
+constexpr double kHidden = 0.3, kIndependent = 12, kMostTold = 5;
+/// Log odds that something large has come since the keyframe before: it does once in 10 minutes.
+constexpr double kComes = -7;
 
 }  // namespace
 
@@ -51,19 +54,31 @@ MovingCells::MovingCells(const StereoCamera& camera, const Landmarks& landmarks,
   if (!seen.empty()) {
     usually_seen_ = std::clamp(sum / static_cast<double>(seen.size()), kLeastSeen, kMostSeen);
   }
+  FindHidden(camera);
 }
 
-double MovingCells::ProbabilityOfHidden(double u, double v) const {
-  const double log_odds =
-      kHiddenBefore + vanished_.Count(u, v) * std::log((1 - kSeenIfHidden) / (1 - usually_seen_)) +
-      seen_.Count(u, v) * std::log(kSeenIfHidden / usually_seen_);
-  return Logistic(log_odds);
+double MovingCells::LogRatioOfHidden(double u, double v) const {
+  return vanished_.Count(u, v) * std::log((1 - kSeenIfHidden) / (1 - usually_seen_)) +
+         seen_.Count(u, v) * std::log(kSeenIfHidden / usually_seen_);
+}
+
+void MovingCells::FindHidden(const StereoCamera& camera) {
+  const double cell_px = camera.width / kCellsAcross;
+  double sum = 0, num = 0;
+  for (double v = cell_px / 2; v < camera.height; v += cell_px) {
+    for (double u = cell_px / 2; u < camera.width; u += cell_px) {
+      if (seen_.Count(u, v) + vanished_.Count(u, v) == 0) continue;
+      sum +=
+          std::log(1 - kHidden + kHidden * std::exp(std::min(kMostTold, LogRatioOfHidden(u, v))));
+      ++num;
+    }
+  }
+  hides_ = Logistic(kComes + kIndependent * sum / std::max(1., num));
 }
 
 double MovingCells::NumContradicted(double u, double v) const {
-  const bool is_contradicted =
-      contradicting_.Count(u, v) > std::max(1, agreeing_.Count(u, v));
-  return kContradicted * (is_contradicted ? 1 : ProbabilityOfHidden(u, v));
+  const bool is_contradicted = contradicting_.Count(u, v) > std::max(1, agreeing_.Count(u, v));
+  return kContradicted * (is_contradicted ? 1 : hides_ * Logistic(LogRatioOfHidden(u, v)));
 }
 
 }  // namespace arfm_vo

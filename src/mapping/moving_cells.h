@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "arfm_vo/mapping/local_map.h"
 #include "occupancy_grid.h"
 
@@ -18,11 +20,14 @@ class MovingCells {
   double NumContradicted(double u, double v) const;
 
  private:
-  double ProbabilityOfHidden(double u, double v) const;
+  /// How much likelier it is that something hides the cell of this pixel, in logarithms.
+  double LogRatioOfHidden(double u, double v) const;
+  void FindHidden(const StereoCamera& camera);
 
   OccupancyGrid agreeing_, contradicting_;
   OccupancyGrid seen_, vanished_;  ///< of the points of the keyframe before
-  double usually_seen_ = 0.1;       ///< share of them that is seen where any is
+  double usually_seen_ = 0.9;      ///< share of them that is seen where any is
+  double hides_ = 0;               ///< probability that something has come before the scene
 };
 
 }  // namespace arfm_vo

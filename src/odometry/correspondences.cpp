@@ -30,9 +30,17 @@ constexpr int kCellsAcross = 12, kFewInCell = 3;
 
 }  // namespace
 
+double LogRatioOfShare(double share) {
+  constexpr double kTogether = 0.75, kApart = 0.25;
+  return Correspondences::kRegions * (share * std::log(kTogether / kApart) +
+                                      (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
+}
+
 void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& correction,
-                          const Landmark& landmark, const LandmarkObservation& observation) {
+                          const Landmark& landmark, const LandmarkObservation& observation,
+                          bool still) {
   landmarks.push_back(&landmark);
+  is_still.push_back(still);
   observed.push_back(observation);
   PointObservation point;
   point.x_in_world = landmark.x_in_world;

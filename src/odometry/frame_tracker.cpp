@@ -4,6 +4,8 @@
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/median.h"
+#include "arfm_vo/base/pixel_scale.h"
 
 namespace arfm_vo {
 
@@ -14,6 +16,24 @@ constexpr double kMoves = -1.5;
 
 /// Log odds that a pose is the ground's from which no rival is looked for.
 constexpr double kSure = 2;
+
+/// Where some points stand still in the picture and others do not: on so many more rigs something
+/// is fixed before the camera (one in a hundred) than something passes a resting camera just now.
+constexpr double kFixedNotPassing = 1.2;
+
+/// Whether by this pose nothing has moved in the picture since `before`.
+bool IsAtRest(const StereoCamera& camera, const Correspondences& correspondences,
+              const Rigid3& pose, const Rigid3& before) {
+  constexpr double kRest_px = 0.5;
+  std::vector<double> flow_px;
+  for (const Landmark* landmark : correspondences.landmarks) {
+    const Eigen::Vector3d now = pose * landmark->x_in_world, then = before * landmark->x_in_world;
+    if (now.z() > 0 && then.z() > 0) {
+      flow_px.push_back((camera.Project(now) - camera.Project(then)).norm());
+    }
+  }
+  return !flow_px.empty() && Median(std::move(flow_px)) < kRest_px * PixelScale(camera.width);
+}
 
 std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   std::vector<LandmarkId> ids;
@@ -50,14 +70,17 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
                                  bool use_right, bool is_wary) const {
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
+  const Rigid3& newest = map.keyframes().back().camera_from_world;
   if (!options_.guided) {
-    tracked = Localise(matcher_.MatchAsImages(frame, map), predicted, is_wary);
+    tracked = Localise(matcher_.MatchAsImages(frame, map), predicted, newest, frame.rest_log_ratio,
+                       is_wary);
   } else if (predicted) {
-    tracked =
-        Localise(matcher_.MatchNear(frame, map, predicted->camera_from_world), predicted, is_wary);
+    tracked = Localise(matcher_.MatchNear(frame, map, predicted->camera_from_world), predicted,
+                       newest, frame.rest_log_ratio, is_wary);
   }
   if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
-    const TrackedFrame found = Localise(matcher_.MatchAll(frame, map), predicted, is_wary);
+    const TrackedFrame found =
+        Localise(matcher_.MatchAll(frame, map), predicted, newest, frame.rest_log_ratio, is_wary);
     const bool is_better =
         found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
     if (is_better || !tracked.pose.HasPose()) tracked = found;
@@ -68,30 +91,45 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
 
 TrackedFrame FrameTracker::Localise(Correspondences correspondences,
                                     const std::optional<PredictedPose>& predicted,
+                                    const Rigid3& newest, double rest_log_ratio,
                                     bool is_wary) const {
   TrackedFrame tracked;
   std::vector<char> agrees;
   correspondences.ShareVotes(camera_.width);
+  const auto is_at_rest = [&](const Rigid3& pose) {
+    return IsAtRest(camera_, correspondences, pose, newest);
+  };
   const auto log_odds = [&](const Rigid3& pose, char flag) {
     return correspondences.LogOddsOfGround(camera_, agrees, flag) +
-           (predicted ? predicted->LogOdds(pose) : 0);
+           (predicted ? predicted->LogOdds(pose) : 0) + (is_at_rest(pose) ? rest_log_ratio : 0);
   };
   const auto estimate = [&](const PoseEstimatorOptions& options) {
     tracked.pose = EstimatePose(camera_, correspondences.points, predicted, options, &agrees);
     tracked.log_odds = tracked.pose.HasPose() ? log_odds(tracked.pose.camera_from_world, 1) : 0;
   };
   estimate(is_wary ? options_.pose.Wary() : options_.pose);
-  if (!is_wary && tracked.log_odds < kSure) estimate(options_.pose.Wary());
+  const auto is_odd_rest = [&] {
+    return rest_log_ratio <= 0 && is_at_rest(tracked.pose.camera_from_world);
+  };
+  if (!is_wary && (tracked.log_odds < kSure || is_odd_rest())) estimate(options_.pose.Wary());
   if (!tracked.pose.HasPose()) return tracked;
   if (tracked.pose.rival) {
     tracked.log_odds_of_rival = log_odds(*tracked.pose.rival, kAgreesWithRival);
+    if (is_odd_rest()) {
+      tracked.log_odds_of_rival += kFixedNotPassing;
+    }
     if (tracked.log_odds_of_rival > tracked.log_odds) {
       PreferRival(correspondences, agrees, tracked);
     }
   }
+  tracked.is_odd_rest = is_odd_rest();
   tracked.observations = correspondences.Select(agrees, 1);
   for (const auto& observation : tracked.observations) {
     tracked.expected.push_back(observation.landmark);
+  }
+  // What stands still in the picture though the camera moves has a motion of its own too.
+  for (size_t i = 0; i < agrees.size(); ++i) {
+    if (agrees[i] == 0 && correspondences.is_still[i]) agrees[i] = kAgreesWithRival;
   }
   tracked.of_rival = correspondences.Select(agrees, kAgreesWithRival);
   for (char& flag : agrees) flag = flag == 1;

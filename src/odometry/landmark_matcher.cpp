@@ -106,7 +106,8 @@ Correspondences LandmarkMatcher::Correspond(const StereoFrame& frame,
           point->observation.y() + point->row_residual_px;
     }
     observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
-    correspondences.Add(camera_, correction_, *landmarks[match.first], observation);
+    correspondences.Add(camera_, correction_, *landmarks[match.first], observation,
+                        !frame.is_still.empty() && frame.is_still[match.second]);
   }
   return correspondences;
 }

@@ -19,6 +19,10 @@ const std::vector<ReasonRow>& ListReasons() {
       {Reason::kGroupsDiffer, "two groups of points move differently",
        "degraded: pose of the likelier group, the covariance reaches to the other"},
       {Reason::kGroundHidden, "what is seen moves otherwise than the ground is known to", kLost},
+      {Reason::kFixed,
+       "something that is fixed before the camera hides the ground (a part of the rover, or a "
+       "projector's dots?)",
+       kLost},
       {Reason::kFarPoints, "most points are too far to tell how long the path is",
        "degraded: the length of the path counts as unknown"},
       {Reason::kSkewed, "the right picture is taken far from the left one's time",

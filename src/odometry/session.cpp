@@ -111,6 +111,7 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
 bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
   if (pose.update.reason == Reason::kGroundHidden) return false;  // and is still there behind
   if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
+  if (pose.update.reason == Reason::kFixed) return true;  // the new map is made without it
   std::vector<double> depths;
   for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
   const Rigid3 gone = last_->odom_from_base.Inverse() * pose.odom_from_base;

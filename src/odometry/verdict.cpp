@@ -16,21 +16,17 @@ constexpr double kRightFails_s = 60;
 /// Until it is again.
 constexpr double kRightRecovers_s = 1;
 
-/// Share of what both images see that lies on its rows, and of what the left image sees of the map
-/// that the right one shows as well: of pictures that belong together, and of others.
-constexpr double kTogether = 0.75, kApart = 0.25;
+/// Of points that have moved so many are seen where others were: where something is fixed before
+/// the camera, and by chance.
+constexpr double kStill = 0.2, kStillByChance = 0.05;
+/// Until something is fixed there, and until it is taken away.
+constexpr double kIsFixed_s = 36000, kIsTakenAway_s = 600;
 
 /// An image with fewer keypoints, against the other's, is dark or covered.
 constexpr double kBlindShare = 0.1;
 
 /// Disparity of a point whose depth is known, in its standard deviations.
 constexpr double kMinSignificance = 3;
-
-/// Pictures that belong together show `share`, against others.
-double LogRatioTogether(double share) {
-  return Correspondences::kRegions * (share * std::log(kTogether / kApart) +
-                                      (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
-}
 
 /// The covariance of a pose that may as well be `other`.
 Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
@@ -45,12 +41,13 @@ Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
 void Verdict::Look(const StereoFrame& frame) {
   const double interval_s = std::max(0., frame.stamp_s - stamp_s_);
   right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
+  fixed_.Advance(interval_s, kIsTakenAway_s, kIsFixed_s);
   another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
   ground_.Advance(interval_s, kAnotherComes_s, kAnotherLeaves_s);
   stamp_s_ = frame.stamp_s;
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {
-    right_belongs_.Add(LogRatioTogether(frame.row_agreement));
+    right_belongs_.Add(LogRatioOfShare(frame.row_agreement));
   }
   right_fault_ = left_fault_ == Reason::kNone ? FaultOfRight(frame) : left_fault_;
 }
@@ -67,6 +64,12 @@ Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
   if (frame.num_right_keypoints < kBlindShare * frame.features.size()) return Reason::kRightBlind;
   if (right_belongs_.Probability() < 0.5) return Reason::kRightOff;
   return Reason::kNone;
+}
+
+void Verdict::CountFixed(double share) {
+  fixed_.Add(Correspondences::kRegions *
+             (share * std::log(kStill / kStillByChance) +
+              (1 - share) * std::log((1 - kStill) / (1 - kStillByChance))));
 }
 
 void Verdict::Reset(bool was_lost) {
@@ -89,7 +92,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   ground_.Limit(std::log(kAnotherComes_s / kAnotherLeaves_s) + log_odds - ground_.log_odds());
   if (!is_likeliest) {
     pose.status = PoseStatus::kNoConsensus;
-    update.reason = Reason::kGroundHidden;
+    update.reason = tracked.is_odd_rest ? Reason::kFixed : Reason::kGroundHidden;
     return false;
   }
   if (pose.rival) {
@@ -106,10 +109,11 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
     const auto& seen = tracked.observations;
     const auto num_right =
         std::count_if(seen.begin(), seen.end(), [](const auto& one) { return one.has_right; });
-    right_belongs_.Add(LogRatioTogether(static_cast<double>(num_right) /
-                                        std::max<double>(1, static_cast<double>(seen.size()))));
+    right_belongs_.Add(LogRatioOfShare(static_cast<double>(num_right) /
+                                       std::max<double>(1, static_cast<double>(seen.size()))));
   }
   if (probability < 0.9) update.Degrade(Reason::kGroupsDiffer);
+  if (tracked.is_odd_rest) update.Degrade(Reason::kFixed);
   return true;
 }
 

@@ -9,6 +9,11 @@
 
 namespace arfm_vo {
 
+/// How much likelier it is by this share of the image's points that they belong together (three of
+/// four do then) than that they do not (one of four does), in logarithms: by as many independent
+/// observations as Correspondences::kRegions.
+double LogRatioOfShare(double share);
+
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
   /// Landmarks near one another err, and move, together: an image counts as so many observations.
@@ -18,9 +23,10 @@ struct Correspondences {
   std::vector<const Landmark*> landmarks;     ///< [N] not owned
   std::vector<LandmarkObservation> observed;  ///< [N]
   std::vector<PointObservation> points;       ///< [N] the same for the pose
+  std::vector<char> is_still;                 ///< [N] StereoFrame::is_still of the keypoint
 
   void Add(const StereoCamera& camera, const StereoCorrection& correction, const Landmark& landmark,
-           const LandmarkObservation& observation);
+           const LandmarkObservation& observation, bool still = false);
   /// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
   void ShareVotes(int width_px);
   /// The observations whose flag in `flags` [N] is this one, sorted by landmark.

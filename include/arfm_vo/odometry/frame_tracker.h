@@ -43,6 +43,7 @@ struct TrackedFrame {
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
   LandmarkObservations of_rival;       ///< those of them that agree with the rival; sorted
+  bool is_odd_rest = false;  ///< the pose has not moved, most of the picture has
   double log_odds = 0;  ///< that the pose is the ground's and not that of what moves on its own
   double log_odds_of_rival = 0;
 };
@@ -68,7 +69,8 @@ class FrameTracker {
 
  private:
   TrackedFrame Localise(Correspondences correspondences,
-                        const std::optional<PredictedPose>& predicted, bool is_wary) const;
+                        const std::optional<PredictedPose>& predicted, const Rigid3& newest,
+                        double rest_log_ratio, bool is_wary) const;
   /// The rival is likelier: it becomes the pose, and the pose its rival.
   void PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
                    TrackedFrame& tracked) const;

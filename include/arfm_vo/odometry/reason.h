@@ -17,6 +17,7 @@ enum class Reason {
   kRightOff,
   kGroupsDiffer,
   kGroundHidden,
+  kFixed,
   kFarPoints,
   kSkewed,
   kNewMap,

@@ -29,6 +29,11 @@ class Verdict {
   /// the likelier of the two where there is a rival. Returns whether there is one.
   bool Weigh(const TrackedFrame& tracked, const std::optional<PredictedPose>& predicted,
              OdometryUpdate& update);
+  /// A new keyframe: of the points that must have moved in the picture since the one before, this
+  /// share has not.
+  void CountFixed(double share);
+  /// Something is fixed before the camera: a part of the rover, a projector's dots.
+  bool IsSomethingFixed() const { return fixed_.Probability() > 0.5; }
   /// A new map begins; `was_lost`: it may begin on what hid the ground.
   void Reset(bool was_lost);
   /// That the poses up to here are the ground's, not those of something that moves on its own.
@@ -42,6 +47,7 @@ class Verdict {
 
   double stamp_s_ = 0;
   Belief right_belongs_{0.95};  ///< the right picture is of this moment and rig
+  Belief fixed_{0.01};          ///< something is fixed before the camera: so it is on few rigs
   Belief another_moves_{0.01};  ///< something large moves on its own
   Belief ground_{0.98};         ///< the poses up to here are the ground's
   Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
