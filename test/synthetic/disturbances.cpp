@@ -78,9 +78,12 @@ std::vector<Disturbance> MakeMoreDisturbances() {
       {"contrast-0.1", OnEachImage(Flatten(0.1))},
       {"left-dirt-20", OnEye(kLeft, Dirty(0.2, 1))},
       {"dirt-30", Both(OnEye(kLeft, Dirty(0.3, 1)), OnEye(kRight, Dirty(0.3, 2)))},
-      {"drift-pitch", DriftRight({0.002, 0, 0}, 60)},
-      {"drift-yaw", DriftRight({0, 0.002, 0}, 60)},
-      {"drift-roll", DriftRight({0, 0, 0.005}, 60)},
+      {"drift-pitch", TurnRight({0.002, 0, 0}, {0, 60})},
+      {"drift-yaw", TurnRight({0, 0.002, 0}, {0, 60})},
+      {"drift-roll", TurnRight({0, 0, 0.005}, {0, 60})},
+      {"ramp-yaw", TurnRight({0, 0.001, 0}, {kFrom, kFrom + 20})},
+      {"step-yaw", TurnRight({0, 0.001, 0}, {kFrom, kFrom + 1})},
+      {"step-pitch", TurnRight({0.001, 0, 0}, {kFrom, kFrom + 1})},
   };
 }
 

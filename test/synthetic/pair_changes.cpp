@@ -151,15 +151,17 @@ PairChange Skew(double skew_s) {
   };
 }
 
-PairChange DriftRight(const cv::Vec3d& turn, int num_pairs) {
+PairChange TurnRight(const cv::Vec3d& turn, const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
+    if (index <= pairs.first) return;
     const cv::Mat right = images.right.clone();
     // The turn moves the picture alike whatever the focal length is, but for its size: that of
     // KITTI's cameras, over the width.
     const double focal_px = 0.58 * right.cols;
     const cv::Matx33d camera(focal_px, 0, 0.5 * right.cols, 0, focal_px, 0.5 * right.rows, 0, 0, 1);
     cv::Matx33d rotation;
-    cv::Rodrigues(turn * (1. * index / num_pairs), rotation);
+    cv::Rodrigues(turn * std::min(1., 1. * (index - pairs.first) / (pairs.last - pairs.first)),
+                  rotation);
     cv::warpPerspective(right, images.right, camera * rotation * camera.inv(), right.size(),
                         cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   };

@@ -45,9 +45,9 @@ PairChange Miss(const PairRange& pairs);
 /// The right image is taken so much before the left one: what moved between this pair and the one
 /// before is moved back by its part of the time, by dense optical flow.
 PairChange Skew(double skew_s);
-/// The right camera turns by so much in `num_pairs`, and on: rotation vector in its optical frame,
-/// rad.
-PairChange DriftRight(const cv::Vec3d& turn, int num_pairs);
+/// The right camera turns by so much from the first of `pairs` to the last, and stays so: rotation
+/// vector in its optical frame, rad.
+PairChange TurnRight(const cv::Vec3d& turn, const PairRange& pairs);
 
 /// A textured rectangle before everything else, in both images, from pair kObjectFrom on.
 struct ObjectOptions {
