@@ -1,42 +1,45 @@
 #include "arfm_vo/odometry/calibration_state.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {
 
-/// The correction is known where its columns are known better than this all over the image: no
-/// observation is trusted more (LandmarkAlignerOptions::min_sigma_px).
+/// The correction is known where its columns are known better than this all over the image, and
+/// the camera has turned where that moves columns by more: no observation is trusted more
+/// (LandmarkAlignerOptions::min_sigma_px).
 constexpr double kKnownSigmaPx = 0.1;
 
 /// No coefficient is known better: a lens is not quite what its model says.
 constexpr double kModelSigmaPx = 0.05;
 
-/// How far the right camera may have turned at once, about each axis.
-constexpr double kTurnSigma_rad = 1e-3;
-
-/// What is held in an adjustment, px: nothing to it.
+/// What an adjustment holds, px.
 constexpr double kHeldSigmaPx = 1e-3;
+
+/// How far the right camera may turn at once, about each axis.
+constexpr double kTurnSigma_rad = 1e-3;
 
 /// Windows of a camera that has not turned lie within this quantile.
 constexpr double kSameProbability = 0.999;
 
-/// The square of what windows find, in what their residuals say, before any has told; and the
-/// number of windows that this counts for.
-constexpr double kScatter = 3, kNumWindows = 1;
+/// The scatter before any windows have told it, and for how many of them that counts. Observations
+/// that tell of the correction also place the points that the odometry then goes by, so their
+/// errors count again (simulated_run_test: NEES).
+constexpr double kScatter = 3;
+constexpr int kNumScatter = 1;
 
-/// Of a vector of three with this covariance, 1 in the mean.
+/// After so many windows a turn is known as well as it will be.
+constexpr int kSettled = 2;
+
+constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+
+/// Of a vector of three with this covariance; 1 in the mean.
 double Square(const Eigen::Vector3d& x, const Eigen::Matrix3d& covariance) {
   return x.dot(covariance.ldlt().solve(x)) / 3;
 }
-
-constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
 
 }  // namespace
 
@@ -47,10 +50,10 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       is_open_(may_learn && known.MaxColumnSigma(camera) > kKnownSigmaPx),
       by_turn_(CorrectionBelief::ByTurn(camera)),
       prior_(known),
+      learnt_(known),
       correction_(known),
       considered_(CorrectionBelief::Isotropic(kModelSigmaPx).covariance),
-      scatter_(kScatter),
-      num_pairs_(kNumWindows) {
+      scatter_(kScatter) {
   considered_(kFocalLength, kFocalLength) += known.covariance(kFocalLength, kFocalLength);
   prior_.covariance.row(kFocalLength).setZero();
   prior_.covariance.col(kFocalLength).setZero();
@@ -69,21 +72,23 @@ std::optional<CorrectionBelief> CalibrationState::Prior() const {
 }
 
 bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
-  const bool is_whole =
-      result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
-  if (!is_whole || result.correction_covariance.isZero(0)) return false;
-  correction_ = {result.correction, result.correction_covariance};
-  is_open_ = correction_.MaxColumnSigma(camera_) > (std::getenv("CAL_KNOWN") ? std::atof(std::getenv("CAL_KNOWN")) : kKnownSigmaPx);
-  correction_.covariance = considered_ + scatter_ * correction_.covariance;
+  if (result.correction_covariance.isZero(0)) return false;
+  learnt_ = {result.correction, result.correction_covariance};
+  is_open_ = first_telling_ > 0 ? num_keyframes < first_telling_ + kSettled * kWindow
+                                : learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
   num_learnt_ = num_keyframes;
+  Tell();
   return true;
 }
 
+void CalibrationState::Tell() {
+  correction_ = {learnt_.mean, considered_ + scatter_ * learnt_.covariance};
+}
+
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
-  const int num_new = num_keyframes - std::max(num_learnt_, first_telling_);
-  if (!may_learn_ || is_open_ || num_keyframes < kWindow || num_new < 1) {
-    return std::nullopt;
-  }
+  const bool is_first_found = !is_open_ || first_telling_ > 0;
+  const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
+  if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
   return OpenToATurn();
 }
 
@@ -94,19 +99,24 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const Window newest{turn_of * window.correction.coefficients_px,
                       turn_of * window.correction_covariance * turn_of.transpose()};
   const Eigen::Vector3d turn = newest.turn - turn_of * correction_.mean.coefficients_px;
-  if (std::getenv("CAL_SAY")) std::fprintf(stderr, "\nwindow %d: mrad %.3f %.3f %.3f square %.1f scatter %.1f factor %.2f it %d t %.3f\n", num_keyframes, 1e3*turn[0],1e3*turn[1],1e3*turn[2], Square(turn, newest.covariance), scatter_, window.covariance_factor, window.num_iterations, window.time_s);
-  const bool has_turned = 3 * Square(turn, newest.covariance) > scatter_ * ChiSquareQuantile(3, kSameProbability) &&
+  const bool has_turned = 3 * Square(turn, newest.covariance) >
+                              scatter_ * ChiSquareQuantile(3, kSameProbability) &&
                           camera_.fx * turn.norm() > kKnownSigmaPx;
   windows_.push_back(newest);
-  if (windows_.size() > kWindow && !has_turned) {
-    const Window& before = windows_.front();  // it saw none of the same keyframes
-    const double square = Square(newest.turn - before.turn, newest.covariance + before.covariance);
-    scatter_ += (square - scatter_) / ++num_pairs_;
+  if (windows_.size() > kWindow) {
+    const Window before = windows_.front();  // it saw none of the same keyframes
+    windows_.pop_front();
+    if (!has_turned) {
+      const double apart =
+          Square(newest.turn - before.turn, newest.covariance + before.covariance);
+      scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
+      Tell();
+    }
   }
-  if (windows_.size() > kWindow) windows_.pop_front();
   if (!has_turned) return;
   first_telling_ = num_keyframes - kWindow;
   prior_ = OpenToATurn();
+  learnt_ = prior_;
   considered_ = correction_.covariance;
   correction_.covariance += prior_.covariance;
   is_open_ = true;

@@ -1,8 +1,6 @@
 #include "arfm_vo/odometry/global_map.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
@@ -22,6 +20,10 @@ constexpr double kAdjustmentGrowth = 1.5;
 
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
+
+bool HasResult(const BundleResult& result) {
+  return result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
+}
 
 }  // namespace
 
@@ -217,16 +219,12 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (problem.observations.empty()) return std::nullopt;
   const bool is_open = problem.correction_prior.has_value();
   BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
-  if (result.status == BundleStatus::kFailed) return std::nullopt;
+  if (!HasResult(result)) return std::nullopt;
   if (is_open && !calibration_.Learn(result, num_keyframes())) {
     problem = MakeProblem();  // the poses must be of the correction that is told
     problem.correction_prior.reset();
     result = AdjustBundle(std::move(problem), options_.solver, progress);
-    if (result.status == BundleStatus::kFailed) return std::nullopt;
-  }
-  if (std::getenv("CAL_SAY")) {
-    const auto& c = calibration_.correction().mean.coefficients_px;
-    std::fprintf(stderr, "\nadjust %d: told z0 %.2f z3 %.2f z5 %.2f z6 %.2f rad %.1f %.1f foc %.2f rows %.2f %.2f sigma %.3f cost %.0f factor %.2f t %.2f prior %d\n", num_keyframes(), c[0], c[3],c[5],c[6], c[10], c[11], c[12], c[13], c[17], calibration_.correction().MaxColumnSigma(camera_), result.final_cost, result.covariance_factor, result.time_s, is_open);
+    if (!HasResult(result)) return std::nullopt;
   }
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);

@@ -65,8 +65,7 @@ class GlobalMap {
 
   /// Adjusts everything; where a loop closed since the last time contradicts the path, it is bent
   /// onto the loops first (pose graph). Nothing where there are fewer than two keyframes or no
-  /// solution.
-  /// `progress` is called after each iteration; false from it cancels.
+  /// solution, or where `progress`, which is called after each iteration, returns false.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
   /// Takes the newest keyframe's pose in odom to that in the map.
