@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "arfm_vo/pose/chi_square.h"
 
@@ -31,6 +32,10 @@ constexpr double kSameProbability = 0.999;
 constexpr double kScatter = 3;
 constexpr int kNumScatter = 1;
 
+/// The focal length of both images, and their radial distortion, show where the rover turns: after
+/// so much of it the correction is learnt anew from all keyframes.
+constexpr double kTellingTurn_rad = 0.5;
+
 /// After so many windows a turn is known as well as it will be.
 constexpr int kSettled = 2;
 
@@ -53,11 +58,11 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       learnt_(known),
       correction_(known),
       considered_(CorrectionBelief::Isotropic(kModelSigmaPx).covariance),
-      scatter_(kScatter) {
-  considered_(kFocalLength, kFocalLength) += known.covariance(kFocalLength, kFocalLength);
-  prior_.covariance.row(kFocalLength).setZero();
-  prior_.covariance.col(kFocalLength).setZero();
-  prior_.covariance(kFocalLength, kFocalLength) = kHeldSigmaPx * kHeldSigmaPx;
+      scatter_(kScatter) {}
+
+void CalibrationState::AddTurn(double turn_rad) {
+  turned_rad_ += turn_rad;
+  is_open_ |= may_learn_ && first_telling_ == 0 && turned_rad_ > kTellingTurn_rad;
 }
 
 CorrectionBelief CalibrationState::OpenToATurn() const {
@@ -68,7 +73,11 @@ CorrectionBelief CalibrationState::OpenToATurn() const {
 }
 
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
-  return is_open_ ? std::optional(prior_) : std::nullopt;
+  if (!is_open_) return std::nullopt;
+  CorrectionBelief prior = prior_;
+  prior.covariance.row(kFocalLength) /= std::sqrt(scatter_);
+  prior.covariance.col(kFocalLength) /= std::sqrt(scatter_);
+  return prior;
 }
 
 bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
@@ -76,7 +85,9 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   learnt_ = {result.correction, result.correction_covariance};
   is_open_ = first_telling_ > 0 ? num_keyframes < first_telling_ + kSettled * kWindow
                                 : learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  is_found_ |= !is_open_;
   num_learnt_ = num_keyframes;
+  turned_rad_ = 0;
   Tell();
   return true;
 }
@@ -86,7 +97,7 @@ void CalibrationState::Tell() {
 }
 
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
-  const bool is_first_found = !is_open_ || first_telling_ > 0;
+  const bool is_first_found = !is_open_ || is_found_;
   const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
   if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
   return OpenToATurn();

@@ -51,6 +51,10 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
   Keyframe kept = keyframe;
   kept.camera_from_world = keyframe.camera_from_world * map_from_odom_.Inverse();
   kept.first_landmark = FirstLandmark(landmarks);
+  if (newest > 0) {
+    const Rigid3& before = store_.keyframes.back().camera_from_world;
+    calibration_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
+  }
   store_.keyframes.push_back(std::move(kept));
   for (const Landmark& landmark : landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];

@@ -53,12 +53,17 @@ TEST(CalibrationState, AnAdjustmentWithoutACovarianceSaysNothing) {
   EXPECT_EQ(state.correction().covariance, kCalibration.covariance);
 }
 
-TEST(CalibrationState, TheFocalLengthStaysAndItsUncertaintyIsTold) {
-  const CalibrationState state = Known();
-  CalibrationState open(kCamera, true, kCalibration);
-  EXPECT_LT(open.Prior()->covariance(kFocalLength, kFocalLength), 1e-4);
-  EXPECT_GE(state.correction().covariance(kFocalLength, kFocalLength),
-            kCalibration.covariance(kFocalLength, kFocalLength));
+TEST(CalibrationState, TurnsOpenItAndScatterHoldsTheFocalLength) {
+  CalibrationState state = Known();
+  for (int k = 7; k < 40; ++k) state.Follow(Found(Yaw((k / 4) % 2 ? 0.06 : -0.06), 0.01), k);
+  state.AddTurn(0.4);
+  EXPECT_FALSE(state.Prior());
+  state.AddTurn(0.2);
+  ASSERT_TRUE(state.Prior());
+  EXPECT_LT(state.Prior()->covariance(kFocalLength, kFocalLength),
+            0.2 * kCalibration.covariance(kFocalLength, kFocalLength));
+  state.Learn(Found(Yaw(0), 0.01), 40);
+  EXPECT_FALSE(state.Prior());
 }
 
 TEST(CalibrationState, WindowsThatScatterWidenTheCovariance) {

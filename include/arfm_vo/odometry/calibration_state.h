@@ -27,8 +27,13 @@ class CalibrationState {
   /// Whether the right camera has turned, by how much adjustments are to find.
   bool HasTurned() const { return first_telling_ > 0 && is_open_; }
 
+  /// The rover has turned by so much more, which tells of the lenses.
+  void AddTurn(double turn_rad);
+
   /// What is known without the keyframes from first_telling() on, for an adjustment of these that
-  /// is to find the correction; nothing where it stays as it is.
+  /// is to find the correction; nothing where it stays as it is. The focal length of both images is
+  /// told by no straight way and bent by all that the model does not know, so its prior counts in
+  /// full, against observations that count by their scatter.
   std::optional<CorrectionBelief> Prior() const;
   /// Takes what such an adjustment, of all `num_keyframes`, has found. False where it has no
   /// covariance: then its poses are of no correction that is told.
@@ -52,12 +57,14 @@ class CalibrationState {
 
   StereoCamera camera_;
   bool may_learn_, is_open_;
+  bool is_found_ = false;        ///< was known once
   CorrectionBelief::Turns by_turn_;
   CorrectionBelief prior_;       ///< without the keyframes from first_telling_ on
   CorrectionBelief learnt_;      ///< with them, as their residuals say
   CorrectionBelief correction_;  ///< the same as it is told
   Matrix considered_;            ///< covariance of what no adjustment tells, px^2
   int first_telling_ = 0;
+  double turned_rad_ = 0;        ///< since it was learnt
   int num_learnt_ = 0;           ///< keyframes, the newest of which it was learnt from
   std::deque<Window> windows_;   ///< the newest ones, kWindow at most, one a keyframe
   double scatter_;               ///< mean square of windows' turns in what their residuals say
