@@ -75,8 +75,8 @@ CorrectionBelief CalibrationState::OpenToATurn() const {
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
   if (!is_open_) return std::nullopt;
   CorrectionBelief prior = prior_;
-  prior.covariance.row(kFocalLength) /= std::sqrt(scatter_);
-  prior.covariance.col(kFocalLength) /= std::sqrt(scatter_);
+  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_);
   return prior;
 }
 
@@ -110,16 +110,15 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const Window newest{turn_of * window.correction.coefficients_px,
                       turn_of * window.correction_covariance * turn_of.transpose()};
   const Eigen::Vector3d turn = newest.turn - turn_of * correction_.mean.coefficients_px;
-  const bool has_turned = 3 * Square(turn, newest.covariance) >
-                              scatter_ * ChiSquareQuantile(3, kSameProbability) &&
-                          camera_.fx * turn.norm() > kKnownSigmaPx;
+  const bool has_turned =
+      3 * Square(turn, newest.covariance) > scatter_ * ChiSquareQuantile(3, kSameProbability) &&
+      camera_.fx * turn.norm() > kKnownSigmaPx;
   windows_.push_back(newest);
   if (windows_.size() > kWindow) {
     const Window before = windows_.front();  // it saw none of the same keyframes
     windows_.pop_front();
     if (!has_turned) {
-      const double apart =
-          Square(newest.turn - before.turn, newest.covariance + before.covariance);
+      const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
       scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
       Tell();
     }

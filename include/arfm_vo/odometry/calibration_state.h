@@ -57,18 +57,18 @@ class CalibrationState {
 
   StereoCamera camera_;
   bool may_learn_, is_open_;
-  bool is_found_ = false;        ///< was known once
+  bool is_found_ = false;  ///< was known once
   CorrectionBelief::Turns by_turn_;
   CorrectionBelief prior_;       ///< without the keyframes from first_telling_ on
   CorrectionBelief learnt_;      ///< with them, as their residuals say
   CorrectionBelief correction_;  ///< the same as it is told
   Matrix considered_;            ///< covariance of what no adjustment tells, px^2
   int first_telling_ = 0;
-  double turned_rad_ = 0;        ///< since it was learnt
-  int num_learnt_ = 0;           ///< keyframes, the newest of which it was learnt from
-  std::deque<Window> windows_;   ///< the newest ones, kWindow at most, one a keyframe
-  double scatter_;               ///< mean square of windows' turns in what their residuals say
-  int num_apart_ = 0;            ///< windows that told it
+  double turned_rad_ = 0;       ///< since it was learnt
+  int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
+  std::deque<Window> windows_;  ///< the newest ones, kWindow at most, one a keyframe
+  double scatter_;              ///< mean square of windows' turns in what their residuals say
+  int num_apart_ = 0;           ///< windows that told it
 };
 
 }  // namespace arfm_vo

@@ -8,7 +8,7 @@
 namespace arfm_vo {
 
 struct LearnedCalibrationOptions {
-  bool remember_calibration = true;     ///< from drive to drive, a file a camera
+  bool remember_calibration = false;    ///< from drive to drive, a file a camera
   std::string learned_calibration_dir;  ///< where; empty: arfm_vo in ROS's own folder (ROS_HOME)
 
   void Check() const {}
@@ -36,7 +36,7 @@ class LearnedCalibration {
 
   LearnedCalibrationOptions options_;
   std::optional<StereoCamera> camera_;
-  StereoCorrection written_;
+  CorrectionBelief written_;
 };
 
 }  // namespace arfm_vo
