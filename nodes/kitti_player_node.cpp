@@ -12,6 +12,8 @@ namespace arfm_vo {
 namespace {
 
 const ros::WallDuration kClockPeriod(0.01);
+/// Nodes that start together have all subscribed once no further one has for so long.
+const ros::WallDuration kSettling(1);
 
 struct PlayerOptions {
   std::string sequence;                         ///< KITTI folder
@@ -68,8 +70,17 @@ class KittiPlayer {
 
  private:
   void Wait(double stamp_s) {
-    if (options_.wait_for_subscribers) ROS_INFO("waiting for subscribers of all four topics");
-    while (options_.wait_for_subscribers && !publisher_.HasSubscribers() && ros::ok()) {
+    if (!options_.wait_for_subscribers) return;
+    ROS_INFO("waiting for subscribers of all four topics");
+    // arfm_node is not the last one: pose_node takes the images as well, and what it begins without
+    // is lost.
+    uint32_t num_before = 0;
+    ros::WallTime changed = ros::WallTime::now();
+    while (ros::ok()) {
+      const uint32_t num = publisher_.CountSubscribers();
+      if (num != num_before) changed = ros::WallTime::now();
+      num_before = num;
+      if (publisher_.HasSubscribers() && ros::WallTime::now() - changed > kSettling) break;
       PublishClock(stamp_s);
       kClockPeriod.sleep();
     }

@@ -10,7 +10,9 @@ int OdometryRun::CountLost() const {
 }
 
 int OdometryRun::CountDegraded() const {
-  return static_cast<int>(std::count(states.begin(), states.end(), PoseStatus::kDegraded));
+  return static_cast<int>(std::count_if(states.begin(), states.end(), [](const PairState& state) {
+    return state.status == PoseStatus::kDegraded;
+  }));
 }
 
 }  // namespace arfm_vo

@@ -74,12 +74,15 @@ std::string FormatTiming(const OdometryRun& run) {
       if (std::find(stages.begin(), stages.end(), stage) == stages.end()) stages.push_back(stage);
     }
   }
-  std::string text = "frame,stamp_s,total_ms,memory_mb,state";
+  std::string text = "frame,stamp_s,total_ms,memory_mb,state,reason,log_odds,matches,inliers";
   for (const std::string& stage : stages) text += "," + stage;
   for (size_t i = 0; i < run.pair_ms.size(); ++i) {
     text += "\n" + std::to_string(i) + "," + FormatNumber(run.online[i].stamp_s, true);
     text += FormatLine(",%.3f", run.pair_ms[i]) + FormatLine(",%.2f", run.memory_mb[i]);
-    text += std::string(",") + ToString(run.states[i]);
+    const PairState& state = run.states[i];
+    text += std::string(",") + ToString(state.status) + ",\"" + ToString(state.reason) + "\"" +
+            FormatLine(",%.1f", state.log_odds) + FormatLine(",%d", state.num_matches) +
+            FormatLine(",%d", state.num_inliers);
     for (const std::string& stage : stages) {
       const auto found = std::find_if(run.stage_ms[i].begin(), run.stage_ms[i].end(),
                                       [&](const auto& time) { return time.first == stage; });

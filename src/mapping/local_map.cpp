@@ -7,6 +7,19 @@
 #include "occupancy_grid.h"
 
 namespace arfm_vo {
+namespace {
+
+/// Of what was counted for a landmark, at each further frame that tells of it.
+constexpr double kRemembered = 0.9;
+/// What a match that no pose explains counts against a landmark: it is wrong as a rule.
+constexpr double kMismatch = 0.3;
+/// What a new landmark among contradicting ones begins with.
+constexpr double kContradictedNearby = 2;
+
+/// What a pose tells that is the ground's with this probability: of even odds nothing.
+double Telling(double probability) { return std::max(0., 2 * probability - 1); }
+
+}  // namespace
 
 void LocalMapOptions::Check() const {
   Require(max_keyframes >= 2, "local_map.max_keyframes must be at least 2");
@@ -58,8 +71,8 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
   for (const LandmarkObservation& other : contradicting) {
     moving.Add(other.pixels.x(), other.pixels.y());
   }
-  const auto is_suspect = [&](double u, double v) {
-    return moving.Count(u, v) > std::max(1, agreeing.Count(u, v));
+  const auto num_contradicted = [&](double u, double v) {
+    return moving.Count(u, v) > std::max(1, agreeing.Count(u, v)) ? kContradictedNearby : 0;
   };
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);
@@ -79,15 +92,15 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
         continue;
       }
       grid.Add(u, v);
-      AddLandmark(frame, *point, is_suspect(u, v), keyframe);
+      AddLandmark(frame, *point, num_contradicted(u, v), keyframe);
       --room;
     }
     candidates = std::move(later);
   }
 }
 
-void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, bool is_suspect,
-                           Keyframe& keyframe) {
+void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point,
+                           double num_contradicted, Keyframe& keyframe) {
   const Rigid3 world_from_camera = keyframe.camera_from_world.Inverse();
   const Eigen::Matrix3d rotation = world_from_camera.RotationMatrix();
   Landmark landmark;
@@ -102,7 +115,7 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point, b
   std::copy_n(frame.features.descriptors.ptr<float>(point.keypoint), 64,
               landmark.descriptor.begin());
   landmark.num_keyframes = 1;
-  landmark.is_suspect = is_suspect;
+  landmark.num_contradicted = num_contradicted;
 
   LandmarkObservation observation;
   observation.landmark = landmark.id;
@@ -159,13 +172,30 @@ std::vector<const Landmark*> LocalMap::LandmarksInView(const Rigid3& camera_from
 }
 
 void LocalMap::CountSightings(const std::vector<LandmarkId>& expected,
-                              const LandmarkObservations& tracked) {
+                              const LandmarkObservations& tracked, double probability) {
   for (const LandmarkId id : expected) {
     const auto found = landmarks_.find(id);
     if (found == landmarks_.end()) continue;
+    Landmark& landmark = found->second;
     const bool is_seen = FindObservation(tracked, id) != nullptr;
-    found->second.num_missed = is_seen ? 0 : found->second.num_missed + 1;
-    found->second.num_agreed += is_seen;
+    landmark.num_missed = is_seen ? 0 : landmark.num_missed + 1;
+    if (!is_seen) continue;
+    landmark.num_contradicted *= kRemembered;
+    landmark.num_agreed = kRemembered * landmark.num_agreed + Telling(probability);
+  }
+}
+
+void LocalMap::CountContradictions(const LandmarkObservations& contradicting,
+                                   const LandmarkObservations& of_rival,
+                                   const LandmarkObservations& tracked, double probability) {
+  for (const LandmarkObservation& other : contradicting) {
+    const auto found = landmarks_.find(other.landmark);
+    if (found == landmarks_.end() || FindObservation(tracked, other.landmark)) continue;
+    Landmark& landmark = found->second;
+    const double weight = FindObservation(of_rival, other.landmark) ? 1 : kMismatch;
+    landmark.num_agreed *= kRemembered;
+    landmark.num_contradicted =
+        kRemembered * landmark.num_contradicted + weight * Telling(probability);
   }
 }
 

@@ -4,17 +4,27 @@
 #include <map>
 #include <utility>
 
+#include "arfm_vo/base/belief.h"
+
 namespace arfm_vo {
 namespace {
 
-/// What a landmark counts where poses compete: more where it agreed with poses before, little where
-/// it began among points that moved on their own.
+/// What a landmark counts where poses compete: little where nothing is known of it, or where it
+/// moved on its own.
 double Votes(const Landmark& landmark) {
-  constexpr double kNew = 0.25, kSuspect = 0.05;
-  constexpr int kMaxAgreed = 2;
-  const int num_agreed = std::min(landmark.num_agreed, kMaxAgreed);
-  return landmark.is_suspect ? kSuspect * (1 + num_agreed) : kNew + num_agreed;
+  constexpr double kNew = 0.25, kLeast = 0.05;
+  return std::max(kLeast, kNew + landmark.LogOddsOfGround());
 }
+
+/// How often a landmark agrees with a pose that it does not move with.
+constexpr double kByChance = 0.05;
+/// How often with one that it moves with; the rest are wrong matches.
+constexpr double kLeastAgreeing = 0.3, kMostAgreeing = 0.9, kFew = 10;
+/// An object that hides so much more of the image is e times as rare.
+constexpr double kHidden = 0.2;
+/// Of wrong matches nearly as many agree on some pose; each one fewer is e times likelier chance.
+constexpr double kByChanceAgree = 15;
+constexpr int kRegionsAcross = 4, kRegionsDown = 3, kEnoughInRegion = 5;
 
 constexpr int kCellsAcross = 12, kFewInCell = 3;
 
@@ -31,7 +41,7 @@ void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& co
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
   point.votes = Votes(landmark);
-  point.is_proven = landmark.num_agreed > 0;
+  point.is_proven = landmark.LogOddsOfGround() > 0;
   points.push_back(point);
 }
 
@@ -58,21 +68,53 @@ LandmarkObservations Correspondences::Select(const std::vector<char>& flags, cha
   return selected;
 }
 
-AgreeingShares Correspondences::Shares(const std::vector<char>& is_inlier) const {
-  constexpr double kFew = 20;
-  double num[2] = {0, 0}, num_inliers[2] = {0, 0};  // new, and of earlier poses
-  double num_suspect = 0;
+double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
+                                        char flag) const {
+  // Those of which little is known tell how often matches are right; where they are few, all do.
+  double sum = 0, sum_agreeing = 0, num_agreeing = 0;
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    const bool has_agreed = landmarks[i]->num_agreed > 0;
-    ++num[has_agreed];
-    num_inliers[has_agreed] += is_inlier[i];
-    num_suspect += is_inlier[i] && landmarks[i]->is_suspect;
+    const double unknown = 1 - std::abs(2 * Logistic(landmarks[i]->LogOddsOfGround()) - 1);
+    sum += unknown;
+    sum_agreeing += unknown * (flags[i] == flag);
+    num_agreeing += flags[i] == flag;
   }
-  AgreeingShares shares;
-  shares.suspect = num_suspect / std::max(1.0, num_inliers[0] + num_inliers[1]);
-  if (num[0] >= kFew) shares.fresh = num_inliers[0] / num[0];
-  if (num[1] >= kFew) shares.known = num_inliers[1] / num[1];
-  return shares;
+  const double of_all = num_agreeing / std::max<double>(1, static_cast<double>(landmarks.size()));
+  const double agreeing =
+      std::clamp((kFew * of_all + sum_agreeing) / (kFew + sum), kLeastAgreeing, kMostAgreeing);
+  struct Region {
+    int num = 0, num_explained = 0, num_agreeing = 0;
+    double log_odds = 0;
+  } regions[kRegionsDown][kRegionsAcross];
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    const double ground = Logistic(landmarks[i]->LogOddsOfGround());
+    const bool agrees = flags[i] == flag;
+    const double if_ground = ground * agreeing + (1 - ground) * kByChance;
+    const double if_not = (1 - ground) * agreeing + ground * kByChance;
+    Region& region =
+        regions[static_cast<int>(points[i].pixels.y() * kRegionsDown / camera.height)]
+               [static_cast<int>(points[i].pixels.x() * kRegionsAcross / camera.width)];
+    ++region.num;
+    region.num_explained += flags[i] != 0;
+    region.num_agreeing += agrees;
+    region.log_odds +=
+        agrees ? std::log(if_ground / if_not) : std::log((1 - if_ground) / (1 - if_not));
+  }
+  double log_odds = 0, share = 0, weights = 0;
+  for (const auto& row : regions) {
+    for (const Region& region : row) {
+      if (region.num == 0) continue;
+      const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
+      log_odds += weight * region.log_odds / region.num;
+      if (region.num_explained == 0) continue;
+      share += weight * region.num_agreeing / region.num_explained;
+      weights += weight;
+    }
+  }
+  // Of two groups the larger one is likelier to be the ground.
+  const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
+  const double too_few = std::max(
+      0., kByChanceAgree - static_cast<double>(std::count(flags.begin(), flags.end(), flag)));
+  return log_odds - std::log1p(std::exp(-larger)) - too_few;
 }
 
 }  // namespace arfm_vo

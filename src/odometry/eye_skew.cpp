@@ -19,13 +19,13 @@ constexpr double kMaxRowPx = 3;
 /// cameras give up to 0.6 ms.
 constexpr double kMinSkew_s = 0.001, kSignificance = 5;
 constexpr double kMinDepth_m = 0.1;
+/// Of what frames told, at each further one: the skew may change.
+constexpr double kRemembered = 0.99;
 
 }  // namespace
 
 EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera) {
   information_.setZero();
-  information_.diagonal().setConstant(1 / (kFieldSigmaPx * kFieldSigmaPx));
-  information_(kSize - 1, kSize - 1) = 1 / (kSkewSigma_s * kSkewSigma_s);
 }
 
 void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& observations,
@@ -35,6 +35,11 @@ void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& obse
     return;
   }
   const double interval_s = stamp_s - last_->stamp_s;
+  if (interval_s <= 0) return;
+  information_ *= kRemembered;
+  right_side_ *= kRemembered;
+  scatter_ *= kRemembered;
+  score_.setZero();
   for (const LandmarkObservation& observation : observations) {
     if (!observation.has_right) continue;
     const Eigen::Vector3d& x = map.landmarks().at(observation.landmark).x_in_world;
@@ -43,6 +48,7 @@ void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& obse
     const double row_step_px = (camera_.Project(now) - camera_.Project(before)).y();
     AddRow(observation.pixels, row_step_px / interval_s, observation.sigma_px);
   }
+  scatter_ += score_ * score_.transpose();
   Solve();
   last_ = Last{stamp_s, camera_from_world, camera_from_world * last_->camera_from_world.Inverse(),
                interval_s};
@@ -61,13 +67,20 @@ void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px
   const double weight = 1 / (sigma * sigma + off_px * off_px / 4);
   information_ += weight * row * row.transpose();
   right_side_ += weight * residual_px * row;
+  score_ += weight * off_px * row;
 }
 
 void EyeSkewEstimator::Solve() {
-  const auto decomposed = information_.ldlt();
-  const Vector unit = Vector::Unit(kSize - 1);
+  Vector prior = Vector::Constant(1 / (kFieldSigmaPx * kFieldSigmaPx));
+  prior[kSize - 1] = 1 / (kSkewSigma_s * kSkewSigma_s);
+  Matrix information = information_;
+  information.diagonal() += prior;
+  const auto decomposed = information.ldlt();
   solution_ = decomposed.solve(right_side_);
-  const EyeSkew skew{solution_[kSize - 1], std::sqrt(unit.dot(decomposed.solve(unit)))};
+  // Rows of one frame err together, so that frames count, not points (the sandwich estimator).
+  const Vector by_score = decomposed.solve(Vector::Unit(kSize - 1));
+  const double variance = by_score[kSize - 1] + by_score.dot(scatter_ * by_score);
+  const EyeSkew skew{solution_[kSize - 1], std::sqrt(variance)};
   const bool is_significant = std::abs(skew.s) >= kMinSkew_s + kSignificance * skew.sigma_s;
   found_ = is_significant ? std::optional(skew) : std::nullopt;
 }
@@ -75,7 +88,7 @@ void EyeSkewEstimator::Solve() {
 Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
                                            const std::optional<Rigid3>& predicted) const {
   if (!found_ || !last_) return {};
-  if (predicted) {
+  if (predicted && stamp_s > last_->stamp_s) {
     const Rigid3 now_from_last = *predicted * last_->camera_from_world.Inverse();
     return Interpolate({}, now_from_last, found_->s / (stamp_s - last_->stamp_s));
   }

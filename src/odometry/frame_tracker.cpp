@@ -9,6 +9,12 @@ namespace arfm_vo {
 
 namespace {
 
+/// Log odds of a landmark of the ground below which it is not looked for where its match disagrees.
+constexpr double kMoves = -0.5;
+
+/// Log odds that a pose is the ground's from which no rival is looked for.
+constexpr double kSure = 2;
+
 std::vector<LandmarkId> Ids(const std::vector<const Landmark*>& landmarks) {
   std::vector<LandmarkId> ids;
   for (const Landmark* landmark : landmarks) ids.push_back(landmark->id);
@@ -64,18 +70,51 @@ TrackedFrame FrameTracker::Localise(Correspondences correspondences,
                                     const std::optional<PredictedPose>& predicted,
                                     bool is_wary) const {
   TrackedFrame tracked;
-  std::vector<char> is_inlier;
+  std::vector<char> agrees;
   correspondences.ShareVotes(camera_.width);
-  tracked.pose = EstimatePose(camera_, correspondences.points, predicted,
-                              is_wary ? options_.pose.Wary() : options_.pose, &is_inlier);
+  const auto log_odds = [&](const Rigid3& pose, char flag) {
+    return correspondences.LogOddsOfGround(camera_, agrees, flag) +
+           (predicted ? predicted->LogOdds(pose) : 0);
+  };
+  const auto estimate = [&](const PoseEstimatorOptions& options) {
+    tracked.pose = EstimatePose(camera_, correspondences.points, predicted, options, &agrees);
+    tracked.log_odds = tracked.pose.HasPose() ? log_odds(tracked.pose.camera_from_world, 1) : 0;
+  };
+  estimate(is_wary ? options_.pose.Wary() : options_.pose);
+  if (!is_wary && tracked.log_odds < kSure) estimate(options_.pose.Wary());
   if (!tracked.pose.HasPose()) return tracked;
-  tracked.observations = correspondences.Select(is_inlier, 1);
+  if (tracked.pose.rival) {
+    tracked.log_odds_of_rival = log_odds(*tracked.pose.rival, kAgreesWithRival);
+    if (tracked.log_odds_of_rival > tracked.log_odds) {
+      PreferRival(correspondences, agrees, tracked);
+    }
+  }
+  tracked.observations = correspondences.Select(agrees, 1);
   for (const auto& observation : tracked.observations) {
     tracked.expected.push_back(observation.landmark);
   }
-  tracked.contradicting = correspondences.Select(is_inlier, 0);
-  tracked.shares = correspondences.Shares(is_inlier);
+  tracked.of_rival = correspondences.Select(agrees, kAgreesWithRival);
+  for (char& flag : agrees) flag = flag == 1;
+  tracked.contradicting = correspondences.Select(agrees, 0);
   return tracked;
+}
+
+void FrameTracker::PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
+                               TrackedFrame& tracked) const {
+  std::vector<char> of_rival(agrees.size());
+  for (size_t i = 0; i < agrees.size(); ++i) of_rival[i] = agrees[i] == kAgreesWithRival;
+  const PoseRefinement refined = RefinePose(camera_, correspondences.points, *tracked.pose.rival,
+                                            options_.refinement, of_rival);
+  if (refined.status != RefinementStatus::kConverged) return;
+  for (size_t i = 0; i < agrees.size(); ++i) {
+    agrees[i] = refined.is_inlier[i] ? 1 : agrees[i] == 1 ? kAgreesWithRival : 0;
+  }
+  tracked.pose.rival = tracked.pose.camera_from_world;
+  tracked.pose.camera_from_world = refined.camera_from_world;
+  tracked.pose.covariance = refined.covariance;
+  tracked.pose.num_inliers = refined.num_inliers;
+  tracked.pose.rms_px = refined.rms_px;
+  std::swap(tracked.log_odds, tracked.log_odds_of_rival);
 }
 
 std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
@@ -99,11 +138,13 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   TrackedFrame tracked;
   tracked.pose = coarse.pose;
   tracked.contradicting = coarse.contradicting;
-  tracked.shares = coarse.shares;
+  tracked.of_rival = coarse.of_rival;
+  tracked.log_odds = coarse.log_odds;
+  tracked.log_odds_of_rival = coarse.log_odds_of_rival;
   const Rigid3& coarse_pose = coarse.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {
-    return landmark->is_suspect && landmark->num_agreed == 0 &&
+    return landmark->LogOddsOfGround() < kMoves &&
            FindObservation(coarse.observations, landmark->id) == nullptr;
   };
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
@@ -126,9 +167,6 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
-  if (coarse.pose.status == PoseStatus::kDegraded) {  // the other group may be right
-    tracked.pose.covariance += coarse.pose.covariance;
-  }
   tracked.pose.num_matches = static_cast<int>(correspondences.points.size());
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;

@@ -4,9 +4,9 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/path_covariance.h"
+#include "arfm_vo/odometry/verdict.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
-#include "pose_judge.h"
 #include "skew_compensation.h"
 #include "step_by_correction.h"
 #include "window_adjustment.h"
@@ -37,7 +37,7 @@ class LocalOdometry::Implementation {
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive),
-        judge_(camera),
+        verdict_(camera),
         skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);
@@ -51,10 +51,9 @@ class LocalOdometry::Implementation {
                   predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
     tracker_.SetMotionBetweenEyes(skew_.later_from_now());
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, skew_.later_from_now());
-    judge_.Look(frame);
-    const std::string& left_fault = judge_.faults().of_left();
-    const bool is_left_good = left_fault.empty();
-    const bool is_right_good = judge_.faults().of_right().empty();
+    verdict_.Look(frame);
+    const bool is_left_good = verdict_.left_fault() == Reason::kNone;
+    const bool is_right_good = verdict_.right_fault() == Reason::kNone;
     if (!is_right_good) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
@@ -67,11 +66,10 @@ class LocalOdometry::Implementation {
       Start(frame, update);
     } else if (!is_left_good) {
       update.pose.status = PoseStatus::kTooFewFeatures;
-      judge_.Interrupt();
     } else {
       Continue(frame, images, predicted, update);
     }
-    if (!is_left_good) update.remark = left_fault;
+    if (!is_left_good) update.reason = verdict_.left_fault();
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
       if (!is_right_good) frame.points = PointsByMotion(frame, update);
@@ -95,7 +93,7 @@ class LocalOdometry::Implementation {
 
   void Reset() {
     FinishAdjustment();
-    judge_.Reset(!map_.keyframes().empty());
+    verdict_.Reset(!map_.keyframes().empty());
     map_.Clear();
     standstill_.Reset();
     skew_.Interrupt();
@@ -123,29 +121,32 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    TrackedFrame tracked = tracker_.Track(frame, images, map_, predicted,
-                                          judge_.faults().of_right().empty(), judge_.IsWary());
+    TrackedFrame tracked =
+        tracker_.Track(frame, images, map_, predicted, verdict_.right_fault() == Reason::kNone,
+                       verdict_.IsUnsure());
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
       skew_.Interrupt();
-      judge_.Interrupt();
       Recover(frame, update);
       return;
     }
-    const PoseJudge::Verdict verdict = judge_.Judge(map_, tracked, update);
-    if (!verdict.is_believed) return;
-    covariance_.FollowWay(update.pose.camera_from_world, verdict.are_depths_known);
+    if (!verdict_.Weigh(tracked, predicted, update)) return;
+    const bool are_depths_known =
+        AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);
+    if (update.pose.IsTracked() && !are_depths_known) update.Degrade(Reason::kFarPoints);
+    covariance_.FollowWay(update.pose.camera_from_world, are_depths_known);
     const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
     if (resting) {
       update.pose.camera_from_world = *resting;
     } else {  // at rest something may stand before a good point for long
-      map_.CountSightings(tracked.expected, tracked.observations);
+      map_.CountSightings(tracked.expected, tracked.observations, verdict_.ProbabilityOfGround());
+      map_.CountContradictions(tracked.contradicting, tracked.of_rival, tracked.observations,
+                               verdict_.ProbabilityOfGround());
     }
     update.is_keyframe =
-        !resting && !judge_.IsDoubtful() &&
-        NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
-                      tracked.observations, options_.keyframes);
+        !resting && NeedsKeyframe(camera_, map_.keyframes().back(), update.pose.camera_from_world,
+                                  tracked.observations, options_.keyframes);
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
@@ -217,7 +218,7 @@ class LocalOdometry::Implementation {
   LocalMap map_;
   StandstillLock standstill_;
   KeyframeArchive archive_;
-  PoseJudge judge_;
+  Verdict verdict_;
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;

@@ -16,10 +16,33 @@ constexpr double kMaxBridge_s = 2;
 /// What a vehicle, or a hand, cannot do; and how wrong the speed before may be.
 constexpr double kMaxAcceleration_m_s2 = 10, kMaxTurnAcceleration_rad_s2 = 10;
 constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
+/// Poses err by so much however evenly the base moves.
+constexpr double kLeastShift_m = 0.005, kLeastTurn_rad = 0.001;
 /// After so many good pairs that the map does not know it is given up, where the base has gone on
 /// by this part of the distance of what it sees.
 constexpr int kMaxUnknownPairs = 3;
 constexpr double kNewGround = 0.05;
+
+Reason ReasonOf(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::kTooFewFeatures:
+      return Reason::kFewFeatures;
+    case PoseStatus::kTooFewMatches:
+      return Reason::kFewMatches;
+    case PoseStatus::kNoConsensus:
+      return Reason::kNoConsensus;
+    default:
+      return Reason::kNone;
+  }
+}
+
+std::string Describe(const OdometryUpdate& update) {
+  std::string text = ToString(update.pose.status);
+  if (update.reason != ReasonOf(update.pose.status))
+    text += std::string(": ") + ToString(update.reason);
+  if (update.pose.HasPose() && !update.pose.IsMeasured()) text += ", the last motion is continued";
+  return text;
+}
 
 }  // namespace
 
@@ -44,15 +67,13 @@ SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& cam
   if (offer_ && num_frames_ >= TakeoverFrame(*offer_)) TakeOffer();
   SessionUpdate pose;
   Track(frame, images, base_from_camera, pose);
-  // The map that two groups dispute over is better than one begun on the wrong group.
-  if (pose.update.can_start && !pose.update.pose.IsMeasured() && !pose.update.is_disputed &&
+  if (pose.update.can_start && !pose.update.pose.IsMeasured() &&
       (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
     StartEpoch();
     is_map_doubtful_ = true;
     Track(frame, images, base_from_camera, pose);
   }
-  pose.text = ToString(pose.update.pose.status);
-  if (!pose.update.remark.empty()) pose.text += ": " + pose.update.remark;
+  pose.text = Describe(pose.update);
   log_.Add(pose.update, odometry_->map());
   ++num_frames_;
   return pose;
@@ -68,6 +89,9 @@ std::optional<PredictedPose> Session::Predict(double stamp_s,
     const double squared_s = motion_.ChangeTime(stamp_s);
     predicted.max_shift_m = kMaxAcceleration_m_s2 * squared_s + kMaxShift_m;
     predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * squared_s + kMaxTurn_rad;
+    predicted.sigma_shift_m = motion_.usual_acceleration_m_s2() * squared_s + kLeastShift_m;
+    predicted.sigma_turn_rad =
+        motion_.usual_turn_acceleration_rad_s2() * squared_s + kLeastTurn_rad;
   }
   return predicted;
 }
@@ -80,6 +104,7 @@ void Session::Track(const StereoFrame& frame, const StereoImages& images,
   pose.update = odometry_->Process(frame, images, Predict(frame.stamp_s, base_from_camera));
   const PoseEstimate& estimate = pose.update.pose;
   if (!estimate.HasPose()) {
+    if (pose.update.reason == Reason::kNone) pose.update.reason = ReasonOf(estimate.status);
     if (!lost_since_s_) lost_since_s_ = frame.stamp_s;
     Bridge(base_from_camera, pose);
     return;
@@ -95,9 +120,6 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
   if (!last_ || !motion_.KnowsSpeed() || !base_.has_world()) return;
   const double gap_s = pose.update.stamp_s - last_->stamp_s;
   PoseEstimate& estimate = pose.update.pose;
-  pose.update.remark =
-      (pose.update.remark.empty() ? ToString(estimate.status) : pose.update.remark) +
-      std::string(", gone on as before");
   estimate.status = PoseStatus::kDegraded;
   estimate.num_inliers = 0;
   estimate.camera_from_world = base_from_camera.Inverse() * *motion_.Predict(pose.update.stamp_s);
@@ -165,8 +187,7 @@ void Session::DoubtNewMap(SessionUpdate& pose) {
     drift_.StartEpoch(new_map_->doubt.odom_from_start(), before.covariance,
                       GapCovariance(before.twist, stamp_s - before.stamp_s));
     if (pose.update.pose.IsTracked()) {
-      pose.update.pose.status = PoseStatus::kDegraded;
-      pose.update.remark = "the new map moves otherwise than the one before the loss";
+      pose.update.Degrade(Reason::kNewMap);
     }
   }
   if (new_map_->doubt.IsOver()) new_map_.reset();

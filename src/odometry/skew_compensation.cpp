@@ -18,7 +18,7 @@ double SkewCompensation::Learn(const LocalMap& map, OdometryUpdate& update) {
   is_found_ |= is_new;
   if (update.pose.IsTracked() && skew_.MedianShiftPx(later_from_now_, map, update.observations,
                                                      camera_from_world) >= kMaxShiftPx) {
-    update.Degrade("the right picture is taken far from the left one's time");
+    update.Degrade(Reason::kSkewed);
   }
   return is_new ? kDoubt * camera_from_world.Inverse().translation.norm() : 0;
 }

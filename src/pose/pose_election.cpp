@@ -14,8 +14,10 @@ namespace {
 
 /// What a vote counts for a pose that the motion before does not allow.
 constexpr double kImplausible = 0.25;
-/// Poses with a smaller part of the best one's votes are not looked for.
-constexpr double kLeastRival = kContested / 2;
+/// Poses on which fewer agree, against the best one's, are not looked for.
+constexpr double kLeastRival = 0.15;
+/// Fewer agree by chance.
+constexpr int kMinRival = 10;
 
 /// Generates and scores the hypotheses of RANSAC.
 class Consensus {
@@ -99,14 +101,17 @@ struct Hypothesis {
         score(consensus.Classify(pose, agrees)) {}
 };
 
-/// The votes of those that agree with `a` and not with `b`; of all with `a` where there is no b.
-double CountVotes(const std::vector<PointObservation>& observations, const Hypothesis& a,
-                  const Hypothesis* b = nullptr) {
+/// What agrees with `a` and not with `b`: how many, and their votes.
+std::pair<int, double> CountOnly(const std::vector<PointObservation>& observations,
+                                 const Hypothesis& a, const Hypothesis& b) {
+  int num = 0;
   double votes = 0;
   for (size_t i = 0; i < observations.size(); ++i) {
-    if (a.agrees[i] && (b == nullptr || !b->agrees[i])) votes += observations[i].votes;
+    if (!a.agrees[i] || b.agrees[i]) continue;
+    ++num;
+    votes += observations[i].votes;
   }
-  return votes;
+  return {num, votes};
 }
 
 /// The pose on which most agree, by samples.
@@ -156,7 +161,7 @@ class Election {
         Propose(refined.camera_from_world);
         if (!options_.is_wary && HasMajority() &&
             best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
-          return {refined, std::nullopt, 0, 1};
+          return {refined, std::nullopt, {}, 1};
         }
       }
       const PoseRefinement near =
@@ -169,11 +174,18 @@ class Election {
     if (!best_) return {};
     Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
                                    options_.refinement, best_->agrees),
-                        std::nullopt, 0, best_->plausibility};
-    if (rival_) {
-      agreement.rival = rival_->camera_from_world;
-      agreement.contest = rival_->plausibility * CountVotes(observations_, *rival_, &*best_) /
-                          (best_->plausibility * CountVotes(observations_, *best_));
+                        std::nullopt,
+                        {},
+                        best_->plausibility};
+    double most = 0;
+    for (const Hypothesis& other : others_) {
+      const auto [num, votes] = CountOnly(observations_, other, *best_);
+      const bool is_rival = num >= kMinRival && (num >= kLeastRival * CountBest() ||
+                                                 votes >= kLeastRival * BestVotes());
+      if (!is_rival || num <= most) continue;
+      most = num;
+      agreement.rival = other.camera_from_world;
+      agreement.rival_agrees = other.agrees;
     }
     return agreement;
   }
@@ -184,15 +196,26 @@ class Election {
     hypothesis.plausibility = Plausibility(pose);
     hypothesis.score *= hypothesis.plausibility;
     if (best_ && hypothesis.score <= best_->score) {
-      rival_ = std::move(hypothesis);
+      others_.push_back(std::move(hypothesis));
     } else {
-      rival_ = std::exchange(best_, std::move(hypothesis));
+      if (best_) others_.push_back(std::move(*best_));
+      best_ = std::move(hypothesis);
     }
   }
 
   /// No other pose can have more votes.
   bool HasMajority() const {
-    return best_ && best_->plausibility == 1 && 2 * CountVotes(observations_, *best_) > all_votes_;
+    return best_ && best_->plausibility == 1 && 2 * BestVotes() > all_votes_;
+  }
+  double CountBest() const {
+    return static_cast<double>(std::count(best_->agrees.begin(), best_->agrees.end(), 1));
+  }
+  double BestVotes() const {
+    double votes = 0;
+    for (size_t i = 0; i < observations_.size(); ++i) {
+      votes += best_->agrees[i] * observations_[i].votes;
+    }
+    return votes;
   }
   double Plausibility(const Rigid3& pose) const {
     return !predicted_ || predicted_->Allows(pose) ? 1 : kImplausible;
@@ -202,17 +225,16 @@ class Election {
   /// those, far away as a rule, that agree with both: few samples find it there.
   void ProposeRest() {
     std::vector<PointObservation> rest;
-    double rest_votes = 0;
     for (size_t i = 0; i < observations_.size(); ++i) {
       if (best_ && best_->agrees[i]) continue;
       rest.push_back(observations_[i]);
-      rest_votes += observations_[i].votes;
     }
     PoseEstimatorOptions options = options_;
     if (best_) {
-      const double share =
-          kLeastRival * CountVotes(observations_, *best_) / std::max(rest_votes, 1e-9);
-      options.ransac.max_iterations = CountSamples(share, options.sample_size, options.ransac);
+      const double share = std::max<double>(kMinRival, kLeastRival * CountBest()) /
+                           static_cast<double>(rest.size() + 1);
+      options.ransac.max_iterations =
+          CountSamples(std::min(1., share), options.sample_size, options.ransac);
     }
     if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
   }
@@ -223,7 +245,8 @@ class Election {
   const Consensus consensus_;
   std::optional<PredictedPose> predicted_;
   double all_votes_ = 0;
-  std::optional<Hypothesis> best_, rival_;  ///< the newest pair that was compared
+  std::optional<Hypothesis> best_;
+  std::vector<Hypothesis> others_;
 };
 
 }  // namespace

@@ -14,8 +14,8 @@ constexpr int kMaxSample = 8;
 struct Agreement {
   PoseRefinement refinement;
   std::optional<Rigid3> rival;
-  double contest = 0;       ///< as PoseEstimate::contest
-  double plausibility = 1;  ///< what a vote for the pose counts, by the motion before
+  std::vector<char> rival_agrees;  ///< [N]
+  double plausibility = 1;         ///< what a vote for the pose counts, by the motion before
 };
 
 /// What EstimatePose chooses by: the predicted pose, that refined, and poses by samples compete for

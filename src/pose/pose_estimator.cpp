@@ -1,19 +1,29 @@
 #include "arfm_vo/pose/pose_estimator.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pose_election.h"
 
 namespace arfm_vo {
 namespace {
 
-/// The covariance of a pose that may as well be `other`.
-Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
-  const Rigid3 between = other * pose.Inverse();
-  Eigen::Matrix<double, 6, 1> step;
-  step << LogSO3(between.rotation), between.translation;
-  return step * step.transpose();
+/// Of Student's t distribution about the prediction against its value at 1.5, for an error in units
+/// of the usual one; anything may happen now and then.
+double LogRatio(double error) {
+  constexpr double kLeast = -4;
+  const auto log_density = [](double x) { return -2 * std::log1p(x * x / 4); };
+  return std::max(kLeast, log_density(error) - log_density(1.5));
 }
 
 }  // namespace
+
+double PredictedPose::LogOdds(const Rigid3& other_camera_from_world) const {
+  if (!std::isfinite(sigma_shift_m)) return 0;
+  const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
+  return LogRatio(between.translation.norm() / sigma_shift_m) +
+         LogRatio(between.Angle() / sigma_turn_rad);
+}
 
 void PoseEstimatorOptions::Check() const {
   ransac.Check();
@@ -56,15 +66,14 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.status = PoseStatus::kTracked;
   estimate.camera_from_world = refinement.camera_from_world;
   estimate.covariance = refinement.covariance;
-  estimate.contest = agreement.contest;
-  estimate.is_plausible = agreement.plausibility == 1;
-  if (agreement.contest >= kContested) {
-    estimate.status = PoseStatus::kDegraded;
-    estimate.covariance += SpreadTo(*agreement.rival, refinement.camera_from_world);
-  }
+  estimate.rival = agreement.rival;
   estimate.num_inliers = refinement.num_inliers;
   estimate.rms_px = refinement.rms_px;
-  if (is_inlier) *is_inlier = refinement.is_inlier;
+  if (!is_inlier) return estimate;
+  *is_inlier = refinement.is_inlier;
+  for (size_t i = 0; agreement.rival && i < observations.size(); ++i) {
+    if (!refinement.is_inlier[i] && agreement.rival_agrees[i]) (*is_inlier)[i] = kAgreesWithRival;
+  }
   return estimate;
 }
 

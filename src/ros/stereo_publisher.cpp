@@ -22,4 +22,9 @@ bool StereoPublisher::HasSubscribers() const {
          left_info_.getNumSubscribers() > 0 && right_info_.getNumSubscribers() > 0;
 }
 
+uint32_t StereoPublisher::CountSubscribers() const {
+  return left_.getNumSubscribers() + right_.getNumSubscribers() + left_info_.getNumSubscribers() +
+         right_info_.getNumSubscribers();
+}
+
 }  // namespace arfm_vo

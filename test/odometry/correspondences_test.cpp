@@ -9,11 +9,11 @@ namespace {
 
 class CorrespondencesTest : public ::testing::Test {
  protected:
-  void Add(LandmarkId id, int num_agreed, bool is_suspect, double u = 0, double v = 0) {
+  void Add(LandmarkId id, int num_agreed, int num_contradicted, double u = 0, double v = 0) {
     Landmark landmark{};
     landmark.id = id;
     landmark.num_agreed = num_agreed;
-    landmark.is_suspect = is_suspect;
+    landmark.num_contradicted = num_contradicted;
     landmark.normal_in_world.setZero();
     landmark.x_in_world.setZero();
     landmark.covariance.setZero();
@@ -29,16 +29,16 @@ class CorrespondencesTest : public ::testing::Test {
   Correspondences found_;
 };
 
-TEST_F(CorrespondencesTest, KnownLandmarksCountMoreThanNewOnesAndSuspectOnesLeast) {
-  Add(1, 0, false);
-  Add(2, 1, false);
-  Add(3, 2, false);
-  Add(4, 9, false);
-  Add(5, 0, true);
+TEST_F(CorrespondencesTest, LandmarksThatAgreedCountMoreThanNewOnesAndContradictedOnesLeast) {
+  Add(1, 0, 0);
+  Add(2, 1, 0);
+  Add(3, 2, 0);
+  Add(4, 9, 0);
+  Add(5, 0, 1);
   const auto& points = found_.points;
   EXPECT_LT(points[0].votes, points[1].votes);
   EXPECT_LT(points[1].votes, points[2].votes);
-  EXPECT_EQ(points[2].votes, points[3].votes);
+  EXPECT_LT(points[2].votes, points[3].votes);
   EXPECT_LT(points[4].votes, 0.5 * points[0].votes);
   EXPECT_GT(points[4].votes, 0);
   EXPECT_FALSE(points[0].is_proven);
@@ -46,9 +46,9 @@ TEST_F(CorrespondencesTest, KnownLandmarksCountMoreThanNewOnesAndSuspectOnesLeas
 }
 
 TEST_F(CorrespondencesTest, ManyInOneCellCountAsFewDo) {
-  for (int i = 0; i < 30; ++i) Add(i, 1, false, 20 + i % 5, 20);
-  for (int i = 0; i < 3; ++i) Add(30 + i, 1, false, 300, 200);
-  Add(33, 1, false, 500, 400);
+  for (int i = 0; i < 30; ++i) Add(i, 1, 0, 20 + i % 5, 20);
+  for (int i = 0; i < 3; ++i) Add(30 + i, 1, 0, 300, 200);
+  Add(33, 1, 0, 500, 400);
   found_.ShareVotes(camera_.width);
   double of_many = 0, of_three = 0;
   for (int i = 0; i < 30; ++i) of_many += found_.points[i].votes;
@@ -58,7 +58,7 @@ TEST_F(CorrespondencesTest, ManyInOneCellCountAsFewDo) {
 }
 
 TEST_F(CorrespondencesTest, SelectsByFlagAndSorts) {
-  for (const LandmarkId id : {7, 3, 9, 1}) Add(id, 0, false);
+  for (const LandmarkId id : {7, 3, 9, 1}) Add(id, 0, 0);
   const auto agree = found_.Select({1, 0, 1, 1}, 1), others = found_.Select({1, 0, 1, 1}, 0);
   ASSERT_EQ(agree.size(), 3u);
   EXPECT_EQ(agree[0].landmark, 1);
@@ -68,26 +68,53 @@ TEST_F(CorrespondencesTest, SelectsByFlagAndSorts) {
   EXPECT_EQ(others[0].landmark, 3);
 }
 
-/// Of 20 known landmarks 15 agree, of 20 new ones 5, of which 2 are suspect.
-TEST_F(CorrespondencesTest, SharesAreOfKnownAndOfNewOnes) {
-  std::vector<char> is_inlier;
-  for (int i = 0; i < 40; ++i) {
-    const bool is_known = i < 20;
-    Add(i, is_known, i == 20 || i == 21);
-    is_inlier.push_back(is_known ? i < 15 : i < 25);
+/// Two groups of landmarks, in the left and in the right half.
+class GroundTest : public CorrespondencesTest {
+ protected:
+  void AddGroups(int num_agreed_left, int num_contradicted_right) {
+    for (int i = 0; i < 120; ++i) {
+      const bool is_left = i < 60;
+      const double u = (is_left ? 0 : 320) + 5 * (i % 60), v = 8 * (i % 60);
+      Add(i, is_left ? num_agreed_left : 0, is_left ? 0 : num_contradicted_right, u, v);
+      flags_.push_back(is_left ? 1 : 2);
+    }
   }
-  const AgreeingShares shares = found_.Shares(is_inlier);
-  EXPECT_EQ(shares.known, 0.75);
-  EXPECT_EQ(shares.fresh, 0.25);
-  EXPECT_EQ(shares.suspect, 0.1);
+  double LogOdds(char flag) const { return found_.LogOddsOfGround(camera_, flags_, flag); }
+
+  std::vector<char> flags_;
+};
+
+TEST_F(GroundTest, NothingIsKnownOfTwoNewGroups) {
+  AddGroups(0, 0);
+  EXPECT_NEAR(LogOdds(1), LogOdds(2), 1e-9);
 }
 
-TEST_F(CorrespondencesTest, TooFewTellNoShare) {
-  for (int i = 0; i < 38; ++i) Add(i, i < 19, false);
-  const AgreeingShares shares = found_.Shares(std::vector<char>(38, 1));
-  EXPECT_FALSE(shares.known);
-  EXPECT_FALSE(shares.fresh);
-  EXPECT_EQ(Correspondences().Shares({}).suspect, 0);
+TEST_F(GroundTest, ThoseThatAgreedBeforeAreTheGround) {
+  AddGroups(5, 0);
+  EXPECT_GT(LogOdds(1), 2);
+  EXPECT_LT(LogOdds(2), -2);
+}
+
+TEST_F(GroundTest, ThoseThatWereContradictedAreNot) {
+  AddGroups(0, 5);
+  EXPECT_GT(LogOdds(1), 2);
+  EXPECT_LT(LogOdds(2), -2);
+}
+
+/// Whatever the number of points, an image counts as a few observations.
+TEST_F(GroundTest, MorePointsInTheSamePlacesTellNothingNew) {
+  AddGroups(5, 0);
+  const double once = LogOdds(1);
+  AddGroups(5, 0);
+  EXPECT_NEAR(LogOdds(1), once, 0.1 * once);
+}
+
+TEST_F(GroundTest, AFewThatAgreeAmongWrongMatchesDoSoByChance) {
+  for (int i = 0; i < 60; ++i) {
+    Add(i, 1, 0, 10 * i, 8 * i);
+    flags_.push_back(i < 40 ? 1 : i < 50 ? 2 : 0);
+  }
+  EXPECT_LT(LogOdds(2), LogOdds(1) - 5);
 }
 
 }  // namespace

@@ -80,18 +80,17 @@ TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
     const auto track = [&](const StereoImages& images) {
       return FrameTracker(camera_, {}).Track(frontend_.Process(images), images, map, truth_);
     };
-    const AgreeingShares undisturbed = track(moved).shares;
-    EXPECT_GT(*undisturbed.known, 0.8 * *undisturbed.fresh);
+    const double undisturbed = track(moved).log_odds;
     const TrackedFrame tracked = track(images);
     ASSERT_TRUE(tracked.pose.HasPose());
     const bool is_few = known_px == 70;
     ExpectNear(tracked.pose.camera_from_world, is_few ? truth_ : by_known, 0.01);
-    EXPECT_EQ(*tracked.shares.known < 0.6 * *tracked.shares.fresh, is_few);
+    EXPECT_LT(tracked.log_odds, undisturbed - 1);
   }
 }
 
-/// New points among what moved on its own are suspect: here those in the left half.
-TEST_F(FrameTrackerTest, TellsHowManyOfThePointsThatAgreeAreSuspect) {
+/// New points among what moved on its own are taken to, as well: here those in the left half.
+TEST_F(FrameTrackerTest, NewPointsAmongWhatMovedTellLessOfTheGround) {
   LandmarkObservations moved;
   for (int y = 0; y < camera_.height; y += 10) {
     for (int x = 0; x < camera_.width / 2; x += 10) {
@@ -100,18 +99,12 @@ TEST_F(FrameTrackerTest, TellsHowManyOfThePointsThatAgreeAreSuspect) {
       moved.push_back(observation);
     }
   }
-  EXPECT_EQ(Track(Rigid3(), Rigid3()).shares.suspect, 0);
+  const double undisturbed = Track(Rigid3(), Rigid3()).log_odds;
   const StereoImages images = wall_.Render(0, Rigid3());
   map_.Clear();
   map_.AddKeyframe(frontend_.Process(images), images.left, Rigid3(), {}, moved);
   const TrackedFrame tracked = Track(Rigid3(), Rigid3());
-  double num_suspect = 0;
-  for (const LandmarkObservation& observation : tracked.observations) {
-    num_suspect += map_.landmarks().at(observation.landmark).is_suspect;
-  }
-  EXPECT_GT(num_suspect, 0.2 * tracked.pose.num_inliers);
-  EXPECT_LT(num_suspect, 0.8 * tracked.pose.num_inliers);
-  EXPECT_NEAR(tracked.shares.suspect, num_suspect / tracked.pose.num_inliers, 0.05);
+  EXPECT_LT(tracked.log_odds, undisturbed - 2);
 }
 
 TEST_F(FrameTrackerTest, KeypointsAloneDoToo) {

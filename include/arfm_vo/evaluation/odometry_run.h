@@ -12,6 +12,14 @@
 
 namespace arfm_vo {
 
+/// What was said of a pair's pose.
+struct PairState {
+  PoseStatus status;
+  Reason reason;
+  double log_odds;  ///< OdometryUpdate::log_odds
+  int num_matches, num_inliers;
+};
+
 /// What an odometry made of a recording, and what it took.
 struct OdometryRun {
   Trajectory trajectory;  ///< as known in the end
@@ -20,7 +28,7 @@ struct OdometryRun {
   std::vector<double> pair_ms;               ///< [pairs], wall time without loading
   std::vector<StageTimes> stage_ms;          ///< [pairs]
   std::vector<double> memory_mb;             ///< [pairs], resident after each
-  std::vector<PoseStatus> states;            ///< [pairs]
+  std::vector<PairState> states;             ///< [pairs]
   double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
   double cpu_s = 0;  ///< all threads, from first pair to end, without loading
 
@@ -48,7 +56,9 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
     run.pair_ms.push_back(to_ms(Clock::now() - start));
     run.stage_ms.push_back(pose.update.stage_ms);
     run.memory_mb.push_back(GetMemoryMb());
-    run.states.push_back(pose.update.pose.status);
+    const PoseEstimate& estimate = pose.update.pose;
+    run.states.push_back({estimate.status, pose.update.reason, pose.update.log_odds,
+                          estimate.num_matches, estimate.num_inliers});
     run.online.push_back({pair->images.stamp_s, pose.odom_from_base, pose.HasPose()});
     run.truth.push_back(pair->true_world_from_camera);
     report_progress(static_cast<int>(run.online.size()), sequence.size());

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,10 +27,13 @@ struct Landmark {
   Keypoint keypoint;         ///< in the reference's left image
   std::array<float, 64> descriptor{};
 
-  int num_keyframes = 0;    ///< keyframes that observe it
-  int num_missed = 0;       ///< frames in a row that should have seen it and did not
-  int num_agreed = 0;       ///< frames whose pose it agreed with
-  bool is_suspect = false;  ///< began where other points moved on their own
+  int num_keyframes = 0;        ///< keyframes that observe it
+  int num_missed = 0;           ///< frames in a row that should have seen it and did not
+  double num_agreed = 0;        ///< frames whose pose it agreed with, those of late
+  double num_contradicted = 0;  ///< the same of those whose pose others agreed with instead
+
+  /// That it belongs to the ground, not to what moves on its own; 0: it is not known.
+  double LogOddsOfGround() const { return std::log((num_agreed + 0.3) / (num_contradicted + 0.3)); }
 };
 
 /// Where a frame saw a landmark.

@@ -37,7 +37,7 @@ class LocalMap {
 
   /// Adds a keyframe of a localised frame. `tracked` are its observations of known landmarks,
   /// sorted by landmark; new landmarks are made from the stereo points that lie apart from them.
-  /// `contradicting`: known ones that moved on their own; new ones among them are suspect.
+  /// `contradicting`: known ones that moved on their own; new ones among them are taken to.
   const Keyframe& AddKeyframe(const StereoFrame& frame, const cv::Mat& left,
                               const Rigid3& camera_from_world, const LandmarkObservations& tracked,
                               const LandmarkObservations& contradicting = {});
@@ -48,8 +48,14 @@ class LocalMap {
                                                double border_px) const;
 
   /// Counts for each of the `expected` landmarks whether it is among `tracked` (sorted by
-  /// landmark).
-  void CountSightings(const std::vector<LandmarkId>& expected, const LandmarkObservations& tracked);
+  /// landmark), which are the ground with this probability.
+  void CountSightings(const std::vector<LandmarkId>& expected, const LandmarkObservations& tracked,
+                      double probability = 1);
+  /// Counts against those that were seen elsewhere than `tracked` says, most of all those that
+  /// agree with a rival (all sorted by landmark).
+  void CountContradictions(const LandmarkObservations& contradicting,
+                           const LandmarkObservations& of_rival,
+                           const LandmarkObservations& tracked, double probability);
 
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
   const Landmarks& landmarks() const { return landmarks_; }
@@ -70,7 +76,7 @@ class LocalMap {
  private:
   void AddNewLandmarks(const StereoFrame& frame, const LandmarkObservations& contradicting,
                        Keyframe& keyframe);
-  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, bool is_suspect,
+  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, double num_contradicted,
                    Keyframe& keyframe);
   void RemoveOldestKeyframe();
   void MoveReference(Landmark& landmark, const Rigid3& old_from_world) const;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "arfm_vo/geometry/stereo_camera.h"
@@ -9,14 +8,6 @@
 #include "arfm_vo/pose/point_observation.h"
 
 namespace arfm_vo {
-
-/// How many of the landmarks that a frame seems to see agree with its pose, 0..1. Where something
-/// new moves on its own and takes the pose along, known ones agree far less.
-struct AgreeingShares {
-  std::optional<double> known;  ///< of those that agreed with earlier poses
-  std::optional<double> fresh;  ///< of the others; nothing where too few are seen to tell
-  double suspect = 0;           ///< share of those that agree which began among what moved
-};
 
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
@@ -30,7 +21,12 @@ struct Correspondences {
   void ShareVotes(int width_px);
   /// The observations whose flag in `flags` [N] is this one, sorted by landmark.
   LandmarkObservations Select(const std::vector<char>& flags, char flag) const;
-  AgreeingShares Shares(const std::vector<char>& is_inlier) const;
+  /// That those whose flag is this one are the ground and not what moves on its own: by what poses
+  /// before have told of them and of those that do not agree, and by how much of the image they
+  /// fill. Landmarks that are near one another err together, so that each of 4 x 3 regions of the
+  /// image counts as one.
+  double LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
+                         char flag) const;
 };
 
 }  // namespace arfm_vo

@@ -40,6 +40,7 @@ class EyeSkewEstimator {
  private:
   static constexpr int kSize = 11;  ///< ten of the row field, px, and the skew, s
   using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
   struct Last {
     double stamp_s;
     Rigid3 camera_from_world;
@@ -50,7 +51,9 @@ class EyeSkewEstimator {
   void Solve();
 
   StereoCamera camera_;
-  Eigen::Matrix<double, kSize, kSize> information_;
+  Matrix information_;               ///< of the frames, without what is known before
+  Matrix scatter_ = Matrix::Zero();  ///< of the frames' scores, which rows that err together widen
+  Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
   std::optional<EyeSkew> found_;  ///< where it is significant
   std::optional<Last> last_;

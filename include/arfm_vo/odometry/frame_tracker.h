@@ -42,7 +42,9 @@ struct TrackedFrame {
   LandmarkObservations observations;   ///< those that agree with the pose, sorted by landmark
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
-  AgreeingShares shares;
+  LandmarkObservations of_rival;       ///< those of them that agree with the rival; sorted
+  double log_odds = 0;  ///< that the pose is the ground's and not that of what moves on its own
+  double log_odds_of_rival = 0;
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
@@ -52,8 +54,8 @@ class FrameTracker {
  public:
   FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
 
-  /// `use_right`: whether the right image is worth looking at. `is_wary`: whether to look closely
-  /// for points that contradict the pose.
+  /// `use_right`: whether the right image is worth looking at. `is_wary`: whether to look for a
+  /// rival even where most points agree with the pose.
   TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
                      const std::optional<PredictedPose>& predicted, bool use_right = true,
                      bool is_wary = false) const;
@@ -67,6 +69,9 @@ class FrameTracker {
  private:
   TrackedFrame Localise(Correspondences correspondences,
                         const std::optional<PredictedPose>& predicted, bool is_wary) const;
+  /// The rival is likelier: it becomes the pose, and the pose its rival.
+  void PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
+                   TrackedFrame& tracked) const;
   /// [landmarks] where each is seen, by its patch; in parallel.
   std::vector<std::optional<LandmarkObservation>> Measure(
       const StereoImages& images, const LocalMap& map,

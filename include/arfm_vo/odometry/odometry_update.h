@@ -7,6 +7,7 @@
 
 #include "arfm_vo/mapping/landmark.h"
 #include "arfm_vo/odometry/eye_skew.h"
+#include "arfm_vo/odometry/reason.h"
 #include "arfm_vo/pose/pose_estimate.h"
 
 namespace arfm_vo {
@@ -17,23 +18,23 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 /// What one pair brought.
 struct OdometryUpdate {
   double stamp_s = 0;
-  PoseEstimate pose;   ///< as known at once, before any later correction
-  std::string remark;  ///< why the pose is degraded
+  PoseEstimate pose;              ///< as known at once, before any later correction
+  Reason reason = Reason::kNone;  ///< why there is no pose, or one to be wary of
+  double log_odds = 0;  ///< that the pose is the ground's and not that of what moves on its own
   /// As pose.covariance, but against the first camera of all: what the map has drifted added.
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
   bool can_start = false;  ///< whether a map could begin with the pair
   bool is_keyframe = false;
   bool is_relocalised = false;        ///< found among keyframes that had left the local map
-  bool is_disputed = false;           ///< no pose: two groups of points moved differently
   LandmarkObservations observations;  ///< of the map's landmarks that agree with the pose
   std::optional<EyeSkew> skew;        ///< where the right picture is late or early, and made up for
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
 
   /// The pose is not quite good, for this reason.
-  void Degrade(const std::string& why) {
+  void Degrade(Reason why) {
     pose.status = PoseStatus::kDegraded;
-    remark = why;
+    reason = why;
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "arfm_vo/geometry/rigid3.h"
 
@@ -20,9 +21,6 @@ enum class PoseStatus {
 /// The name of a status as messages and files show it, such as "too few matches".
 const char* ToString(PoseStatus status);
 
-/// PoseEstimate::contest from which a pose is degraded.
-constexpr double kContested = 0.5;
-
 /// The pose of one frame. Where HasPose() is false, pose and covariance hold nothing.
 struct PoseEstimate {
   PoseStatus status = PoseStatus::kTooFewFeatures;
@@ -32,11 +30,9 @@ struct PoseEstimate {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int num_matches = 0;
   int num_inliers = 0;
-  /// Votes for another pose, of points that contradict this one, over this one's.
-  double contest = 0;
-  bool is_plausible = true;  ///< by the motion before
-  double votes = 0;          ///< for the pose, against another one of the same frame
-  double rms_px = 0;         ///< root mean square of the inliers' reprojection errors
+  std::optional<Rigid3> rival;  ///< another pose, on which points that contradict this one agree
+  double votes = 0;             ///< for the pose, against another one of the same frame
+  double rms_px = 0;            ///< root mean square of the inliers' reprojection errors
 
   bool IsTracked() const { return status == PoseStatus::kTracked; }
   bool HasPose() const { return IsTracked() || status == PoseStatus::kDegraded; }

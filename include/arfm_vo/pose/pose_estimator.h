@@ -44,23 +44,32 @@ struct PredictedPose {
   /// How far it can be from there at most: the centre, m, and the axes, rad.
   double max_shift_m = std::numeric_limits<double>::infinity();
   double max_turn_rad = std::numeric_limits<double>::infinity();
+  /// How far it is as a rule.
+  double sigma_shift_m = std::numeric_limits<double>::infinity();
+  double sigma_turn_rad = std::numeric_limits<double>::infinity();
 
   PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
   bool Allows(const Rigid3& other_camera_from_world) const {
     const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
     return between.translation.norm() <= max_shift_m && between.Angle() <= max_turn_rad;
   }
+  /// How much likelier `other` is by the motion before than an unusual change of it, in logarithms;
+  /// 0 where that motion is not known.
+  double LogOdds(const Rigid3& other_camera_from_world) const;
 };
+
+constexpr char kAgreesWithRival = 2;
 
 /// The camera's pose from points of the map and where it sees them: EPnP inside RANSAC with the
 /// score of MSAC (Torr and Zisserman 2000) on the stereo reprojection errors in units of their
 /// standard deviation, promising hypotheses refined (Chum, Matas, Kittler 2003), then RefinePose on
 /// the inliers. Where more than half of the votes are for the refined prediction nothing else is
 /// tried; a pose that the prediction does not allow needs four times the votes. The prediction is
-/// never needed. Status kDegraded, and the covariance covers both poses, where many points that
-/// contradict the pose agree with one another.
+/// never needed. Where many points that contradict the pose agree with one another there is a
+/// rival.
 /// Status kTooFewMatches below min_inliers observations, kNoConsensus where too few agree.
-/// `is_inlier`, if not null, becomes [N]: what agrees with the pose; all 0 where there is none.
+/// `is_inlier`, if not null, becomes [N]: 1 where an observation agrees with the pose,
+/// kAgreesWithRival where it agrees with the rival alone; all 0 where there is none.
 /// Throws std::invalid_argument for wrong options and for observations that are not IsValid().
 PoseEstimate EstimatePose(const StereoCamera& camera,
                           const std::vector<PointObservation>& observations,

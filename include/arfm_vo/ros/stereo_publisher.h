@@ -15,6 +15,7 @@ class StereoPublisher {
   void Publish(const StereoMessages& messages) const;
   /// Whether each image and camera_info has one.
   bool HasSubscribers() const;
+  uint32_t CountSubscribers() const;  ///< of all four topics together
 
  private:
   ros::Publisher left_, right_, left_info_, right_info_, ground_truth_;

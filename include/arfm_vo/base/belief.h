@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace arfm_vo {
+
+inline double Logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
+
+/// Whether something holds, followed over time: a hidden Markov model of two states, in log odds.
+class Belief {
+ public:
+  explicit Belief(double probability) : log_odds_(std::log(probability / (1 - probability))) {}
+
+  /// Time passes: what holds may end, what does not may begin; expected times in seconds.
+  void Advance(double interval_s, double ends_after_s, double begins_after_s) {
+    const double settled = ends_after_s / (ends_after_s + begins_after_s);
+    const double remembered = std::exp(-interval_s * (1 / ends_after_s + 1 / begins_after_s));
+    const double now = settled + remembered * (Probability() - settled);
+    log_odds_ = std::log(now / (1 - now));
+  }
+  /// An observation that is exp(`log_ratio`) times likelier where it holds.
+  void Add(double log_ratio) {
+    constexpr double kMost = 20;
+    log_odds_ = std::clamp(log_odds_ + log_ratio, -kMost, kMost);
+  }
+
+  /// It is not likelier than this.
+  void Limit(double log_odds) { log_odds_ = std::min(log_odds_, log_odds); }
+
+  double log_odds() const { return log_odds_; }
+  double Probability() const { return Logistic(log_odds_); }
+
+ private:
+  double log_odds_;
+};
+
+}  // namespace arfm_vo

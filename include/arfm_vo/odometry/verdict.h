@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "arfm_vo/base/belief.h"
+#include "arfm_vo/odometry/frame_tracker.h"
+#include "arfm_vo/odometry/odometry_update.h"
+
+namespace arfm_vo {
+
+/// Weighs what may be true of a pair: the points that agree with the pose are the ground; those
+/// that agree with its rival are; neither is (something hides the ground and moves on its own); the
+/// right picture is not of this moment, or its camera was moved. Each is weighed by likelihood
+/// against prior rates (verdict.cpp), and the pose's covariance covers what is likely.
+///
+/// Neighbouring points err, and move, together. So the image counts as 12 independent observations
+/// (Correspondences::kRegions), however many points are seen.
+class Verdict {
+ public:
+  explicit Verdict(const StereoCamera& camera) : camera_(camera) {}
+
+  /// Takes the next pair's pictures.
+  void Look(const StereoFrame& frame);
+  /// Why the left picture is not to be used, or the right one; kNone where it is.
+  Reason left_fault() const { return left_fault_; }
+  Reason right_fault() const { return right_fault_; }
+  /// Whether to look for a rival even where most points agree.
+  bool IsUnsure() const { return another_moves_.Probability() > kLikely; }
+
+  /// Judges the pair's pose: sets status, reason, odds and covariance of `update.pose`, which is
+  /// the likelier of the two where there is a rival. Returns whether there is one.
+  bool Weigh(const TrackedFrame& tracked, const std::optional<PredictedPose>& predicted,
+             OdometryUpdate& update);
+  /// A new map begins; `was_lost`: it may begin on what hid the ground.
+  void Reset(bool was_lost);
+  /// That the poses up to here are the ground's, not those of something that moves on its own.
+  double ProbabilityOfGround() const { return ground_.Probability(); }
+
+ private:
+  static constexpr double kLikely = 0.1;
+
+  Reason FaultOfLeft(const StereoFrame& frame) const;
+  Reason FaultOfRight(const StereoFrame& frame) const;
+
+  StereoCamera camera_;
+  double stamp_s_ = 0;
+  Belief right_belongs_{0.95};  ///< the right picture is of this moment and rig
+  Belief another_moves_{0.01};  ///< something large moves on its own
+  Belief ground_{0.98};         ///< the poses up to here are the ground's
+  Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
+};
+
+/// Whether both images tell the depth of half of the points well enough to tell how long the path
+/// is. Where they do not the pose looks certain all the same: looming tells the path in proportion
+/// to the depths, and the errors of these are no longer small, nor independent.
+bool AreDepthsKnown(const StereoCamera& camera, const LocalMap& map,
+                    const LandmarkObservations& observations, const Rigid3& camera_from_world);
+
+}  // namespace arfm_vo

@@ -1,0 +1,37 @@
+#include "arfm_vo/odometry/reason.h"
+
+namespace arfm_vo {
+
+const std::vector<ReasonRow>& ListReasons() {
+  static constexpr char kLost[] = "no measurement: the last motion is continued for 2 s, then lost";
+  static const std::vector<ReasonRow> rows = {
+      {Reason::kNone, "", "tracked"},
+      {Reason::kLeftRepeated, "the left camera repeats its picture", kLost},
+      {Reason::kSwapped, "left and right are swapped", kLost},
+      {Reason::kRightRepeated, "the right camera repeats its picture, the left one alone tells",
+       "degraded: pose by the left image"},
+      {Reason::kRightBlind, "the right camera sees nothing, the left one alone tells",
+       "degraded: pose by the left image"},
+      {Reason::kRightOff,
+       "the rows of the two pictures do not agree (one late, or a camera moved?), the left one "
+       "alone tells",
+       "degraded: pose by the left image"},
+      {Reason::kGroupsDiffer, "two groups of points move differently",
+       "degraded: pose of the likelier group, the covariance reaches to the other"},
+      {Reason::kGroundHidden, "what is seen moves otherwise than the ground is known to", kLost},
+      {Reason::kFarPoints, "most points are too far to tell how long the path is",
+       "degraded: the length of the path counts as unknown"},
+      {Reason::kSkewed, "the right picture is taken far from the left one's time",
+       "degraded: right pixels are moved by the motion between the two pictures"},
+      {Reason::kNewMap, "the new map moves otherwise than the one before the loss",
+       "degraded: the covariance covers the last motion going on"},
+      {Reason::kFewFeatures, "too few features", kLost},
+      {Reason::kFewMatches, "too few matches", kLost},
+      {Reason::kNoConsensus, "no consensus", kLost},
+  };
+  return rows;
+}
+
+const char* ToString(Reason reason) { return ListReasons()[static_cast<size_t>(reason)].text; }
+
+}  // namespace arfm_vo

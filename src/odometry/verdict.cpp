@@ -1,0 +1,128 @@
+#include "arfm_vo/odometry/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arfm_vo {
+namespace {
+
+// Prior rates: how long it takes, as a rule.
+/// Until something large moves through the image, and until it has left.
+constexpr double kAnotherComes_s = 600, kAnotherLeaves_s = 2;
+/// A rival is so much more often seen where something moves, in logarithms; and none where not.
+constexpr double kRivalSeen = 4, kNoRival = -0.5;
+/// Until the right picture is not of its moment: a late frame, a knock.
+constexpr double kRightFails_s = 60;
+/// Until it is again.
+constexpr double kRightRecovers_s = 1;
+
+/// Share of what both images see that lies on its rows, and of what the left image sees of the map
+/// that the right one shows as well: of pictures that belong together, and of others.
+constexpr double kTogether = 0.75, kApart = 0.25;
+/// As many independent observations is an image.
+constexpr double kRegions = 12;
+
+/// An image with fewer keypoints, against the other's, is dark or covered.
+constexpr double kBlindShare = 0.1;
+
+/// Disparity of a point whose depth is known, in its standard deviations.
+constexpr double kMinSignificance = 3;
+
+/// Pictures that belong together show `share`, against others.
+double LogRatioTogether(double share) {
+  return kRegions * (share * std::log(kTogether / kApart) +
+                     (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
+}
+
+/// The covariance of a pose that may as well be `other`.
+Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
+  const Rigid3 between = other * pose.Inverse();
+  Eigen::Matrix<double, 6, 1> step;
+  step << LogSO3(between.rotation), between.translation;
+  return step * step.transpose();
+}
+
+}  // namespace
+
+void Verdict::Look(const StereoFrame& frame) {
+  right_belongs_.Advance(std::max(0., frame.stamp_s - stamp_s_), kRightFails_s, kRightRecovers_s);
+  another_moves_.Advance(std::max(0., frame.stamp_s - stamp_s_), kAnotherLeaves_s, kAnotherComes_s);
+  ground_.Advance(std::max(0., frame.stamp_s - stamp_s_), kAnotherComes_s, kAnotherLeaves_s);
+  stamp_s_ = frame.stamp_s;
+  left_fault_ = FaultOfLeft(frame);
+  if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {
+    right_belongs_.Add(LogRatioTogether(frame.row_agreement));
+  }
+  right_fault_ = left_fault_ == Reason::kNone ? FaultOfRight(frame) : left_fault_;
+}
+
+Reason Verdict::FaultOfLeft(const StereoFrame& frame) const {
+  if (frame.left_is_repeated) return Reason::kLeftRepeated;
+  // In a turn pictures of two moments look like swapped ones.
+  if (frame.eyes_are_swapped && right_belongs_.Probability() > 0.5) return Reason::kSwapped;
+  return Reason::kNone;
+}
+
+Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
+  if (frame.right_is_repeated) return Reason::kRightRepeated;
+  if (frame.num_right_keypoints < kBlindShare * frame.features.size()) return Reason::kRightBlind;
+  if (right_belongs_.Probability() < 0.5) return Reason::kRightOff;
+  return Reason::kNone;
+}
+
+void Verdict::Reset(bool was_lost) {
+  another_moves_ = Belief(was_lost ? 0.5 : 0.01);
+  ground_ = Belief(was_lost ? 0.95 : 0.98);
+}
+
+bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPose>& predicted,
+                    OdometryUpdate& update) {
+  PoseEstimate& pose = update.pose;
+  // The pose's points are the ground, those of its rival are, or neither.
+  const double of_rival = pose.rival ? std::exp(ground_.log_odds() + tracked.log_odds_of_rival) : 0;
+  const double others = 1 + of_rival;
+  const bool is_likeliest = ground_.log_odds() + tracked.log_odds > 0;
+  const double log_odds = ground_.log_odds() + tracked.log_odds - std::log(others);
+  const double probability = Logistic(log_odds);
+  update.log_odds = log_odds;
+  another_moves_.Add(pose.rival || !is_likeliest ? kRivalSeen : kNoRival);
+  // The same points tell the same again in the next pair: this is not added up.
+  ground_.Limit(std::log(kAnotherComes_s / kAnotherLeaves_s) + log_odds - ground_.log_odds());
+  if (!is_likeliest) {
+    pose.status = PoseStatus::kNoConsensus;
+    update.reason = Reason::kGroundHidden;
+    return false;
+  }
+  if (pose.rival) {
+    pose.covariance +=
+        (1 - probability) * (of_rival / others) * SpreadTo(*pose.rival, pose.camera_from_world);
+  }
+  if (predicted && std::isfinite(predicted->sigma_shift_m)) {
+    pose.covariance +=
+        (1 - probability) / others * SpreadTo(predicted->camera_from_world, pose.camera_from_world);
+  }
+  if (right_fault_ != Reason::kNone) {
+    update.Degrade(right_fault_);
+  } else {
+    const auto& seen = tracked.observations;
+    const auto num_right =
+        std::count_if(seen.begin(), seen.end(), [](const auto& one) { return one.has_right; });
+    right_belongs_.Add(LogRatioTogether(static_cast<double>(num_right) /
+                                        std::max<double>(1, static_cast<double>(seen.size()))));
+  }
+  if (probability < 0.9) update.Degrade(Reason::kGroupsDiffer);
+  return true;
+}
+
+bool AreDepthsKnown(const StereoCamera& camera, const LocalMap& map,
+                    const LandmarkObservations& observations, const Rigid3& camera_from_world) {
+  const auto is_known = [&](const LandmarkObservation& observation) {
+    const Landmark& landmark = map.landmarks().at(observation.landmark);
+    const double depth = (camera_from_world * landmark.x_in_world).z();
+    return camera.Disparity(depth) >= kMinSignificance * std::sqrt(2) * observation.sigma_px;
+  };
+  const auto num_known = std::count_if(observations.begin(), observations.end(), is_known);
+  return 2 * static_cast<size_t>(num_known) >= observations.size();
+}
+
+}  // namespace arfm_vo

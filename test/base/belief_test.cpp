@@ -1,0 +1,41 @@
+#include "arfm_vo/base/belief.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+TEST(Belief, EvidenceMovesIt) {
+  Belief belief(0.5);
+  EXPECT_NEAR(belief.Probability(), 0.5, 1e-12);
+  belief.Add(std::log(3));
+  EXPECT_NEAR(belief.Probability(), 0.75, 1e-12);
+}
+
+TEST(Belief, WithoutEvidenceItGoesToItsPriorRates) {
+  for (const double start : {0.001, 0.999}) {
+    Belief belief(start);
+    for (int i = 0; i < 1000; ++i) belief.Advance(0.1, 9, 1);
+    EXPECT_NEAR(belief.Probability(), 0.9, 1e-9);
+    Belief at_once(start);
+    at_once.Advance(100, 9, 1);
+    EXPECT_NEAR(at_once.Probability(), 0.9, 1e-9) << "whatever the steps";
+  }
+}
+
+TEST(Belief, NoTimeChangesNothing) {
+  Belief belief(0.3);
+  belief.Advance(0, 60, 1);
+  EXPECT_NEAR(belief.Probability(), 0.3, 1e-12);
+}
+
+TEST(Belief, ALimitOnlyLowersIt) {
+  Belief belief(0.9);
+  belief.Limit(10);
+  EXPECT_NEAR(belief.Probability(), 0.9, 1e-12);
+  belief.Limit(0);
+  EXPECT_NEAR(belief.Probability(), 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace arfm_vo

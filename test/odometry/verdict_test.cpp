@@ -1,0 +1,149 @@
+#include "arfm_vo/odometry/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace arfm_vo {
+namespace {
+
+class VerdictTest : public ::testing::Test {
+ protected:
+  VerdictTest() {
+    frame_.features.keypoints.resize(300);
+    frame_.num_right_keypoints = 300;
+    tracked_.pose.status = PoseStatus::kTracked;
+    tracked_.pose.num_inliers = 100;
+    for (int i = 0; i < 100; ++i) {
+      LandmarkObservation observation{};
+      observation.landmark = i;
+      observation.has_right = true;
+      tracked_.observations.push_back(observation);
+    }
+  }
+  void Look(double row_agreement = 0.9) {
+    frame_.stamp_s += 0.1;
+    frame_.row_agreement = row_agreement;
+    verdict_.Look(frame_);
+  }
+  OdometryUpdate Weigh() {
+    OdometryUpdate update;
+    update.pose = tracked_.pose;
+    has_pose_ = verdict_.Weigh(tracked_, std::nullopt, update);
+    return update;
+  }
+
+  StereoFrame frame_;
+  TrackedFrame tracked_;
+  Verdict verdict_{{400, 400, 320, 240, 0.2, 640, 480}};
+  bool has_pose_ = false;
+};
+
+TEST_F(VerdictTest, WhereNothingContradictsThePoseIsTracked) {
+  Look();
+  const OdometryUpdate update = Weigh();
+  EXPECT_TRUE(has_pose_);
+  EXPECT_EQ(update.pose.status, PoseStatus::kTracked);
+  EXPECT_EQ(update.reason, Reason::kNone);
+  EXPECT_FALSE(verdict_.IsUnsure());
+}
+
+TEST_F(VerdictTest, ARivalThatIsAsLikelyWidensTheCovarianceToIt) {
+  Look();
+  tracked_.pose.rival = Rigid3(Eigen::Quaterniond::Identity(), {1, 0, 0});
+  const OdometryUpdate update = Weigh();
+  ASSERT_TRUE(has_pose_);
+  EXPECT_EQ(update.pose.status, PoseStatus::kDegraded);
+  EXPECT_EQ(update.reason, Reason::kGroupsDiffer);
+  EXPECT_NEAR(update.pose.covariance(3, 3), 0.5, 0.1);
+  EXPECT_TRUE(verdict_.IsUnsure());
+}
+
+TEST_F(VerdictTest, AnUnlikelyRivalHardlyMatters) {
+  Look();
+  tracked_.pose.rival = Rigid3(Eigen::Quaterniond::Identity(), {1, 0, 0});
+  tracked_.log_odds_of_rival = -12;
+  const OdometryUpdate update = Weigh();
+  EXPECT_EQ(update.pose.status, PoseStatus::kTracked);
+  EXPECT_LT(update.pose.covariance(3, 3), 1e-3);
+}
+
+TEST_F(VerdictTest, APoseIsTakenAwayOnlyWhereAnotherAnswerIsLikelier) {
+  for (const double log_odds : {-1., -12.}) {
+    verdict_.Reset(false);
+    Look();
+    tracked_.log_odds = log_odds;
+    const OdometryUpdate update = Weigh();
+    EXPECT_EQ(has_pose_, log_odds > -5);
+    EXPECT_EQ(update.reason == Reason::kGroundHidden, !has_pose_);
+  }
+}
+
+TEST_F(VerdictTest, WhatWasFollowedInDoubtStaysInDoubtForAWhile) {
+  Look();
+  tracked_.log_odds = -5;
+  Weigh();
+  tracked_.log_odds = 0;
+  int num_pairs = 0;
+  do {
+    Look();
+    ++num_pairs;
+  } while (Weigh().pose.status != PoseStatus::kTracked && num_pairs < 1000);
+  EXPECT_GT(num_pairs, 5);
+  EXPECT_LT(num_pairs, 100);
+}
+
+TEST_F(VerdictTest, RowsThatDoNotAgreeTakeTheRightPictureAway) {
+  for (int i = 0; i < 10; ++i) {
+    Look();
+    Weigh();
+  }
+  Look(0.2);
+  Look(0.2);
+  EXPECT_EQ(verdict_.right_fault(), Reason::kRightOff);
+  EXPECT_EQ(verdict_.left_fault(), Reason::kNone);
+  EXPECT_EQ(Weigh().reason, Reason::kRightOff);
+  for (int i = 0; i < 3; ++i) Look();
+  EXPECT_EQ(verdict_.right_fault(), Reason::kNone);
+}
+
+/// Few corners and blur make a part of the matches wrong.
+TEST_F(VerdictTest, RowsOfWhichHalfAgreeDoNot) {
+  for (int i = 0; i < 200; ++i) {
+    Look(0.52);
+    EXPECT_EQ(verdict_.right_fault(), Reason::kNone) << i;
+    Weigh();
+  }
+}
+
+TEST_F(VerdictTest, PicturesThatAreNotToBeUsedAreNamed) {
+  Look();
+  frame_.right_is_repeated = true;
+  Look();
+  EXPECT_EQ(verdict_.right_fault(), Reason::kRightRepeated);
+  frame_.right_is_repeated = false;
+  frame_.num_right_keypoints = 10;
+  Look();
+  EXPECT_EQ(verdict_.right_fault(), Reason::kRightBlind);
+  frame_.num_right_keypoints = 300;
+  frame_.eyes_are_swapped = true;
+  Look(0.1);
+  EXPECT_EQ(verdict_.left_fault(), Reason::kSwapped);
+  frame_.left_is_repeated = true;
+  Look();
+  EXPECT_EQ(verdict_.left_fault(), Reason::kLeftRepeated);
+}
+
+TEST(Reasons, EachHasItsTextAndItsEffectInItsPlace) {
+  std::set<std::string> texts;
+  for (size_t i = 0; i < ListReasons().size(); ++i) {
+    const ReasonRow& row = ListReasons()[i];
+    EXPECT_EQ(static_cast<size_t>(row.reason), i);
+    EXPECT_TRUE(texts.insert(row.text).second) << row.text;
+    EXPECT_NE(std::string(row.effect), "");
+  }
+  EXPECT_EQ(static_cast<size_t>(Reason::kNoConsensus) + 1, ListReasons().size());
+}
+
+}  // namespace
+}  // namespace arfm_vo
