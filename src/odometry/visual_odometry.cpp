@@ -51,7 +51,7 @@ void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
   map_.Add(keyframe);
   if (!map_.IsAdjustmentDue()) return;
   MapUpdate newest;
-  newest.num_keyframes = map_.num_keyframes();
+  newest.num_keyframes = map_.num_adjusted();
   newest.keyframes.push_back({keyframe.keyframe.id, {}});
   adjusted_at_ = session_.TakeoverFrame(newest);
   adjustment_ = std::async(std::launch::async, [this] { return map_.Adjust(); });

@@ -42,14 +42,13 @@ class LearnedCorrectionFileTest : public testing::Test {
   CorrectionBelief belief_;
 };
 
-TEST_F(LearnedCorrectionFileTest, ComesBackToTheLastBit) {
+TEST_F(LearnedCorrectionFileTest, ComesBackAsItIsAfterAPause) {
   EXPECT_FALSE(ReadLearnedCorrection(path_, kCamera));
   WriteLearnedCorrection(path_, kCamera, belief_);
   const auto back = ReadLearnedCorrection(path_, kCamera);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->mean.coefficients_px, belief_.mean.coefficients_px);
-  EXPECT_EQ(back->covariance, belief_.covariance);
-  EXPECT_TRUE(back->is_of_earlier_drive);
+  EXPECT_EQ(back->covariance, belief_.AfterAPause(kCamera).covariance);
 }
 
 TEST_F(LearnedCorrectionFileTest, BelongsToItsCameraAlone) {

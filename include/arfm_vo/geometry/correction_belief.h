@@ -10,7 +10,6 @@ struct CorrectionBelief {
 
   StereoCorrection mean;
   Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
-  bool is_of_earlier_drive = false;    ///< and not yet confirmed by this one
 
   /// Each coefficient zero within `sigma_px`, independently of the others.
   static CorrectionBelief Isotropic(double sigma_px);
@@ -25,7 +24,11 @@ struct CorrectionBelief {
 
   /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have
   /// turned the cameras against each other by a milliradian, and moved a centre by 0.3 px.
-  CorrectionBelief Unconfirmed(const StereoCamera& camera) const;
+  CorrectionBelief AfterAPause(const StereoCamera& camera) const;
+
+  using Turns = Eigen::Matrix<double, StereoCorrection::kSize, 3>;
+  /// Coefficients by a turn of the right camera about its axes, px/rad.
+  static Turns ByTurn(const StereoCamera& camera);
 
   Matrix Information() const;
   using Placing =

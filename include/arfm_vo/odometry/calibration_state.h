@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+
+#include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
+#include "arfm_vo/geometry/correction_belief.h"
+
+namespace arfm_vo {
+
+/// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
+/// until its columns are known better than any single observation. Then it stays, and the newest
+/// keyframes alone (a window) tell how the right camera has turned since. By how such windows
+/// scatter, which is out of sample, its covariance is wider than the residuals say; where one
+/// stands out from that, the keyframes before tell no more and adjustments find the turn.
+class CalibrationState {
+ public:
+  static constexpr int kWindow = 4;  ///< keyframes
+
+  /// `known`: before the first keyframe. It stays for good unless `may_learn`.
+  CalibrationState(const StereoCamera& camera, bool may_learn, const CorrectionBelief& known);
+
+  const CorrectionBelief& correction() const { return correction_; }
+  /// Keyframes before this one are of another correction, and tell nothing of this.
+  int first_telling() const { return first_telling_; }
+  /// Whether the right camera has turned, by how much adjustments are to find.
+  bool HasTurned() const { return first_telling_ > 0 && is_open_; }
+
+  /// The rover has turned by so much more, which tells of the lenses.
+  void AddTurn(double turn_rad);
+
+  /// What is known without the keyframes from first_telling() on, for an adjustment of these that
+  /// is to find the correction; nothing where it stays as it is. The focal length of both images is
+  /// told by no straight way and bent by all that the model does not know, so its prior counts in
+  /// full, against observations that count by their scatter.
+  std::optional<CorrectionBelief> Prior() const;
+  /// Takes what such an adjustment, of all `num_keyframes`, has found. False where it has no
+  /// covariance: then its poses are of no correction that is told.
+  bool Learn(const BundleResult& result, int num_keyframes);
+
+  /// For an adjustment of the newest kWindow of `num_keyframes` alone; nothing where the correction
+  /// is not found yet, or was learnt from all of them.
+  std::optional<CorrectionBelief> WindowPrior(int num_keyframes) const;
+  /// Takes what that has found.
+  void Follow(const BundleResult& window, int num_keyframes);
+
+ private:
+  using Matrix = CorrectionBelief::Matrix;
+  struct Window {
+    Eigen::Vector3d turn;        ///< rad, of the right camera
+    Eigen::Matrix3d covariance;  ///< as its residuals say
+  };
+  /// As it is but for a turn.
+  CorrectionBelief OpenToATurn() const;
+  void Tell();
+
+  StereoCamera camera_;
+  bool may_learn_, is_open_;
+  bool is_found_ = false;  ///< was known once
+  CorrectionBelief::Turns by_turn_;
+  CorrectionBelief prior_;       ///< without the keyframes from first_telling_ on
+  CorrectionBelief learnt_;      ///< with them, as their residuals say
+  CorrectionBelief correction_;  ///< the same as it is told
+  Matrix considered_;            ///< covariance of what no adjustment tells, px^2
+  int first_telling_ = 0;
+  double turned_rad_ = 0;       ///< since it was learnt
+  int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
+  std::deque<Window> windows_;  ///< the newest ones, kWindow at most, one a keyframe
+  double scatter_;              ///< mean square of windows' turns in what their residuals say
+  int num_apart_ = 0;           ///< windows that told it
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,135 @@
+#include "arfm_vo/odometry/calibration_state.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/pose/chi_square.h"
+
+namespace arfm_vo {
+namespace {
+
+/// The correction is known where its columns are known better than this all over the image, and
+/// the camera has turned where that moves columns by more: no observation is trusted more
+/// (LandmarkAlignerOptions::min_sigma_px).
+constexpr double kKnownSigmaPx = 0.1;
+
+/// No coefficient is known better: a lens is not quite what its model says.
+constexpr double kModelSigmaPx = 0.05;
+
+/// What an adjustment holds, px.
+constexpr double kHeldSigmaPx = 1e-3;
+
+/// How far the right camera may turn at once, about each axis.
+constexpr double kTurnSigma_rad = 1e-3;
+
+/// Windows of a camera that has not turned lie within this quantile.
+constexpr double kSameProbability = 0.999;
+
+/// The scatter before any windows have told it, and for how many of them that counts. Observations
+/// that tell of the correction also place the points that the odometry then goes by, so their
+/// errors count again (simulated_run_test: NEES).
+constexpr double kScatter = 3;
+constexpr int kNumScatter = 1;
+
+/// The focal length of both images, and their radial distortion, show where the rover turns: after
+/// so much of it the correction is learnt anew from all keyframes.
+constexpr double kTellingTurn_rad = 0.5;
+
+/// After so many windows a turn is known as well as it will be.
+constexpr int kSettled = 2;
+
+constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+
+/// Of a vector of three with this covariance; 1 in the mean.
+double Square(const Eigen::Vector3d& x, const Eigen::Matrix3d& covariance) {
+  return x.dot(covariance.ldlt().solve(x)) / 3;
+}
+
+}  // namespace
+
+CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
+                                   const CorrectionBelief& known)
+    : camera_(camera),
+      may_learn_(may_learn),
+      is_open_(may_learn && known.MaxColumnSigma(camera) > kKnownSigmaPx),
+      by_turn_(CorrectionBelief::ByTurn(camera)),
+      prior_(known),
+      learnt_(known),
+      correction_(known),
+      considered_(CorrectionBelief::Isotropic(kModelSigmaPx).covariance),
+      scatter_(kScatter) {}
+
+void CalibrationState::AddTurn(double turn_rad) {
+  turned_rad_ += turn_rad;
+  is_open_ |= may_learn_ && first_telling_ == 0 && turned_rad_ > kTellingTurn_rad;
+}
+
+CorrectionBelief CalibrationState::OpenToATurn() const {
+  CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
+  open.mean = correction_.mean;
+  open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
+  return open;
+}
+
+std::optional<CorrectionBelief> CalibrationState::Prior() const {
+  if (!is_open_) return std::nullopt;
+  CorrectionBelief prior = prior_;
+  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  return prior;
+}
+
+bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
+  if (result.correction_covariance.isZero(0)) return false;
+  learnt_ = {result.correction, result.correction_covariance};
+  is_open_ = first_telling_ > 0 ? num_keyframes < first_telling_ + kSettled * kWindow
+                                : learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  is_found_ |= !is_open_;
+  num_learnt_ = num_keyframes;
+  turned_rad_ = 0;
+  Tell();
+  return true;
+}
+
+void CalibrationState::Tell() {
+  correction_ = {learnt_.mean, considered_ + scatter_ * learnt_.covariance};
+}
+
+std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
+  const bool is_first_found = !is_open_ || is_found_;
+  const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
+  if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
+  return OpenToATurn();
+}
+
+void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
+  if (window.status == BundleStatus::kFailed || window.correction_covariance.isZero(0)) return;
+  const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
+      (by_turn_.transpose() * by_turn_).ldlt().solve(by_turn_.transpose());
+  const Window newest{turn_of * window.correction.coefficients_px,
+                      turn_of * window.correction_covariance * turn_of.transpose()};
+  const Eigen::Vector3d turn = newest.turn - turn_of * correction_.mean.coefficients_px;
+  const bool has_turned =
+      3 * Square(turn, newest.covariance) > scatter_ * ChiSquareQuantile(3, kSameProbability) &&
+      camera_.fx * turn.norm() > kKnownSigmaPx;
+  windows_.push_back(newest);
+  if (windows_.size() > kWindow) {
+    const Window before = windows_.front();  // it saw none of the same keyframes
+    windows_.pop_front();
+    if (!has_turned) {
+      const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
+      scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
+      Tell();
+    }
+  }
+  if (!has_turned) return;
+  first_telling_ = num_keyframes - kWindow;
+  prior_ = OpenToATurn();
+  learnt_ = prior_;
+  considered_ = correction_.covariance;
+  correction_.covariance += prior_.covariance;
+  is_open_ = true;
+}
+
+}  // namespace arfm_vo
