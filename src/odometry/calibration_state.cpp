@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/pose/chi_square.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -20,11 +18,8 @@ constexpr double kModelSigmaPx = 0.05;
 /// What an adjustment holds, px.
 constexpr double kHeldSigmaPx = 1e-3;
 
-/// How far the right camera may turn at once, about each axis.
+/// How far from the correction a window looks for it, about each axis.
 constexpr double kTurnSigma_rad = 1e-3;
-
-/// Windows of a camera that has not turned lie within this quantile.
-constexpr double kSameProbability = 0.999;
 
 /// The scatter before any windows have told it, and for how many of them that counts. Observations
 /// that tell of the correction also place the points that the odometry then goes by, so their
@@ -35,9 +30,6 @@ constexpr int kNumScatter = 1;
 /// The focal length of both images, and their radial distortion, show where the rover turns: after
 /// so much of it the correction is learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
-
-/// After so many windows a turn is known as well as it will be.
-constexpr int kSettled = 2;
 
 constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
 
@@ -57,19 +49,11 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       prior_(known),
       learnt_(known),
       correction_(known),
-      considered_(CorrectionBelief::Isotropic(kModelSigmaPx).covariance),
       scatter_(kScatter) {}
 
 void CalibrationState::AddTurn(double turn_rad) {
   turned_rad_ += turn_rad;
   is_open_ |= may_learn_ && first_telling_ == 0 && turned_rad_ > kTellingTurn_rad;
-}
-
-CorrectionBelief CalibrationState::OpenToATurn() const {
-  CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
-  open.mean = correction_.mean;
-  open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
-  return open;
 }
 
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
@@ -83,8 +67,7 @@ std::optional<CorrectionBelief> CalibrationState::Prior() const {
 bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   if (result.correction_covariance.isZero(0)) return false;
   learnt_ = {result.correction, result.correction_covariance};
-  is_open_ = first_telling_ > 0 ? num_keyframes < first_telling_ + kSettled * kWindow
-                                : learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  is_open_ = learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
   is_found_ |= !is_open_;
   num_learnt_ = num_keyframes;
   turned_rad_ = 0;
@@ -93,43 +76,56 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
 }
 
 void CalibrationState::Tell() {
-  correction_ = {learnt_.mean, considered_ + scatter_ * learnt_.covariance};
+  correction_ = {learnt_.mean, scatter_ * learnt_.covariance +
+                                   CorrectionBelief::Isotropic(kModelSigmaPx).covariance +
+                                   by_turn_ * turn_covariance_ * by_turn_.transpose()};
 }
 
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
   const bool is_first_found = !is_open_ || is_found_;
   const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
   if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
-  return OpenToATurn();
+  CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
+  open.mean = correction_.mean;
+  open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
+  return open;
+}
+
+void CalibrationState::TakeScatter(const Window& newest) {
+  windows_.push_back(newest);
+  if (windows_.size() <= kWindow) return;
+  const Window before = windows_.front();
+  windows_.pop_front();
+  const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
+  scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
+  Tell();
 }
 
 void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
+  is_turning_ = false;
   if (window.status == BundleStatus::kFailed || window.correction_covariance.isZero(0)) return;
+  const Eigen::Matrix3d px2_by_turn = by_turn_.transpose() * by_turn_;
   const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
-      (by_turn_.transpose() * by_turn_).ldlt().solve(by_turn_.transpose());
+      px2_by_turn.ldlt().solve(by_turn_.transpose());
   const Window newest{turn_of * window.correction.coefficients_px,
                       turn_of * window.correction_covariance * turn_of.transpose()};
-  const Eigen::Vector3d turn = newest.turn - turn_of * correction_.mean.coefficients_px;
-  const bool has_turned =
-      3 * Square(turn, newest.covariance) > scatter_ * ChiSquareQuantile(3, kSameProbability) &&
-      camera_.fx * turn.norm() > kKnownSigmaPx;
-  windows_.push_back(newest);
-  if (windows_.size() > kWindow) {
-    const Window before = windows_.front();  // it saw none of the same keyframes
-    windows_.pop_front();
-    if (!has_turned) {
-      const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
-      scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
-      Tell();
-    }
+  const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
+  const Eigen::Matrix3d noise =
+      scatter_ * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
+  const double ratio = Square(off, turn_covariance_ + noise);
+  is_turning_ = ratio > 1;
+  if (is_turning_) {
+    windows_.clear();
+    turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();
+    first_telling_ = num_keyframes - kWindow;
+    is_open_ = false;
+  } else {
+    TakeScatter(newest);
   }
-  if (!has_turned) return;
-  first_telling_ = num_keyframes - kWindow;
-  prior_ = OpenToATurn();
-  learnt_ = prior_;
-  considered_ = correction_.covariance;
-  correction_.covariance += prior_.covariance;
-  is_open_ = true;
+  const Eigen::Matrix3d gain = turn_covariance_ * (turn_covariance_ + noise).inverse();
+  learnt_.mean.coefficients_px += by_turn_ * gain * off;
+  turn_covariance_ -= gain * turn_covariance_;
+  Tell();
 }
 
 }  // namespace arfm_vo

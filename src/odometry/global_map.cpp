@@ -86,7 +86,7 @@ int NextAdjustment(int num_keyframes, int num_moving) {
 }
 
 bool GlobalMap::IsAdjustmentDue() const {
-  return num_keyframes() >= next_adjustment_ || is_contradicted_ || calibration_.HasTurned();
+  return num_keyframes() >= next_adjustment_ || is_contradicted_ || calibration_.IsTurning();
 }
 
 int GlobalMap::FirstMoving() const {
@@ -215,7 +215,8 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
-  next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
+  next_adjustment_ =
+      calibration_.first_telling() + NextAdjustment(num_adjusted(), options_.NumMoving());
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_world * map_from_odom_;
   const bool is_bent = is_contradicted_;
   if (is_bent) BendOntoLoops();

@@ -10,10 +10,11 @@
 namespace arfm_vo {
 
 /// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
-/// until its columns are known better than any single observation. Then it stays, and the newest
-/// keyframes alone (a window) tell how the right camera has turned since. By how such windows
-/// scatter, which is out of sample, its covariance is wider than the residuals say; where one
-/// stands out from that, the keyframes before tell no more and adjustments find the turn.
+/// until its columns are known better than any single observation. From then on the newest
+/// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
+/// process noise is what the innovation asks for and none where that is within its covariance
+/// (Jazwinski, Adaptive filtering, Automatica 1969). By how windows that share no keyframe scatter,
+/// which is out of sample, the covariance is wider than the residuals say.
 class CalibrationState {
  public:
   static constexpr int kWindow = 4;  ///< keyframes
@@ -24,8 +25,8 @@ class CalibrationState {
   const CorrectionBelief& correction() const { return correction_; }
   /// Keyframes before this one are of another correction, and tell nothing of this.
   int first_telling() const { return first_telling_; }
-  /// Whether the right camera has turned, by how much adjustments are to find.
-  bool HasTurned() const { return first_telling_ > 0 && is_open_; }
+  /// Whether the newest keyframe tells of a turn of the right camera, which is followed.
+  bool IsTurning() const { return is_turning_; }
 
   /// The rover has turned by so much more, which tells of the lenses.
   void AddTurn(double turn_rad);
@@ -51,18 +52,19 @@ class CalibrationState {
     Eigen::Vector3d turn;        ///< rad, of the right camera
     Eigen::Matrix3d covariance;  ///< as its residuals say
   };
-  /// As it is but for a turn.
-  CorrectionBelief OpenToATurn() const;
+  /// Takes the scatter of a window and the newest that shares no keyframe with it.
+  void TakeScatter(const Window& newest);
   void Tell();
 
   StereoCamera camera_;
   bool may_learn_, is_open_;
   bool is_found_ = false;  ///< was known once
+  bool is_turning_ = false;
   CorrectionBelief::Turns by_turn_;
-  CorrectionBelief prior_;       ///< without the keyframes from first_telling_ on
+  CorrectionBelief prior_;       ///< without any keyframe
   CorrectionBelief learnt_;      ///< with them, as their residuals say
   CorrectionBelief correction_;  ///< the same as it is told
-  Matrix considered_;            ///< covariance of what no adjustment tells, px^2
+  Eigen::Matrix3d turn_covariance_ = Eigen::Matrix3d::Zero();  ///< rad^2, of what has turned since
   int first_telling_ = 0;
   double turned_rad_ = 0;       ///< since it was learnt
   int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
