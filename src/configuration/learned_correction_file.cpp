@@ -84,7 +84,8 @@ std::optional<CorrectionBelief> ReadLearnedCorrection(const std::string& path,
   Require(correction.covariance.isApprox(correction.covariance.transpose(), 1e-6) &&
               correction.covariance.llt().info() == Eigen::Success,
           path + ": covariance_px2 is not a covariance");
-  return correction.AfterAPause(camera);
+  correction.is_of_earlier_drive = true;
+  return correction;
 }
 
 std::string NameLearnedCorrection(const StereoCamera& camera) {

@@ -98,6 +98,7 @@ CorrectionBelief CorrectionBelief::AfterAPause(const StereoCamera& camera) const
   const auto by_errors = CoefficientsByErrors(camera);
   const ErrorSigmas sigma(kSigmaBetweenDrives);
   CorrectionBelief belief = *this;
+  belief.is_of_earlier_drive = false;
   belief.covariance += by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
   return belief;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/pose/chi_square.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -27,6 +29,9 @@ constexpr double kTurnSigma_rad = 1e-3;
 constexpr double kScatter = 3;
 constexpr int kNumScatter = 1;
 
+/// What an earlier drive has found stands where its columns lie within this quantile.
+constexpr double kSameProbability = 0.95;
+
 /// The focal length of both images, and their radial distortion, show where the rover turns: after
 /// so much of it the correction is learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
@@ -44,12 +49,19 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
                                    const CorrectionBelief& known)
     : camera_(camera),
       may_learn_(may_learn),
-      is_open_(may_learn && known.MaxColumnSigma(camera) > kKnownSigmaPx),
+      is_open_(may_learn &&
+               (known.is_of_earlier_drive || known.MaxColumnSigma(camera) > kKnownSigmaPx)),
       by_turn_(CorrectionBelief::ByTurn(camera)),
       prior_(known),
       learnt_(known),
       correction_(known),
-      scatter_(kScatter) {}
+      scatter_(kScatter) {
+  correction_.is_of_earlier_drive = false;
+  if (!may_learn || !known.is_of_earlier_drive) return;
+  prior_ = CorrectionBelief::OfCalibration(camera);
+  remembered_ = known.mean;
+  learnt_ = correction_ = known.AfterAPause(camera);
+}
 
 void CalibrationState::AddTurn(double turn_rad) {
   turned_rad_ += turn_rad;
@@ -72,7 +84,19 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   num_learnt_ = num_keyframes;
   turned_rad_ = 0;
   Tell();
-  return true;
+  if (remembered_ && !Allows(*remembered_)) remembered_.reset();
+  if (!remembered_) return true;
+  learnt_.mean = *remembered_;
+  Tell();
+  return false;
+}
+
+/// Whether the columns of a camera with the correction `mean` would be found so.
+bool CalibrationState::Allows(const StereoCorrection& mean) const {
+  constexpr int kNum = StereoCorrection::kNumField;
+  const auto off = (correction_.mean.coefficients_px - mean.coefficients_px).head<kNum>().eval();
+  const auto allowed = correction_.covariance.topLeftCorner<kNum, kNum>().eval();
+  return off.dot(allowed.llt().solve(off)) <= ChiSquareQuantile(kNum, kSameProbability);
 }
 
 void CalibrationState::Tell() {

@@ -221,7 +221,7 @@ void Session::StartEpoch() {
 }
 
 void Session::SetCorrection(const StereoCamera& camera, const CorrectionBelief& correction) {
-  correction_ = correction;
+  correction_ = correction.is_of_earlier_drive ? correction.AfterAPause(camera) : correction;
   correction_camera_ = camera;
 }
 

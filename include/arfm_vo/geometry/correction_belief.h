@@ -10,6 +10,7 @@ struct CorrectionBelief {
 
   StereoCorrection mean;
   Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
+  bool is_of_earlier_drive = false;    ///< and this one has not told yet whether it still holds
 
   /// Each coefficient zero within `sigma_px`, independently of the others.
   static CorrectionBelief Isotropic(double sigma_px);

@@ -36,8 +36,9 @@ class CalibrationState {
   /// told by no straight way and bent by all that the model does not know, so its prior counts in
   /// full, against observations that count by their scatter.
   std::optional<CorrectionBelief> Prior() const;
-  /// Takes what such an adjustment, of all `num_keyframes`, has found. False where it has no
-  /// covariance: then its poses are of no correction that is told.
+  /// Takes what such an adjustment, of all `num_keyframes`, has found: what an earlier drive found
+  /// stands as long as that allows it. False where its poses are not of the correction that is told
+  /// then.
   bool Learn(const BundleResult& result, int num_keyframes);
 
   /// For an adjustment of the newest kWindow of `num_keyframes` alone; nothing where the correction
@@ -55,6 +56,7 @@ class CalibrationState {
   /// Takes the scatter of a window and the newest that shares no keyframe with it.
   void TakeScatter(const Window& newest);
   void Tell();
+  bool Allows(const StereoCorrection& mean) const;
 
   StereoCamera camera_;
   bool may_learn_, is_open_;
@@ -62,6 +64,7 @@ class CalibrationState {
   bool is_turning_ = false;
   CorrectionBelief::Turns by_turn_;
   CorrectionBelief prior_;       ///< without any keyframe
+  std::optional<StereoCorrection> remembered_;  ///< of an earlier drive, and not refuted
   CorrectionBelief learnt_;      ///< with them, as their residuals say
   CorrectionBelief correction_;  ///< the same as it is told
   Eigen::Matrix3d turn_covariance_ = Eigen::Matrix3d::Zero();  ///< rad^2, of what has turned since
