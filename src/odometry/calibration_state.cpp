@@ -65,7 +65,7 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
 
 void CalibrationState::AddTurn(double turn_rad) {
   turned_rad_ += turn_rad;
-  is_open_ |= may_learn_ && first_telling_ == 0 && turned_rad_ > kTellingTurn_rad;
+  is_open_ |= may_learn_ && turned_rad_ > kTellingTurn_rad;
 }
 
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
@@ -82,6 +82,7 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   is_open_ = learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
   is_found_ |= !is_open_;
   num_learnt_ = num_keyframes;
+  turn_covariance_.setZero();
   turned_rad_ = 0;
   Tell();
   if (remembered_ && !Allows(*remembered_)) remembered_.reset();
@@ -109,6 +110,10 @@ std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes)
   const bool is_first_found = !is_open_ || is_found_;
   const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
   if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
+  return OpenToATurn();
+}
+
+CorrectionBelief CalibrationState::OpenToATurn() const {
   CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
   open.mean = correction_.mean;
   open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
@@ -150,6 +155,9 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   learnt_.mean.coefficients_px += by_turn_ * gain * off;
   turn_covariance_ -= gain * turn_covariance_;
   Tell();
+  if (!is_turning_) return;
+  prior_ = OpenToATurn();
+  prior_.covariance += correction_.covariance;
 }
 
 }  // namespace arfm_vo

@@ -56,6 +56,8 @@ class CalibrationState {
   /// Takes the scatter of a window and the newest that shares no keyframe with it.
   void TakeScatter(const Window& newest);
   void Tell();
+  /// As it is but for a turn of the right camera.
+  CorrectionBelief OpenToATurn() const;
   bool Allows(const StereoCorrection& mean) const;
 
   StereoCamera camera_;
