@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/global_map.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
@@ -225,12 +226,15 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   const bool is_open = problem.correction_prior.has_value();
   BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
   if (!HasResult(result)) return std::nullopt;
-  if (is_open && !calibration_.Learn(result, num_keyframes())) {
+  CalibrationState calibration = calibration_;
+  if (is_open && !calibration.Learn(result, num_keyframes())) {
     problem = MakeProblem();  // the poses must be of the correction that is told
     problem.correction_prior.reset();
+    problem.correction = calibration.correction().mean;
     result = AdjustBundle(std::move(problem), options_.solver, progress);
     if (!HasResult(result)) return std::nullopt;
   }
+  calibration_ = std::move(calibration);
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
   map_from_odom_ = store_.keyframes.back().camera_from_world.Inverse() * newest_from_odom;

@@ -19,11 +19,16 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
       session_(options.odometry),
       map_(options.global) {
   options.Check();
+  if (!options.global.learn_correction) {
+    session_.SetCorrection(camera, CorrectionBelief::OfExactCalibration());
+  }
 }
 
 void VisualOdometry::SetCorrection(const CorrectionBelief& correction) {
   frontend_.SetCorrection(correction);
-  session_.SetCorrection(camera_, correction);
+  CorrectionBelief known = correction;
+  known.is_of_earlier_drive &= options_.global.learn_correction;  // else taken as it is
+  session_.SetCorrection(camera_, known);
   map_.SetCorrection(camera_, correction);
 }
 

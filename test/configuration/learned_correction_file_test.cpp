@@ -42,13 +42,14 @@ class LearnedCorrectionFileTest : public testing::Test {
   CorrectionBelief belief_;
 };
 
-TEST_F(LearnedCorrectionFileTest, ComesBackAsItIsAfterAPause) {
+TEST_F(LearnedCorrectionFileTest, ComesBackAsThatOfAnEarlierDrive) {
   EXPECT_FALSE(ReadLearnedCorrection(path_, kCamera));
   WriteLearnedCorrection(path_, kCamera, belief_);
   const auto back = ReadLearnedCorrection(path_, kCamera);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->mean.coefficients_px, belief_.mean.coefficients_px);
-  EXPECT_EQ(back->covariance, belief_.AfterAPause(kCamera).covariance);
+  EXPECT_EQ(back->covariance, belief_.covariance);
+  EXPECT_TRUE(back->is_of_earlier_drive);
 }
 
 TEST_F(LearnedCorrectionFileTest, BelongsToItsCameraAlone) {

@@ -92,7 +92,9 @@ TEST(CorrectionBelief, FocalLengthExcessIsAShareOfIt) {
 TEST(CorrectionBelief, ThatOfAnEarlierDriveLeavesOpenWhetherTheCamerasHaveTurned) {
   CorrectionBelief earlier = CorrectionBelief::Isotropic(0.01);
   earlier.mean.coefficients_px[4] = 0.4;
+  earlier.is_of_earlier_drive = true;
   const CorrectionBelief now = earlier.AfterAPause(kCamera);
+  EXPECT_FALSE(now.is_of_earlier_drive);
   EXPECT_EQ(now.mean.coefficients_px, earlier.mean.coefficients_px);
   const StereoCorrection yaw = Fit([](const Eigen::Vector2d& pixel) {
     const double x = (pixel.x() - kCamera.cx) / kCamera.fx;

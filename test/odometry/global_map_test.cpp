@@ -170,7 +170,8 @@ TEST(GlobalMap, WhatAnEarlierDriveHasToldIsAPriorThatThisOneRefutes) {
   for (const double earlier_px : {0.3, -0.4}) {
     CorrectionBelief earlier = CorrectionBelief::Isotropic(0.03);
     earlier.mean.coefficients_px = Shift(earlier_px, -0.3);
-    const auto told = Follow(keyframes, earlier.AfterAPause(kBundleCamera));
+    earlier.is_of_earlier_drive = true;
+    const auto told = Follow(keyframes, earlier);
     ASSERT_GE(told.size(), 6u);
     EXPECT_NEAR(told[3].mean.coefficients_px[0], 0.3, 0.15) << earlier_px;
     EXPECT_NEAR(told.back().mean.coefficients_px[0], 0.3, 0.1) << earlier_px;
@@ -188,6 +189,28 @@ TEST(GlobalMap, FollowsARightCameraThatTurnsDuringTheDrive) {
   }
   const auto told = Follow(keyframes, kCalibration);
   EXPECT_NEAR(told.back().mean.coefficients_px[0], turn[0], 0.2);  // of 0.88
+}
+
+/// The second adjustment, which finds the poses of what stands, is cancelled.
+TEST(GlobalMap, ACancelledAdjustmentLeavesWhatAnEarlierDriveFoundAsItWas) {
+  const auto keyframes = MakeDisplacedKeyframes(Shift(0.3, -0.3));
+  CorrectionBelief earlier = CorrectionBelief::Isotropic(0.03);
+  earlier.mean.coefficients_px = Shift(0.3, -0.3);
+  earlier.is_of_earlier_drive = true;
+  GlobalMap cancelled(kBundleCamera, {}, earlier), whole(kBundleCamera, {}, earlier);
+  for (GlobalMap* map : {&cancelled, &whole}) {
+    for (int k = 0; k < 6; ++k) map->Add(keyframes[k].keyframe, keyframes[k].landmarks);
+  }
+  int num_begun = 0;
+  EXPECT_FALSE(cancelled.Adjust([&](const BundleProgress& progress) {
+    num_begun += progress.iteration <= 1;
+    return num_begun < 2;
+  }));
+  const auto after = cancelled.Adjust(), expected = whole.Adjust();
+  ASSERT_TRUE(after && expected);
+  EXPECT_EQ(after->correction.covariance, expected->correction.covariance);
+  EXPECT_EQ(after->keyframes.back().camera_from_world.translation,
+            expected->keyframes.back().camera_from_world.translation);
 }
 
 TEST(GlobalMap, ACancelledAdjustmentLeavesNoPosesOfACorrectionThatIsNotTold) {

@@ -22,6 +22,8 @@ struct CorrectionBelief {
   /// the corners, both images may be off radially by some pixels (at a focal length of 700 px;
   /// others in proportion), and the focal length of both by 0.1 %.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
+  /// Of a calibration that is right: within a thousandth of a pixel, so that it can be inverted.
+  static CorrectionBelief OfExactCalibration() { return Isotropic(1e-3); }
 
   /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have
   /// turned the cameras against each other by a milliradian, and moved a centre by 0.3 px.
