@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "arfm_vo/pose/chi_square.h"
 
@@ -28,6 +29,9 @@ constexpr double kTurnSigma_rad = 1e-3;
 /// errors count again (simulated_run_test: NEES).
 constexpr double kScatter = 3;
 constexpr int kNumScatter = 1;
+
+/// Windows of a camera that stands lie within this quantile.
+constexpr double kStillProbability = 0.99;
 
 /// What an earlier drive has found stands where its columns lie within this quantile.
 constexpr double kSameProbability = 0.95;
@@ -131,7 +135,7 @@ void CalibrationState::TakeScatter(const Window& newest) {
 }
 
 void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
-  is_turning_ = false;
+  const bool was_turning = std::exchange(is_turning_, false);
   if (window.status == BundleStatus::kFailed || window.correction_covariance.isZero(0)) return;
   const Eigen::Matrix3d px2_by_turn = by_turn_.transpose() * by_turn_;
   const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
@@ -142,7 +146,9 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const Eigen::Matrix3d noise =
       scatter_ * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
   const double ratio = Square(off, turn_covariance_ + noise);
-  is_turning_ = ratio > 1;
+  // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
+  const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
+  is_turning_ = ratio > limit;
   if (is_turning_) {
     windows_.clear();
     turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();

@@ -12,7 +12,7 @@ namespace arfm_vo {
 /// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
 /// until its columns are known better than any single observation. From then on the newest
 /// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
-/// process noise is what the innovation asks for and none where that is within its covariance
+/// process noise is what the innovation asks for, and none where that is within its covariance
 /// (Jazwinski, Adaptive filtering, Automatica 1969). By how windows that share no keyframe scatter,
 /// which is out of sample, the covariance is wider than the residuals say.
 class CalibrationState {
