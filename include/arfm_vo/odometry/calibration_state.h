@@ -65,10 +65,10 @@ class CalibrationState {
   bool is_found_ = false;  ///< was known once
   bool is_turning_ = false;
   CorrectionBelief::Turns by_turn_;
-  CorrectionBelief prior_;       ///< without any keyframe
+  CorrectionBelief prior_;                      ///< without any keyframe
   std::optional<StereoCorrection> remembered_;  ///< of an earlier drive, and not refuted
-  CorrectionBelief learnt_;      ///< with them, as their residuals say
-  CorrectionBelief correction_;  ///< the same as it is told
+  CorrectionBelief learnt_;                     ///< with them, as their residuals say
+  CorrectionBelief correction_;                 ///< the same as it is told
   Eigen::Matrix3d turn_covariance_ = Eigen::Matrix3d::Zero();  ///< rad^2, of what has turned since
   int first_telling_ = 0;
   double turned_rad_ = 0;       ///< since it was learnt
