@@ -94,13 +94,17 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   return belief;
 }
 
-CorrectionBelief CorrectionBelief::Unconfirmed(const StereoCamera& camera) const {
+CorrectionBelief CorrectionBelief::AfterAPause(const StereoCamera& camera) const {
   const auto by_errors = CoefficientsByErrors(camera);
   const ErrorSigmas sigma(kSigmaBetweenDrives);
   CorrectionBelief belief = *this;
   belief.is_of_earlier_drive = false;
   belief.covariance += by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
   return belief;
+}
+
+CorrectionBelief::Turns CorrectionBelief::ByTurn(const StereoCamera& camera) {
+  return CoefficientsByErrors(camera).leftCols<3>();
 }
 
 CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }

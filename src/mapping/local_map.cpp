@@ -238,6 +238,13 @@ void LocalMap::RemoveObservation(KeyframeId keyframe_id, LandmarkId landmark_id)
   }
 }
 
+void LocalMap::ForgetRight(KeyframeId before) {
+  for (Keyframe& keyframe : keyframes_) {
+    if (keyframe.id >= before) break;
+    for (LandmarkObservation& observation : keyframe.observations) observation.has_right = false;
+  }
+}
+
 void LocalMap::Transform(const Rigid3& new_from_old) {
   const Rigid3 old_from_new = new_from_old.Inverse();
   const Eigen::Matrix3d rotation = new_from_old.RotationMatrix();

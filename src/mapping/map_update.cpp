@@ -12,6 +12,7 @@ void ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
     anchor_in_map = keyframe.camera_from_world;
   }
   if (anchor == nullptr) return;
+  map.ForgetRight(update.keyframes.front().id);
   const Rigid3 odom_from_map = anchor->camera_from_world.Inverse() * anchor_in_map;
   const Rigid3 map_from_odom = odom_from_map.Inverse();
   for (const auto& keyframe : update.keyframes) {

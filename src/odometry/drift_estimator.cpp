@@ -1,6 +1,8 @@
 #include "arfm_vo/odometry/drift_estimator.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -67,12 +69,23 @@ PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_ke
 }
 
 void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
-  const CorrectionBelief::Placing unknown = correction.PlacingCovariance();
-  const bool is_learnt = unknown.trace() <= unknown_.trace();
-  // What is learnt is independent of what stays unknown; another camera is all new.
-  const CorrectionBelief::Placing settled = is_learnt ? unknown_ - unknown : unknown_;
-  covariance_ += by_correction_ * settled * by_correction_.transpose();
-  if (!is_learnt) by_correction_.setZero();
+  using Placing = CorrectionBelief::Placing;
+  const Placing unknown = correction.PlacingCovariance();
+  // In directions of their own (unknown_ = L L^T, unknown = L V d V^T L^T) what is learnt, d < 1,
+  // is independent of what stays unknown; what has opened, d > 1, is of a camera that has changed.
+  const Eigen::LLT<Placing> factor(unknown_);
+  Placing kept = Placing::Zero();  // takes what is unknown now to what was unknown of the same
+  if (factor.info() == Eigen::Success) {
+    const Placing half = factor.matrixL().solve(unknown);
+    const Eigen::SelfAdjointEigenSolver<Placing> ratios(
+        factor.matrixL().solve(half.transpose()).transpose());
+    const Placing directions = factor.matrixL() * ratios.eigenvectors();
+    kept = directions * ratios.eigenvalues().cwiseMax(1).cwiseInverse().asDiagonal() *
+           directions.inverse();
+  }
+  covariance_ +=
+      by_correction_ * (unknown_ - kept * unknown * kept.transpose()) * by_correction_.transpose();
+  by_correction_ *= kept;
   unknown_ = unknown;
 }
 

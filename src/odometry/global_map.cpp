@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/global_map.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
@@ -21,6 +22,10 @@ constexpr double kAdjustmentGrowth = 1.5;
 /// How sure the motion between two keyframes is when a loop is shared out among them.
 constexpr double kStepSigma_rad = 5e-4, kStepSigma_m = 2e-3, kStepSigmaShare = 2e-3;
 
+bool HasResult(const BundleResult& result) {
+  return result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
+}
+
 }  // namespace
 
 void GlobalMapOptions::Check() const {
@@ -35,7 +40,7 @@ GlobalMap::GlobalMap(const StereoCamera& camera, const GlobalMapOptions& options
     : camera_(camera),
       options_(options),
       detector_(camera, options.loops),
-      learner_(camera, options.learn_correction, correction) {
+      calibration_(camera, options.learn_correction, correction) {
   camera.Check();
   options.Check();
 }
@@ -44,13 +49,12 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
   const int newest = num_keyframes();
-  learner_.CheckRows(keyframe, newest);
   Keyframe kept = keyframe;
   kept.camera_from_world = keyframe.camera_from_world * map_from_odom_.Inverse();
   kept.first_landmark = FirstLandmark(landmarks);
   if (newest > 0) {
     const Rigid3& before = store_.keyframes.back().camera_from_world;
-    learner_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
+    calibration_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
   }
   store_.keyframes.push_back(std::move(kept));
   for (const Landmark& landmark : landmarks) {
@@ -68,11 +72,10 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
     landmark->second.last_keyframe = newest;
   }
   if (options_.loops.enabled) {
-    if (const auto loop = detector_.Detect(store_, learner_.correction().mean)) Close(*loop);
+    if (const auto loop = detector_.Detect(store_, calibration_.correction().mean)) Close(*loop);
   }
-  if (num_keyframes() <= options_.max_keyframes) learner_.LearnFromTurns();
+  FollowCalibration();
   if (num_keyframes() <= options_.NumMoving()) return;
-  learner_.Hold();  // a drive that did not tell more so far: the rest would count twice
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
                 options_.loops.enabled);
@@ -84,11 +87,16 @@ int NextAdjustment(int num_keyframes, int num_moving) {
 }
 
 bool GlobalMap::IsAdjustmentDue() const {
-  return num_keyframes() >= next_adjustment_ || is_contradicted_;
+  return num_keyframes() >= next_adjustment_ || is_contradicted_ || calibration_.IsTurning();
 }
 
 int GlobalMap::FirstMoving() const {
-  return std::max(1, num_keyframes() - options_.NumMoving());  // the first of all never moves
+  // The first of all never moves, nor do those of another correction.
+  return std::max(calibration_.first_telling() + 1, num_keyframes() - options_.NumMoving());
+}
+
+int GlobalMap::FirstSeeing() const {
+  return std::max(store_.first_seeing, calibration_.first_telling());
 }
 
 LandmarkId GlobalMap::FirstLandmark(const std::vector<Landmark>& landmarks) const {
@@ -146,14 +154,27 @@ void GlobalMap::BendOntoLoops() {
   is_contradicted_ = false;
 }
 
-/// Poses are those of the keyframes from store_.first_seeing on, then those that loops lead back
-/// to.
+/// The newest keyframes alone.
+void GlobalMap::FollowCalibration() {
+  const auto prior = calibration_.WindowPrior(num_keyframes());
+  if (!prior) return;
+  const int first = num_keyframes() - CalibrationState::kWindow;
+  BundleProblem window = MakeProblem(first, first + 1);
+  window.correction_prior = prior;
+  calibration_.Follow(AdjustBundle(std::move(window), options_.solver), num_keyframes());
+}
+
 BundleProblem GlobalMap::MakeProblem() {
+  BundleProblem problem = MakeProblem(FirstSeeing(), FirstMoving());
+  problem.correction_prior = calibration_.Prior();
+  return problem;
+}
+
+/// Poses are those of the keyframes from `first_seeing` on, then those that loops lead back to.
+BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
   BundleProblem problem;
   problem.camera = camera_;
-  problem.correction = learner_.correction().mean;
-  problem.correction_prior = learner_.Prior();
-  const int first_moving = FirstMoving();
+  problem.correction = calibration_.correction().mean;
   for (auto& [id, point] : store_.landmarks) {
     point.row = -1;
     const bool is_seen = point.last_keyframe >= first_moving;
@@ -162,12 +183,12 @@ BundleProblem GlobalMap::MakeProblem() {
     problem.points.push_back(point.x_in_world);
   }
   size_t most = 0;
-  for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
+  for (int k = first_seeing; k < num_keyframes(); ++k) {
     most += store_.keyframes[k].observations.size();
   }
   problem.observations.reserve(most);
-  for (int k = store_.first_seeing; k < num_keyframes(); ++k) {
-    const int pose = k - store_.first_seeing;
+  for (int k = first_seeing; k < num_keyframes(); ++k) {
+    const int pose = k - first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_world);
     bool is_tied = false;  // to older ones: not where the odometry was lost in between
     for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
@@ -175,18 +196,17 @@ BundleProblem GlobalMap::MakeProblem() {
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       is_tied |= landmark->second.first_keyframe < k;
       problem.observations.push_back(
-          {{observation.pixels, observation.has_right && k >= learner_.first_telling(),
-            observation.sigma_px},
+          {{observation.pixels, observation.has_right, observation.sigma_px},
            pose,
            landmark->second.row});
     }
     problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
   for (const PoseConstraint& loop : loops_) {
-    if (loop.first >= store_.first_seeing || loop.second < first_moving) continue;
+    if (loop.first >= first_seeing || loop.second < first_moving) continue;
     PoseConstraint constraint = loop;
     constraint.first = static_cast<int>(problem.camera_from_world.size());
-    constraint.second -= store_.first_seeing;
+    constraint.second -= first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[loop.first].camera_from_world);
     problem.pose_is_fixed.push_back(true);
     problem.constraints.push_back(constraint);
@@ -196,20 +216,25 @@ BundleProblem GlobalMap::MakeProblem() {
 
 std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
   if (num_keyframes() < 2) return std::nullopt;
-  next_adjustment_ = NextAdjustment(num_keyframes(), options_.NumMoving());
+  next_adjustment_ =
+      calibration_.first_telling() + NextAdjustment(num_adjusted(), options_.NumMoving());
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_world * map_from_odom_;
   const bool is_bent = is_contradicted_;
   if (is_bent) BendOntoLoops();
   BundleProblem problem = MakeProblem();
   if (problem.observations.empty()) return std::nullopt;
+  const bool is_open = problem.correction_prior.has_value();
   BundleResult result = AdjustBundle(std::move(problem), options_.solver, progress);
-  if (result.status == BundleStatus::kFailed) return std::nullopt;
-  if (learner_.Learn(result)) {
-    problem = MakeProblem();
+  if (!HasResult(result)) return std::nullopt;
+  CalibrationState calibration = calibration_;
+  if (is_open && !calibration.Learn(result, num_keyframes())) {
+    problem = MakeProblem();  // the poses must be of the correction that is told
     problem.correction_prior.reset();
+    problem.correction = calibration.correction().mean;
     result = AdjustBundle(std::move(problem), options_.solver, progress);
-    if (result.status == BundleStatus::kFailed) return std::nullopt;
+    if (!HasResult(result)) return std::nullopt;
   }
+  calibration_ = std::move(calibration);
   num_adjusted_loops_ = loops_.size();
   MapUpdate update = TakeResult(result, is_bent);
   map_from_odom_ = store_.keyframes.back().camera_from_world.Inverse() * newest_from_odom;
@@ -218,13 +243,13 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
 
 MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   MapUpdate update;
-  update.num_keyframes = num_keyframes();
-  update.correction = learner_.correction();
+  update.num_keyframes = num_adjusted();
+  update.correction = calibration_.correction();
   const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
   for (int k = 0; k < num_keyframes(); ++k) {
     Keyframe& keyframe = store_.keyframes[k];
-    if (k >= store_.first_seeing) {
-      keyframe.camera_from_world = result.camera_from_world[k - store_.first_seeing];
+    if (k >= FirstSeeing()) {
+      keyframe.camera_from_world = result.camera_from_world[k - FirstSeeing()];
     }
     if (k >= first) update.keyframes.push_back({keyframe.id, keyframe.camera_from_world});
   }

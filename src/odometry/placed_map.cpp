@@ -41,7 +41,9 @@ void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
   adjusted_.clear();
   epoch_ = keyframe.epoch;
   if (!correction_ || !(camera_ == keyframe.camera)) {
-    SetCorrection(keyframe.camera, CorrectionBelief::OfCalibration(keyframe.camera));
+    SetCorrection(keyframe.camera, options_.learn_correction
+                                       ? CorrectionBelief::OfCalibration(keyframe.camera)
+                                       : CorrectionBelief::OfExactCalibration());
   }
   global_.emplace(keyframe.camera, options_, *correction_);
   frame_.StartEpoch(keyframe.odom_from_world);

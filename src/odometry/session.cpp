@@ -223,7 +223,7 @@ void Session::StartEpoch() {
 }
 
 void Session::SetCorrection(const StereoCamera& camera, const CorrectionBelief& correction) {
-  correction_ = correction.is_of_earlier_drive ? correction.Unconfirmed(camera) : correction;
+  correction_ = correction.is_of_earlier_drive ? correction.AfterAPause(camera) : correction;
   correction_camera_ = camera;
 }
 

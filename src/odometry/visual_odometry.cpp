@@ -19,11 +19,16 @@ VisualOdometry::VisualOdometry(const StereoCamera& camera, const OdometryOptions
       session_(options.odometry),
       map_(options.global) {
   options.Check();
+  if (!options.global.learn_correction) {
+    session_.SetCorrection(camera, CorrectionBelief::OfExactCalibration());
+  }
 }
 
 void VisualOdometry::SetCorrection(const CorrectionBelief& correction) {
   frontend_.SetCorrection(correction);
-  session_.SetCorrection(camera_, correction);
+  CorrectionBelief known = correction;
+  known.is_of_earlier_drive &= options_.global.learn_correction;  // else taken as it is
+  session_.SetCorrection(camera_, known);
   map_.SetCorrection(camera_, correction);
 }
 
@@ -51,7 +56,7 @@ void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
   map_.Add(keyframe);
   if (!map_.IsAdjustmentDue()) return;
   MapUpdate newest;
-  newest.num_keyframes = map_.num_keyframes();
+  newest.num_keyframes = map_.num_adjusted();
   newest.keyframes.push_back({keyframe.keyframe.id, {}});
   adjusted_at_ = session_.TakeoverFrame(newest);
   adjustment_ = std::async(std::launch::async, [this] { return map_.Adjust(); });

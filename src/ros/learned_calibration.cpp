@@ -35,7 +35,7 @@ std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& 
   try {
     const auto correction = ReadLearnedCorrection(Path(), camera);
     if (!correction) return std::nullopt;
-    written_ = correction->mean;
+    written_ = *correction;
     ROS_INFO("what earlier drives told of the rectification is read from %s (known to %.2f px)",
              Path().c_str(), correction->MaxColumnSigma(camera));
     return correction;
@@ -46,11 +46,12 @@ std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& 
 }
 
 void LearnedCalibration::Write(const CorrectionBelief& correction) {
-  const bool is_new = correction.mean.coefficients_px != written_.coefficients_px;
+  const bool is_new = correction.mean.coefficients_px != written_.mean.coefficients_px ||
+                      correction.covariance != written_.covariance;
   if (!options_.remember_calibration || !camera_ || !is_new) return;
   try {
     WriteLearnedCorrection(Path(), *camera_, correction);
-    written_ = correction.mean;
+    written_ = correction;
   } catch (const std::exception& error) {
     ROS_WARN_THROTTLE(60, "learned calibration is not kept: %s", error.what());
   }

@@ -42,7 +42,7 @@ class LearnedCorrectionFileTest : public testing::Test {
   CorrectionBelief belief_;
 };
 
-TEST_F(LearnedCorrectionFileTest, ComesBackToTheLastBit) {
+TEST_F(LearnedCorrectionFileTest, ComesBackAsThatOfAnEarlierDrive) {
   EXPECT_FALSE(ReadLearnedCorrection(path_, kCamera));
   WriteLearnedCorrection(path_, kCamera, belief_);
   const auto back = ReadLearnedCorrection(path_, kCamera);

@@ -93,7 +93,7 @@ TEST(CorrectionBelief, ThatOfAnEarlierDriveLeavesOpenWhetherTheCamerasHaveTurned
   CorrectionBelief earlier = CorrectionBelief::Isotropic(0.01);
   earlier.mean.coefficients_px[4] = 0.4;
   earlier.is_of_earlier_drive = true;
-  const CorrectionBelief now = earlier.Unconfirmed(kCamera);
+  const CorrectionBelief now = earlier.AfterAPause(kCamera);
   EXPECT_FALSE(now.is_of_earlier_drive);
   EXPECT_EQ(now.mean.coefficients_px, earlier.mean.coefficients_px);
   const StereoCorrection yaw = Fit([](const Eigen::Vector2d& pixel) {
@@ -103,6 +103,7 @@ TEST(CorrectionBelief, ThatOfAnEarlierDriveLeavesOpenWhetherTheCamerasHaveTurned
   });
   const auto& turned = yaw.coefficients_px;
   EXPECT_NEAR(turned.dot(now.Information() * turned), 1, 0.01) << "one standard deviation";
+  EXPECT_LT((1e-3 * CorrectionBelief::ByTurn(kCamera).col(1) - turned).norm(), 0.01);
   EXPECT_NEAR(std::sqrt(now.covariance(11, 11)), 0.01, 0.01) << "radial: the lens is the same";
 }
 

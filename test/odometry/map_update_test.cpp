@@ -43,6 +43,21 @@ TEST_F(MapUpdateTest, TheNewestKeyframeThatBothKnowStaysAndTheRestMovesAgainstIt
   EXPECT_EQ(map_.landmarks().count(1000000), 0u);
 }
 
+/// They are of another correction: their right pixels do not place what they saw.
+TEST_F(MapUpdateTest, KeyframesBeforeThoseThatItMovesKeepTheirLeftEyeAlone) {
+  MapUpdate update;
+  update.keyframes = {{1, Rigid3()}};
+  ApplyMapUpdate(update, map_);
+  for (const LandmarkObservation& seen : map_.FindKeyframe(0)->observations) {
+    ASSERT_FALSE(seen.has_right);
+  }
+  int num_right = 0;
+  for (const LandmarkObservation& seen : map_.FindKeyframe(1)->observations) {
+    num_right += seen.has_right;
+  }
+  EXPECT_GT(num_right, 10);
+}
+
 TEST_F(MapUpdateTest, WithoutACommonKeyframeNothingMoves) {
   const Eigen::Vector3d before = PlaceOf(landmark_);
   MapUpdate update;

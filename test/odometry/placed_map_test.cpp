@@ -152,6 +152,16 @@ TEST(PlacedMap, ARestartedOdometryKeepsWhatIsKnownOfTheCamera) {
   EXPECT_EQ(map.correction()->covariance, learnt.covariance);
 }
 
+TEST(PlacedMap, WithoutLearningTheCalibrationIsTakenAsExact) {
+  GlobalMapOptions options;
+  options.learn_correction = false;
+  PlacedMap map(options);
+  AddEpoch(map, 1, 0, 0.5, 0.5);
+  ASSERT_TRUE(map.correction());
+  EXPECT_TRUE(map.correction()->mean.IsZero());
+  EXPECT_LT(map.correction()->MaxColumnSigma(kCamera), 0.01);
+}
+
 TEST(PlacedMap, CanBeCancelled) {
   PlacedMap map{GlobalMapOptions()};
   EXPECT_FALSE(map.Adjust({}));

@@ -44,6 +44,21 @@ TEST_F(VisualOdometryTest, FollowsADrive) {
   EXPECT_LT(ErrorIn(trajectory.back().world_from_camera.Inverse(), 14), 0.02);
 }
 
+/// What a pixel in the columns would make of the path's length is no part of it.
+TEST_F(VisualOdometryTest, WithoutLearningPosesAreAsSureAsWithAnExactCalibration) {
+  OdometryOptions options;
+  options.global.learn_correction = false;
+  VisualOdometry exact(wall_.camera(), options);
+  double sigma2 = 0, exact_sigma2 = 0;
+  for (int i = 0; i < 6; ++i) {
+    const StereoImages images = wall_.Render(0.1 * i, Truth(i));
+    sigma2 = odometry_.Process(images).covariance.trace();
+    exact_sigma2 = exact.Process(images).covariance.trace();
+  }
+  EXPECT_GT(exact_sigma2, 0);
+  EXPECT_LT(exact_sigma2, 0.5 * sigma2);
+}
+
 TEST_F(VisualOdometryTest, FindsItsWayAgainAfterTenBlackPairs) {
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(See(i).IsTracked());
   for (int i = 5; i < 15; ++i) EXPECT_FALSE(SeeNothing(i).IsTracked()) << i;

@@ -12,9 +12,9 @@ namespace arfm_vo {
 void WriteLearnedCorrection(const std::string& path, const StereoCamera& camera,
                             const CorrectionBelief& correction);
 
-/// Reads it back to the last bit. Nothing where there is no such file, or it belongs to a camera
-/// with other values. Throws std::invalid_argument naming file and key where the file is not as
-/// written.
+/// What the file says, as a belief of an earlier drive. Nothing where there is no such file, or it
+/// belongs to a camera with other values. Throws std::invalid_argument naming file and key where
+/// the file is not as written.
 std::optional<CorrectionBelief> ReadLearnedCorrection(const std::string& path,
                                                       const StereoCamera& camera);
 

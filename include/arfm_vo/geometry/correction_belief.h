@@ -10,7 +10,7 @@ struct CorrectionBelief {
 
   StereoCorrection mean;
   Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
-  bool is_of_earlier_drive = false;    ///< and not yet confirmed by this one
+  bool is_of_earlier_drive = false;    ///< and this one has not told yet whether it still holds
 
   /// Each coefficient zero within `sigma_px`, independently of the others.
   static CorrectionBelief Isotropic(double sigma_px);
@@ -22,10 +22,16 @@ struct CorrectionBelief {
   /// the corners, both images may be off radially by some pixels (at a focal length of 700 px;
   /// others in proportion), and the focal length of both by 0.1 %.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
+  /// Of a calibration that is right: within a thousandth of a pixel, so that it can be inverted.
+  static CorrectionBelief OfExactCalibration() { return Isotropic(1e-3); }
 
   /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have
   /// turned the cameras against each other by a milliradian, and moved a centre by 0.3 px.
-  CorrectionBelief Unconfirmed(const StereoCamera& camera) const;
+  CorrectionBelief AfterAPause(const StereoCamera& camera) const;
+
+  using Turns = Eigen::Matrix<double, StereoCorrection::kSize, 3>;
+  /// Coefficients by a turn of the right camera about its axes, px/rad.
+  static Turns ByTurn(const StereoCamera& camera);
 
   Matrix Information() const;
   using Placing =

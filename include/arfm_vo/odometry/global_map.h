@@ -6,7 +6,7 @@
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/odometry/correction_learner.h"
+#include "arfm_vo/odometry/calibration_state.h"
 #include "arfm_vo/odometry/loop_detector.h"
 #include "arfm_vo/odometry/map_store.h"
 
@@ -18,8 +18,8 @@ struct GlobalMapOptions {
   /// The newest so many move. Older ones are held where they are, poses alone but for what they saw
   /// of the same landmarks: this bounds the memory and the time that an adjustment takes.
   int max_keyframes = 110;
-  /// Learn what rectification left undone, until it is known; false: take the calibration, or what
-  /// was learnt in an earlier drive, as it is.
+  /// Learn what rectification left undone, and follow it; false: take the calibration, or what was
+  /// learnt in an earlier drive, as it is.
   bool learn_correction = true;
 
   LoopOptions loops;  ///< places known again; off unless enabled
@@ -48,7 +48,7 @@ struct GlobalMapOptions {
 int NextAdjustment(int num_keyframes, int num_moving);
 
 /// The path, and the newest keyframes with their points for the global bundle adjustment (Fig. 4).
-/// Adjustments find the stereo correction too as long as that is to be learnt (CorrectionLearner).
+/// Adjustments find the stereo correction too where that is open (CalibrationState).
 class GlobalMap {
  public:
   /// `correction`: what is known of it before.
@@ -65,14 +65,15 @@ class GlobalMap {
 
   /// Adjusts everything; where a loop closed since the last time contradicts the path, it is bent
   /// onto the loops first (pose graph). Nothing where there are fewer than two keyframes or no
-  /// solution.
-  /// `progress` is called after each iteration; false from it cancels.
+  /// solution, or where `progress`, which is called after each iteration, returns false.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
   /// Takes the newest keyframe's pose in odom to that in the map.
   Rigid3 MapFromOdom() const { return map_from_odom_; }
 
   int num_keyframes() const { return static_cast<int>(store_.keyframes.size()); }
+  /// Of the correction that holds now: those before stay where they are.
+  int num_adjusted() const { return num_keyframes() - calibration_.first_telling(); }
   int num_landmarks() const { return static_cast<int>(store_.landmarks.size()); }
   int num_loops() const { return static_cast<int>(loops_.size()); }
   /// False also of one that is forgotten.
@@ -81,9 +82,12 @@ class GlobalMap {
  private:
   LandmarkId FirstLandmark(const std::vector<Landmark>& landmarks) const;
   int FirstMoving() const;
+  int FirstSeeing() const;
   void Close(const Loop& loop);
   void BendOntoLoops();
+  BundleProblem MakeProblem(int first_seeing, int first_moving);
   BundleProblem MakeProblem();
+  void FollowCalibration();
   MapUpdate TakeResult(const BundleResult& result, bool is_bent);
 
   StereoCamera camera_;
@@ -95,7 +99,7 @@ class GlobalMap {
   size_t num_adjusted_loops_ = 0;  ///< the first ones, that an adjustment has taken in
   bool is_contradicted_ = false;   ///< by a loop closed since the last adjustment
   int next_adjustment_ = 2;        ///< at this number of keyframes
-  CorrectionLearner learner_;
+  CalibrationState calibration_;
 };
 
 }  // namespace arfm_vo

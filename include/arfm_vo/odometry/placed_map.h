@@ -50,6 +50,7 @@ class PlacedMap {
   const Rigid3& map_from_odom() const { return frame_.map_from_odom(); }
   uint32_t epoch() const { return epoch_; }
   int num_keyframes() const { return global_ ? global_->num_keyframes() : 0; }  ///< of this epoch
+  int num_adjusted() const { return global_ ? global_->num_adjusted() : 0; }
   int num_landmarks() const { return global_ ? global_->num_landmarks() : 0; }  ///< of this epoch
   int num_loops() const { return global_ ? global_->num_loops() : 0; }          ///< of this epoch
 

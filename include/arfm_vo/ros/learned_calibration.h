@@ -36,7 +36,7 @@ class LearnedCalibration {
 
   LearnedCalibrationOptions options_;
   std::optional<StereoCamera> camera_;
-  StereoCorrection written_;
+  CorrectionBelief written_;
 };
 
 }  // namespace arfm_vo

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+
+#include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
+#include "arfm_vo/geometry/correction_belief.h"
+
+namespace arfm_vo {
+
+/// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
+/// until its columns are known better than any single observation. From then on the newest
+/// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
+/// process noise is what the innovation asks for, and none where that is within its covariance
+/// (Jazwinski, Adaptive filtering, Automatica 1969). By how windows that share no keyframe scatter,
+/// which is out of sample, the covariance is wider than the residuals say.
+class CalibrationState {
+ public:
+  static constexpr int kWindow = 4;  ///< keyframes
+
+  /// `known`: before the first keyframe. It stays for good unless `may_learn`.
+  CalibrationState(const StereoCamera& camera, bool may_learn, const CorrectionBelief& known);
+
+  const CorrectionBelief& correction() const { return correction_; }
+  /// Keyframes before this one are of another correction, and tell nothing of this.
+  int first_telling() const { return first_telling_; }
+  /// Whether the newest keyframe tells of a turn of the right camera, which is followed.
+  bool IsTurning() const { return is_turning_; }
+
+  /// The rover has turned by so much more, which tells of the lenses.
+  void AddTurn(double turn_rad);
+
+  /// What is known without the keyframes from first_telling() on, for an adjustment of these that
+  /// is to find the correction; nothing where it stays as it is. The focal length of both images is
+  /// told by no straight way and bent by all that the model does not know, so its prior counts in
+  /// full, against observations that count by their scatter.
+  std::optional<CorrectionBelief> Prior() const;
+  /// Takes what such an adjustment, of all `num_keyframes`, has found: what an earlier drive found
+  /// stands as long as that allows it. False where its poses are not of the correction that is told
+  /// then.
+  bool Learn(const BundleResult& result, int num_keyframes);
+
+  /// For an adjustment of the newest kWindow of `num_keyframes` alone; nothing where the correction
+  /// is not found yet, or was learnt from all of them.
+  std::optional<CorrectionBelief> WindowPrior(int num_keyframes) const;
+  /// Takes what that has found.
+  void Follow(const BundleResult& window, int num_keyframes);
+
+ private:
+  using Matrix = CorrectionBelief::Matrix;
+  struct Window {
+    Eigen::Vector3d turn;        ///< rad, of the right camera
+    Eigen::Matrix3d covariance;  ///< as its residuals say
+  };
+  /// Takes the scatter of a window and the newest that shares no keyframe with it.
+  void TakeScatter(const Window& newest);
+  void Tell();
+  /// As it is but for a turn of the right camera.
+  CorrectionBelief OpenToATurn() const;
+  bool Allows(const StereoCorrection& mean) const;
+
+  StereoCamera camera_;
+  bool may_learn_, is_open_;
+  bool is_found_ = false;  ///< was known once
+  bool is_turning_ = false;
+  CorrectionBelief::Turns by_turn_;
+  CorrectionBelief prior_;                      ///< without any keyframe
+  std::optional<StereoCorrection> remembered_;  ///< of an earlier drive, and not refuted
+  CorrectionBelief learnt_;                     ///< with them, as their residuals say
+  CorrectionBelief correction_;                 ///< the same as it is told
+  Eigen::Matrix3d turn_covariance_ = Eigen::Matrix3d::Zero();  ///< rad^2, of what has turned since
+  int first_telling_ = 0;
+  double turned_rad_ = 0;       ///< since it was learnt
+  int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
+  std::deque<Window> windows_;  ///< the newest ones, kWindow at most, one a keyframe
+  double scatter_;              ///< mean square of windows' turns in what their residuals say
+  int num_apart_ = 0;           ///< windows that told it
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,169 @@
+#include "arfm_vo/odometry/calibration_state.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "arfm_vo/pose/chi_square.h"
+
+namespace arfm_vo {
+namespace {
+
+/// The correction is known where its columns are known better than this all over the image, and
+/// the camera has turned where that moves columns by more: no observation is trusted more
+/// (LandmarkAlignerOptions::min_sigma_px).
+constexpr double kKnownSigmaPx = 0.1;
+
+/// No coefficient is known better: a lens is not quite what its model says.
+constexpr double kModelSigmaPx = 0.05;
+
+/// What an adjustment holds, px.
+constexpr double kHeldSigmaPx = 1e-3;
+
+/// How far from the correction a window looks for it, about each axis.
+constexpr double kTurnSigma_rad = 1e-3;
+
+/// The scatter before any windows have told it, and for how many of them that counts. Observations
+/// that tell of the correction also place the points that the odometry then goes by, so their
+/// errors count again (simulated_run_test: NEES).
+constexpr double kScatter = 3;
+constexpr int kNumScatter = 1;
+
+/// Windows of a camera that stands lie within this quantile.
+constexpr double kStillProbability = 0.99;
+
+/// What an earlier drive has found stands where its columns lie within this quantile.
+constexpr double kSameProbability = 0.95;
+
+/// The focal length of both images, and their radial distortion, show where the rover turns: after
+/// so much of it the correction is learnt anew from all keyframes.
+constexpr double kTellingTurn_rad = 0.5;
+
+constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+
+/// Of a vector of three with this covariance; 1 in the mean.
+double Square(const Eigen::Vector3d& x, const Eigen::Matrix3d& covariance) {
+  return x.dot(covariance.ldlt().solve(x)) / 3;
+}
+
+}  // namespace
+
+CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
+                                   const CorrectionBelief& known)
+    : camera_(camera),
+      may_learn_(may_learn),
+      is_open_(may_learn &&
+               (known.is_of_earlier_drive || known.MaxColumnSigma(camera) > kKnownSigmaPx)),
+      by_turn_(CorrectionBelief::ByTurn(camera)),
+      prior_(known),
+      learnt_(known),
+      correction_(known),
+      scatter_(kScatter) {
+  correction_.is_of_earlier_drive = false;
+  if (!may_learn || !known.is_of_earlier_drive) return;
+  prior_ = CorrectionBelief::OfCalibration(camera);
+  remembered_ = known.mean;
+  learnt_ = correction_ = known.AfterAPause(camera);
+}
+
+void CalibrationState::AddTurn(double turn_rad) {
+  turned_rad_ += turn_rad;
+  is_open_ |= may_learn_ && turned_rad_ > kTellingTurn_rad;
+}
+
+std::optional<CorrectionBelief> CalibrationState::Prior() const {
+  if (!is_open_) return std::nullopt;
+  CorrectionBelief prior = prior_;
+  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  return prior;
+}
+
+bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
+  if (result.correction_covariance.isZero(0)) return false;
+  learnt_ = {result.correction, result.correction_covariance};
+  is_open_ = learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  is_found_ |= !is_open_;
+  num_learnt_ = num_keyframes;
+  turn_covariance_.setZero();
+  turned_rad_ = 0;
+  Tell();
+  if (remembered_ && !Allows(*remembered_)) remembered_.reset();
+  if (!remembered_) return true;
+  learnt_.mean = *remembered_;
+  Tell();
+  return false;
+}
+
+/// Whether the columns of a camera with the correction `mean` would be found so.
+bool CalibrationState::Allows(const StereoCorrection& mean) const {
+  constexpr int kNum = StereoCorrection::kNumField;
+  const auto off = (correction_.mean.coefficients_px - mean.coefficients_px).head<kNum>().eval();
+  const auto allowed = correction_.covariance.topLeftCorner<kNum, kNum>().eval();
+  return off.dot(allowed.llt().solve(off)) <= ChiSquareQuantile(kNum, kSameProbability);
+}
+
+void CalibrationState::Tell() {
+  correction_ = {learnt_.mean, scatter_ * learnt_.covariance +
+                                   CorrectionBelief::Isotropic(kModelSigmaPx).covariance +
+                                   by_turn_ * turn_covariance_ * by_turn_.transpose()};
+}
+
+std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
+  const bool is_first_found = !is_open_ || is_found_;
+  const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
+  if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
+  return OpenToATurn();
+}
+
+CorrectionBelief CalibrationState::OpenToATurn() const {
+  CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
+  open.mean = correction_.mean;
+  open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
+  return open;
+}
+
+void CalibrationState::TakeScatter(const Window& newest) {
+  windows_.push_back(newest);
+  if (windows_.size() <= kWindow) return;
+  const Window before = windows_.front();
+  windows_.pop_front();
+  const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
+  scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
+  Tell();
+}
+
+void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
+  const bool was_turning = std::exchange(is_turning_, false);
+  if (window.status == BundleStatus::kFailed || window.correction_covariance.isZero(0)) return;
+  const Eigen::Matrix3d px2_by_turn = by_turn_.transpose() * by_turn_;
+  const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
+      px2_by_turn.ldlt().solve(by_turn_.transpose());
+  const Window newest{turn_of * window.correction.coefficients_px,
+                      turn_of * window.correction_covariance * turn_of.transpose()};
+  const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
+  const Eigen::Matrix3d noise =
+      scatter_ * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
+  const double ratio = Square(off, turn_covariance_ + noise);
+  // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
+  const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
+  is_turning_ = ratio > limit;
+  if (is_turning_) {
+    windows_.clear();
+    turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();
+    first_telling_ = num_keyframes - kWindow;
+    is_open_ = false;
+  } else {
+    TakeScatter(newest);
+  }
+  const Eigen::Matrix3d gain = turn_covariance_ * (turn_covariance_ + noise).inverse();
+  learnt_.mean.coefficients_px += by_turn_ * gain * off;
+  turn_covariance_ -= gain * turn_covariance_;
+  Tell();
+  if (!is_turning_) return;
+  prior_ = OpenToATurn();
+  prior_.covariance += correction_.covariance;
+}
+
+}  // namespace arfm_vo
