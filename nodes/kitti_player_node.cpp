@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "arfm_vo/datasets/kitti_sequence.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/stereo_publisher.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/replay/stereo_publisher.h"
 
 namespace arfm_vo {
 namespace {

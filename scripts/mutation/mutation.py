@@ -162,8 +162,8 @@ def try_protections(text):
 
 def try_rules(folder, size, seed):
     """What became of a sample, and how many changes it was drawn from."""
-    paths = sorted((ROOT / folder).glob("*.cpp"))
-    sources = [Source(ROOT, "%s/%s" % (folder, path.name), i) for i, path in enumerate(paths)]
+    paths = sorted((ROOT / folder).rglob("*.cpp"))
+    sources = [Source(ROOT, str(path.relative_to(ROOT)), i) for i, path in enumerate(paths)]
     try:
         for source in sources:
             find_changes(source)

@@ -130,7 +130,7 @@ def bus():
 
 
 def nodes():
-    node = "src/ros/chassis_node.cpp"
+    node = "src/ros/rover/chassis_node.cpp"
     ros = ("ros",)
     return [
         Protection("simulated time is refused on a real bus", node, "!ros::Time::isSimTime() || IsSimulatedBus(options.can)",
@@ -144,22 +144,22 @@ def nodes():
         Protection("a latched heartbeat does not count", node, "!IsLatched(event)", "true", NODE),
         Protection("errors are cleared at rest only", node, 'if (!is_at_rest) return {false, "not sent: the rover moves"};', "", NODE),
         Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(message.header, ros::Time::now());", "", NODE),
-        Protection("an old goal, as a latched one, is refused", "src/ros/goal_reader.cpp", "age_s <= max_age_s_", "true", ros),
-        Protection("a goal from the future is refused", "src/ros/goal_reader.cpp", "age_s >= -kMaxFromFuture_s", "true", ros),
-        Protection("a tf from the future is refused", "src/ros/add_transform.cpp",
+        Protection("an old goal, as a latched one, is refused", "src/ros/rover/goal_reader.cpp", "age_s <= max_age_s_", "true", ros),
+        Protection("a goal from the future is refused", "src/ros/rover/goal_reader.cpp", "age_s >= -kMaxFromFuture_s", "true", ros),
+        Protection("a tf from the future is refused", "src/ros/messages/add_transform.cpp",
                    "transform.header.stamp.toSec() > now.toSec() + kMaxFromFuture_s", "false", ("ros",) + NODE),
-        Protection("driving time never runs back", "src/ros/driving_clock.cpp",
+        Protection("driving time never runs back", "src/ros/rover/driving_clock.cpp",
                    "std::max(0.0, now.toSec() - last_.toSec())", "now.toSec() - last_.toSec()", ("ros", "clock_stall")),
-        Protection("another odometry process is another epoch", "src/ros/epoch_reader.cpp", "connection != connection_", "false", NODE),
+        Protection("another odometry process is another epoch", "src/ros/rover/epoch_reader.cpp", "connection != connection_", "false", NODE),
         Protection("SIGHUP leaves a standing rover", "nodes/chassis_node.cpp",
                    "::signal(signal, [](int) { ros::requestShutdown(); });",
                    "if (signal != SIGHUP) ::signal(signal, [](int) { ros::requestShutdown(); });", NODE),
-        Protection("a covariance that is none is not taken for a good one", "src/ros/rover_sight.cpp",
+        Protection("a covariance that is none is not taken for a good one", "src/ros/rover/rover_sight.cpp",
                    "if (!position.allFinite()) return uncertainty;",
                    "if (!position.allFinite()) { uncertainty.position_sigma_m = 0; return uncertainty; }", ros),
-        Protection("the head does not home while the rover drives", "src/ros/pan_tilt_node.cpp",
+        Protection("the head does not home while the rover drives", "src/ros/rover/pan_tilt_node.cpp",
                    'Require(!drive_.IsDriving(), "the rover drives: stop it first");', "", ("pan_tilt",)),
-        Protection("no calibration is set while the rover drives", "src/ros/stereo_camera_node.cpp",
+        Protection("no calibration is set while the rover drives", "src/ros/rover/stereo_camera_node.cpp",
                    "drive.IsDriving()", "false", ("stereo_camera",)),
     ]
 
