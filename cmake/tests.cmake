@@ -59,9 +59,19 @@ function(arfm_script_test name script)
 endfunction()
 
 # arfm_isolate_tests(): the tests of this folder may run side by side: each has a ROS_HOME of its own. (A rostest takes a free
-# port for its master; our own tests ask for one, scripts/ports.py.)
+# port for its master; our own tests ask for one, test/ports.py.) The names given are those that take long, longest first:
+# ctest starts them first.
 function(arfm_isolate_tests)
   get_property(tests DIRECTORY PROPERTY TESTS)
+  set(cost 100)
+  foreach(name ${ARGN})
+    foreach(test ${tests})
+      if(test MATCHES "(^|_)${name}(.test)?$")
+        set_property(TEST ${test} PROPERTY COST ${cost})
+      endif()
+    endforeach()
+    math(EXPR cost "${cost} - 1")
+  endforeach()
   foreach(test ${tests})
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/ros_home/${test})  # rospack makes the last folder only
     set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home/${test}")

@@ -9,7 +9,7 @@ import rosbag
 
 BUILD_DIR, SOURCE_DIR = sys.argv[1:3]
 FIXTURE = os.path.join(SOURCE_DIR, "rosbag_fixtures", "terrain.bag")
-sys.path.insert(0, os.path.join(SOURCE_DIR, "scripts"))
+sys.path.insert(0, os.path.join(SOURCE_DIR, "test"))
 from ports import find_free_port  # noqa: E402
 
 

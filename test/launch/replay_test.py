@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """replay.launch as a user calls it, on bags of many shapes: what it does and what its console says.
 
-Usage: replay_test.py BUILD_DIR SOURCE_DIR
+Usage: replay_test.py BUILD_DIR SOURCE_DIR [ReplayTest | CameraTest]
 """
 import os
 import re
@@ -51,12 +51,14 @@ LATE_LISTENER = """
 """
 
 
-class ReplayTest(LaunchCase):
+class ReplayCase(LaunchCase):
     def replay(self, *arguments):
         code, console = self.launch("replay.launch", "rviz:=false", "end_delay_s:=3", *arguments)
         self.assertEqual(code, 0, console)
         return console
 
+
+class ReplayTest(ReplayCase):
     def test_paths_relative_to_the_caller_are_resolved_and_the_totals_are_told(self):
         os.symlink(FIXTURE, os.path.join(self.folder, "my drive.bag"))
         console = self.replay("bag:=my drive.bag", "trajectory_dir:=out")
@@ -65,38 +67,6 @@ class ReplayTest(LaunchCase):
         self.assertIn(f"36 poses saved in {self.folder}/out/poses.txt", console)
         self.assertTrue(os.path.exists(os.path.join(self.folder, "out", "trajectory.tum")))
         self.assertIn("assumed is tf base_link <- left_camera_optical", console)
-
-    def replay_renamed(self, left, right, image, frame):
-        """Replays the fixture as the camera of the namespaces `left` and `right` would record it."""
-        names = {"/stereo/left/image_rect": f"{left}/{image}",
-                 "/stereo/right/image_rect": f"{right}/{image}",
-                 "/stereo/left/camera_info": f"{left}/camera_info",
-                 "/stereo/right/camera_info": f"{right}/camera_info"}
-
-        def rename(topic, message):
-            message.header.frame_id = frame
-            return (names[topic], message) if topic in names else None
-
-        self.write_bag("renamed.bag", rename)
-        console = self.replay(
-            "bag:=renamed.bag", f"left_image:={left}/{image}", f"right_image:={right}/{image}",
-            f"left_info:={left}/camera_info", f"right_info:={right}/camera_info",
-            "base_from_camera:=0.1 0 0.5 -1.5707963 0 -1.5707963")
-        self.assertIn("36 pairs: 36 with a pose", console)
-        self.assertIn("tf base_link <- " + frame, console)
-        self.assertNotIn("assumed is", console)
-
-    def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
-        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw",
-                            "camera_infra1_optical_frame")
-
-    def test_a_zed_is_replayed_by_its_topics(self):
-        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray",
-                            "zed_left_camera_optical_frame")
-
-    def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
-        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
-                            "camera_gray_left")
 
     def test_the_mount_in_the_tf_of_the_bag_goes_before_the_assumed_one(self):
         from geometry_msgs.msg import TransformStamped
@@ -112,19 +82,6 @@ class ReplayTest(LaunchCase):
         self.assertIn("36 pairs: 36 with a pose", console)
         self.assertNotIn("assumed is", console)
 
-    def test_stamps_that_differ_are_told_and_paired_on_demand(self):
-        def delay_right(topic, message):
-            if "/right/" in topic:
-                message.header.stamp += rospy.Duration(0.002)
-            return topic, message
-
-        self.write_bag("apart.bag", delay_right)
-        console = self.replay("bag:=apart.bag")
-        self.assertIn("2.000 ms apart", console)
-        self.assertIn("approx_sync:=true", console)
-        self.assertIn("36 pairs: 36 with a pose",
-                      self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
-
     def test_no_pair_is_lost_before_somebody_listens_to_the_synchronized_ones(self):
         launch = os.path.join(self.folder, "late.launch")
         with open(launch, "w") as file:
@@ -135,12 +92,6 @@ class ReplayTest(LaunchCase):
         with rosbag.Bag(os.path.join(self.folder, "synchronized.bag")) as bag:
             counts = {topic: info.message_count for topic, info in bag.get_type_and_topic_info().topics.items()}
         self.assertEqual(list(counts.values()), [36] * 4, counts)
-
-    def test_raw_images_are_told_and_rectified_on_demand(self):
-        self.write_bag("raw.bag",
-                       lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
-        self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
-        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
 
     def test_a_bag_at_twice_its_speed_keeps_its_pose(self):
         console = self.replay("bag:=" + FIXTURE, "rate:=2")
@@ -176,6 +127,61 @@ class ReplayTest(LaunchCase):
         ways_m = [np.linalg.norm(row[common[-1]] - row[common[0]]) for row in rows]
         self.assertGreater(ways_m[0], 0.5)
         self.assertAlmostEqual(ways_m[0], ways_m[1], delta=0.02)
+
+
+class CameraTest(ReplayCase):
+    """Bags as other cameras record them."""
+
+    def replay_renamed(self, left, right, image, frame):
+        """Replays the fixture as the camera of the namespaces `left` and `right` would record it."""
+        names = {"/stereo/left/image_rect": f"{left}/{image}",
+                 "/stereo/right/image_rect": f"{right}/{image}",
+                 "/stereo/left/camera_info": f"{left}/camera_info",
+                 "/stereo/right/camera_info": f"{right}/camera_info"}
+
+        def rename(topic, message):
+            message.header.frame_id = frame
+            return (names[topic], message) if topic in names else None
+
+        self.write_bag("renamed.bag", rename)
+        console = self.replay(
+            "bag:=renamed.bag", f"left_image:={left}/{image}", f"right_image:={right}/{image}",
+            f"left_info:={left}/camera_info", f"right_info:={right}/camera_info",
+            "base_from_camera:=0.1 0 0.5 -1.5707963 0 -1.5707963")
+        self.assertIn("36 pairs: 36 with a pose", console)
+        self.assertIn("tf base_link <- " + frame, console)
+        self.assertNotIn("assumed is", console)
+
+    def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
+        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw",
+                            "camera_infra1_optical_frame")
+
+    def test_a_zed_is_replayed_by_its_topics(self):
+        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray",
+                            "zed_left_camera_optical_frame")
+
+    def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
+        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
+                            "camera_gray_left")
+
+    def test_stamps_that_differ_are_told_and_paired_on_demand(self):
+        def delay_right(topic, message):
+            if "/right/" in topic:
+                message.header.stamp += rospy.Duration(0.002)
+            return topic, message
+
+        self.write_bag("apart.bag", delay_right)
+        console = self.replay("bag:=apart.bag")
+        self.assertIn("2.000 ms apart", console)
+        self.assertIn("approx_sync:=true", console)
+        self.assertIn("36 pairs: 36 with a pose",
+                      self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
+
+    def test_raw_images_are_told_and_rectified_on_demand(self):
+        self.write_bag("raw.bag",
+                       lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
+        self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
+        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
 
 
 if __name__ == "__main__":

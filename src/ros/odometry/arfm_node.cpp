@@ -11,6 +11,7 @@
 #include "arfm_vo/ros/node/wall_rate.h"
 #include "arfm_vo/ros/node/worker.h"
 #include "arfm_vo/ros/odometry/frontend_pipeline.h"
+#include "arfm_vo/ros/odometry/running_median.h"
 
 namespace arfm_vo {
 
@@ -28,6 +29,7 @@ class ArfmNode::Impl {
     std::string refusal;  ///< why the newest pair was refused; empty where it was not
     int num_left = 0, num_right = 0, num_points = 0;
     double ms = 0;
+    RunningMedian times_ms{kTimedPairs};
     WallRate rate;
     bool is_idle = true;  ///< nobody subscribes to features
     StereoInputCounts input, input_before;
@@ -95,7 +97,7 @@ ArfmNode::Impl::~Impl() {
   worker_.RunAndWait([this] {
     TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
               std::to_string(worker_.num_dropped()) + " dropped, " +
-              std::to_string(figures_.num_refused) + " refused");
+              std::to_string(figures_.num_refused) + " refused" + TellTime(figures_.times_ms));
   });
 }
 
@@ -149,6 +151,7 @@ void ArfmNode::Impl::Process(const StereoMessagePair& pair) {
   features_.publish(frame);
   figures_.refusal.clear();
   figures_.ms = stopwatch.LapMs();
+  figures_.times_ms.Add(figures_.ms);
   figures_.rate.Tick();
 }
 

@@ -38,7 +38,7 @@ OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
 }
 
 OdometryHealth::~OdometryHealth() {
-  TellAtEnd("pose_node: " + console_.Totals(num_dropped_, num_refused_));
+  TellAtEnd("pose_node: " + console_.Totals(num_dropped_, num_refused_) + TellTime(times_ms_));
 }
 
 void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, double ms) {
@@ -51,6 +51,7 @@ void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, 
   last_ = pose;
   is_new_ = true;
   refusal_.clear();
+  times_ms_.Add(ms);
   ms_ = ms;
   ++num_pairs_;
   if (!pose.HasPose()) ++num_lost_;

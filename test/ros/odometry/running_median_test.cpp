@@ -17,6 +17,7 @@ TEST(RunningMedian, IsThatOfTheNewestValues) {
   median.Add(-3);  // the first 5 has left
   EXPECT_EQ(median.Median(), 1);
   EXPECT_EQ(median.size(), 3u);
+  EXPECT_EQ(TellTime(median), "; median 1.0 ms a pair");
 }
 
 }  // namespace

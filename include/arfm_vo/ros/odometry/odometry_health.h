@@ -62,6 +62,7 @@ class OdometryHealth {
   bool is_new_ = false;  ///< a pair came since the last report
   std::string refusal_;
   double ms_ = 0;
+  RunningMedian times_ms_{kTimedPairs};
   uint32_t num_pairs_ = 0, num_lost_ = 0, num_refused_ = 0, num_dropped_ = 0;
 };
 

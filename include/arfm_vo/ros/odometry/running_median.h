@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdio>
 #include <deque>
+#include <string>
 #include <vector>
 
 namespace arfm_vo {
@@ -32,5 +34,14 @@ class RunningMedian {
   size_t window_;
   std::deque<double> values_;
 };
+
+constexpr size_t kTimedPairs = 1000;  ///< of which a node tells the time at its end
+
+/// The end of a node's totals: its time for a pair.
+inline std::string TellTime(const RunningMedian& times_ms) {
+  char text[60];
+  std::snprintf(text, sizeof text, "; median %.1f ms a pair", times_ms.Median());
+  return text;
+}
 
 }  // namespace arfm_vo
