@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 # sanitizers, coverage, fuzz and mutants build a tree of their own first, which takes 15 minutes more.
 table='
 ablation             test/experiments/ablation.sh            10_min  KITTI         what each part of the odometry brings
-api_page             docs/api_page.py                        1_s     _b            docs/api.md from the code; --check only compares
+api_page             test/static_checks/api_page.py          1_s     _b            docs/api.md from the code; --check only compares
 benchmark            test/benchmark/benchmark.sh             5_min   KITTI,quiet   time of SURF, matching and a pair
 benchmark_memory     test/benchmark/benchmark_memory.sh      5_min   KITTI         memory over 2,000 pairs
 benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet     latency and drops of the nodes

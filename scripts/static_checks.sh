@@ -13,7 +13,7 @@ for tool in shellcheck pyflakes3 cppcheck; do
 done
 
 mapfile -t shell_scripts < <(find scripts test rosbag_fixtures .ci -name '*.sh' -o -path .ci/run | sort)
-mapfile -t python_scripts < <(find docs launch nodes scripts test -name '*.py' | sort)
+mapfile -t python_scripts < <(find launch nodes scripts test -name '*.py' | sort)
 # (SC1091: devel/setup.sh is made by the build.)
 shellcheck -e SC1091 "${shell_scripts[@]}"
 echo "shellcheck: ${#shell_scripts[@]} scripts, no finding"
@@ -21,6 +21,7 @@ pyflakes3 "${python_scripts[@]}"
 echo "pyflakes: ${#python_scripts[@]} scripts, no finding"
 test/layers_test.py
 test/static_checks/sizes_test.py
+test/static_checks/pages_test.py
 # (The two macros are of headers that it is not shown.)
 cppcheck -q -j"$(nproc)" --std=c++17 --language=c++ --enable=warning,performance,portability --error-exitcode=1 \
   --inline-suppr --suppressions-list=test/static_checks/cppcheck.txt --suppress=missingInclude -Iinclude \

@@ -28,8 +28,8 @@ peer() {  # SEQUENCE K PROGRAM
   echo "final trajectories, measured by the project's planning on the same clips (\`docs/peers.csv\`; ORB-SLAM2: range of 8"
   echo "runs, or the best). The truth of drive 0001 is good to about 0.6 % of the length."
   echo
-  echo "| sequence | K | pairs | lost | **live** | live, second drive | after | live length ratio | libviso2 | ORB-SLAM2 |"
-  echo "|---|---|---|---|---|---|---|---|---|---|"
+  echo "| sequence | K | pairs | lost | **live** | live, second drive | after | live length ratio | libviso2 | ORB-SLAM2 | OV2SLAM | dsol |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
   for folder in "${folders[@]}"; do
     for stride in 1 2 3 5; do
       rm -f "$work/learned.yaml"
@@ -37,15 +37,16 @@ peer() {  # SEQUENCE K PROGRAM
       name=$(basename "$folder")
       echo "| $name | $stride | $(awk '$1 == "pairs:" {print $2}' "$work/1") | $(awk '$1 == "lost:" {print $2}' "$work/1")" \
         "| **$(pair "$work/1" live_)** | $(pair "$work/2" live_) | $(pair "$work/1" "")" \
-        "| $(value "$work/1" live_length_ratio) | $(peer "$name" $stride libviso2) | $(peer "$name" $stride ORB-SLAM2) |"
+        "| $(value "$work/1" live_length_ratio) | $(peer "$name" $stride libviso2) | $(peer "$name" $stride ORB-SLAM2)" \
+        "| $(peer "$name" $stride OV2SLAM) | $(peer "$name" $stride dsol) |"
     done
   done
 } > "$work/results.md"
 {
-  echo "| sequence | pairs | **arfm_vo, live** | arfm_vo, after the drive | libviso2 | ORB-SLAM2 |"
-  echo "|---|---|---|---|---|---|"
+  echo "| sequence | pairs | **arfm_vo** | libviso2 | ORB-SLAM2 | OV2SLAM | dsol |"
+  echo "|---|---|---|---|---|---|---|"
   awk -F' *[|] *' 'NF > 9 && ($3 == 1 || $3 == 5) {
-    printf "| %s | %s | %s | %s | %s | %s |\n", $2, $3 == 1 ? "all" : "every " $3 "th", $6, $8, $10, $11}' "$work/results.md"
+    printf "| %s | %s | %s | %s | %s | %s | %s |\n", $2, $3 == 1 ? "all" : "every " $3 "th", $6, $10, $11, $12, $13}' "$work/results.md"
 } > "$work/section"
 mv "$work/results.md" docs/results.md
 if [ $# -eq 0 ]; then test/readme_section.py README.md results < "$work/section"; fi

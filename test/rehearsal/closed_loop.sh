@@ -71,6 +71,6 @@ mv "$work/driving.md" "$work/drives.jpg" docs/
 {
   echo "$(count reached) of $goals goals, $(rows | awk '{ print $2 }' | sort -n | awk 'NR == 1 { printf "%.0f to ", $1 } END { printf "%.0f", $1 }') m away, were reached, the farthest $(most 4) m beside"
   echo "(at most $(rows | awk '$4 / $5 > m { m = $4 / $5 } END { printf "%.2f", m }') of what is allowed: 1 % and 5 cm), by sight alone and with $(sum 14) stops on the way, in"
-  echo "$(sum 13 | awk '{ printf "%.0f", $1 / 60 }') minutes: [docs/driving.md](docs/driving.md)."
-} | test/readme_section.py README.md closed_loop
+  echo "$(sum 13 | awk '{ printf "%.0f", $1 / 60 }') minutes: [driving.md](driving.md)."
+} | test/readme_section.py docs/rover.md closed_loop
 [ "$(count within_allowed_error)" -eq $goals ] || { echo "closed_loop: not all goals were reached well" >&2; exit 1; }

@@ -11,11 +11,11 @@ import re
 import sys
 
 MAX_LINES = {".cpp": 250, ".inl": 250, ".py": 250, ".sh": 250, ".h": 120}
-MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 7250
+MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 7300
 FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scripts", "src", "test", "urdf")
 LARGER = {
     # Folders, files.
-    "docs": 29, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 40,
+    "docs": 32, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 40,
     "test/hardware": 28, "test/nodes": 33, "test/odometry": 26, "test/recordings": 26,
     # Lines.
     "src/driving/drive_state.cpp, a function": 73,  # a switch over all reasons

@@ -13,7 +13,7 @@ import sys
 
 import yaml
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(ROOT, "docs", "api.md")
 SHARED = "OdometryOptions"  # the algorithm's options, which several nodes have: told once
 ENUMS, RANGES = {}, {}  # of read_enums() and read_ranges()
