@@ -17,14 +17,18 @@ function(arfm_unit_test name)
   endif()
 endfunction()
 
-# arfm_layer_test(LAYER [library ...] [PRECOMPILED]): the test test_LAYER of test/LAYER/*_test.cpp and the folders below it.
+# arfm_layer_test(LAYER [library ...] [PRECOMPILED] [TOGETHER]): the test test_LAYER of test/LAYER/*_test.cpp and the folders
+# below it; TOGETHER: arfm_compile_together().
 function(arfm_layer_test layer)
-  cmake_parse_arguments(TEST "PRECOMPILED" "" "" ${ARGN})
+  cmake_parse_arguments(TEST "PRECOMPILED;TOGETHER" "" "" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${layer}/*_test.cpp)
   if(TEST_PRECOMPILED)
     set(precompiled PRECOMPILED)
   endif()
   arfm_unit_test(${layer} SOURCES ${sources} LIBRARIES arfm_vo_${layer} ${TEST_UNPARSED_ARGUMENTS} ${precompiled})
+  if(TEST_TOGETHER)
+    arfm_compile_together(test_${layer})
+  endif()
 endfunction()
 
 # arfm_test_program(NAME SOURCES source ... LIBRARIES library ... [BUILT]): a program for measurements or experiments; BUILT
@@ -58,22 +62,20 @@ function(arfm_script_test name script)
     ENVIRONMENT "PYTHONPATH=/usr/lib/python3/dist-packages")
 endfunction()
 
-# arfm_isolate_tests(): the tests of this folder may run side by side: each has a ROS_HOME of its own. (A rostest takes a free
-# port for its master; our own tests ask for one, test/ports.py.) The names given are those that take long, longest first:
-# ctest starts them first.
+# arfm_isolate_tests([LONGEST name ...]): the tests of this folder may run side by side: each has a ROS_HOME
+# of its own. (A rostest takes a free port for its master; our own tests ask for one, test/ports.py.) ctest starts the LONGEST
+# first.
 function(arfm_isolate_tests)
+  cmake_parse_arguments(TESTS "" "" "LONGEST" ${ARGN})
   get_property(tests DIRECTORY PROPERTY TESTS)
-  set(cost 100)
-  foreach(name ${ARGN})
-    foreach(test ${tests})
-      if(test MATCHES "(^|_)${name}(.test)?$")
-        set_property(TEST ${test} PROPERTY COST ${cost})
-      endif()
-    endforeach()
-    math(EXPR cost "${cost} - 1")
-  endforeach()
   foreach(test ${tests})
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/ros_home/${test})  # rospack makes the last folder only
     set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home/${test}")
+    string(REGEX REPLACE "^_ctest_.*(test_nodes_|gtest_test_)|\\.test$" "" name ${test})
+    list(FIND TESTS_LONGEST ${name} place)
+    if(NOT place EQUAL -1)
+      math(EXPR cost "100 - ${place}")
+      set_property(TEST ${test} PROPERTY COST ${cost})
+    endif()
   endforeach()
 endfunction()

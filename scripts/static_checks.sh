@@ -34,7 +34,7 @@ folders=("$@")
 [ $# -gt 0 ] || folders=(src nodes)
 build=${BUILD_DIR:-_b_tidy}  # apart: clang does not read gcc's precompiled headers
 [ -f "$build/compile_commands.json" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DARFM_VO_UNITY=OFF > /dev/null
 ninja -C "$build" arfm_vo_generate_messages_cpp > /dev/null
 mapfile -t sources < <(find "${folders[@]}" -name '*.cpp' | sort)
 printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2> /dev/null

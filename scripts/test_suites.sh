@@ -115,7 +115,7 @@ test_chroot() {
     enter offline "$root" "${compiler[@]}" "/$folder/scripts/build.sh" "${core[@]/#/test_}"
     enter offline "$root" bash -c "cd /$folder/_b && ctest --output-on-failure -R '_gtest_test_($(IFS='|'; echo "${core[*]}"))\$'" || status=1
   else
-    enter offline "$root" "${compiler[@]}" "/$folder/scripts/test.sh" || status=1
+    enter offline "$root" "${compiler[@]}" "/$folder/scripts/test.sh" --full || status=1
   fi
   report "$1" "$root/$folder/_b"
   return $status

@@ -24,8 +24,8 @@ peer() {  # SEQUENCE K PROGRAM
   echo
   echo "Written by \`scripts/measure.sh results\`. Mean translation error over sub-sequences of 10..50 m from every frame, % / ATE"
   echo "after SE(3) alignment, m. K: every K-th pair. Live: the pose as known at once, which a rover steers by; in the"
-  echo "second drive with the calibration that the first has learnt. After: the trajectory after the drive. Peers: their"
-  echo "final trajectories, measured by the project's planning on the same clips (\`docs/peers.csv\`; ORB-SLAM2: range of 8"
+  echo "second drive with the calibration that the first has learnt. After: the trajectory after the drive. Peers, of"
+  echo "libviso2 and ORB-SLAM2 the final trajectory, of OV2SLAM and dsol the live one, measured by the project's planning on the same clips (\`docs/peers.csv\`; ORB-SLAM2: range of 8"
   echo "runs, or the best). The truth of drive 0001 is good to about 0.6 % of the length."
   echo
   echo "| sequence | K | pairs | lost | **live** | live, second drive | after | live length ratio | libviso2 | ORB-SLAM2 | OV2SLAM | dsol |"

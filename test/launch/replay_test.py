@@ -99,6 +99,10 @@ class ReplayTest(ReplayCase):
         self.assertGreaterEqual(pairs, 10, console)  # a busy machine drops some
         self.assertEqual((tracked, lost), (pairs, 0), console)
 
+    def test_an_interrupted_replay_ends_all_that_it_has_started(self):
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "rate:=0.1", limit_s=8)
+        self.assertIn("[master] killing on exit", console)
+
     def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
         _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out",
                                  limit_s=30)
@@ -181,7 +185,7 @@ class CameraTest(ReplayCase):
         self.write_bag("raw.bag",
                        lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
         self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
-        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
+        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true", "rate:=0.5"))
 
 
 if __name__ == "__main__":

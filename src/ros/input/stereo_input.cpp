@@ -7,7 +7,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kQueueSize = 8;
+constexpr int kImageQueueSize = 8;
 
 }  // namespace
 
@@ -40,9 +40,9 @@ StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_no
                          Callback callback)
     : topics_(ResolveStereoTopics(node)),
       transport_(node),
-      pairing_(kQueueSize, [this, callback = std::move(callback)](
-                               const auto& left, const auto& right, const auto& left_info,
-                               const auto& right_info) {
+      pairing_(kImageQueueSize, [this, callback = std::move(callback)](
+                                    const auto& left, const auto& right, const auto& left_info,
+                                    const auto& right_info) {
         ++counts_.pairs;
         callback({left, right, left_info, right_info});
       }) {
@@ -54,28 +54,28 @@ StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_no
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
   left_ = transport_.subscribe(
-      topics_.left_image, kQueueSize,
+      topics_.left_image, kImageQueueSize,
       [this, note_image](const sensor_msgs::ImageConstPtr& image) {
         note_image(*image, counts_.left, left_stamp_);
         pairing_.Add<0>(image);
       },
       {}, hints);
   right_ = transport_.subscribe(
-      topics_.right_image, kQueueSize,
+      topics_.right_image, kImageQueueSize,
       [this, note_image](const sensor_msgs::ImageConstPtr& image) {
         note_image(*image, counts_.right, right_stamp_);
         pairing_.Add<1>(image);
       },
       {}, hints);
   left_info_ = node.subscribe<Info>(
-      topics_.left_info, kQueueSize,
+      topics_.left_info, kImageQueueSize,
       [this](const sensor_msgs::CameraInfoConstPtr& info) {
         ++counts_.left_info;
         pairing_.Add<2>(info);
       },
       {}, no_delay);
   right_info_ = node.subscribe<Info>(
-      topics_.right_info, kQueueSize,
+      topics_.right_info, kImageQueueSize,
       [this](const sensor_msgs::CameraInfoConstPtr& info) {
         ++counts_.right_info;
         pairing_.Add<3>(info);

@@ -22,7 +22,7 @@ std::vector<std::string> FindSilent(const StereoInputCounts& now, const StereoIn
   return silent;
 }
 
-std::string Join(const std::vector<std::string>& names) {
+std::string JoinNames(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -66,8 +66,8 @@ std::string FindWayTo(const std::string& topic, bool is_image,
   return "nobody publishes " + topic + "; " +
          (similar.empty() ? std::string(is_image ? "no image" : "no camera_info") +
                                 " is published at all: start the camera or the bag"
-                          : "published are " + Join(similar) + ": give odometry.launch stereo:=, " +
-                                names + " as they are");
+                          : "published are " + JoinNames(similar) +
+                                ": give odometry.launch stereo:=, " + names + " as they are");
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::string StereoInputCounts::Explain(const StereoInputCounts& before,
                                        const StereoTopics& topics) const {
   if (pairs > before.pairs) return "";
   const std::vector<std::string> silent = FindSilent(*this, before, topics);
-  if (!silent.empty()) return "no messages on " + Join(silent);
+  if (!silent.empty()) return "no messages on " + JoinNames(silent);
   if (stamp_difference_s == 0) return "images and camera_info have different stamps";
   char difference[64];
   std::snprintf(difference, sizeof difference, "%.3f ms", std::abs(stamp_difference_s) * 1e3);

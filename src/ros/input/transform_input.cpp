@@ -7,13 +7,13 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kQueueSize = 100;
+constexpr int kTransformQueueSize = 100;
 
 }  // namespace
 
 TransformInput::TransformInput(ros::NodeHandle& node, tf2::BufferCore& buffer) : buffer_(buffer) {
-  moving_ = node.subscribe("/tf", kQueueSize, &TransformInput::TakeMoving, this);
-  static_ = node.subscribe("/tf_static", kQueueSize, &TransformInput::TakeStatic, this);
+  moving_ = node.subscribe("/tf", kTransformQueueSize, &TransformInput::TakeMoving, this);
+  static_ = node.subscribe("/tf_static", kTransformQueueSize, &TransformInput::TakeStatic, this);
 }
 
 void TransformInput::Take(const Event& event, bool is_static) {

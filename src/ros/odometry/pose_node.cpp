@@ -17,7 +17,7 @@ namespace arfm_vo {
 namespace {
 
 /// Images wait here for their features: more pairs than arfm_node works on and lets wait.
-constexpr int kQueueSize = 10;
+constexpr int kPairQueueSize = 10;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ PoseNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
                 ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
               }),
       transport_(node),
-      pairing_(kQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
+      pairing_(kPairQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
         worker_.PostLossy([this, frame, left, right] {
           if (pipeline_->Process(*frame, left, right)) worker_.Release();
         });
@@ -106,13 +106,14 @@ void PoseNode::Impl::Subscribe(ros::NodeHandle node, const ros::NodeHandle& priv
         worker_.Post([this, odometry] { pipeline_->AddTrack(*odometry); });
       });
   left_ = transport_.subscribe(
-      StereoTopic(node, "left/image_rect"), kQueueSize,
+      StereoTopic(node, "left/image_rect"), kPairQueueSize,
       [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<1>(image); }, {}, hints);
   right_ = transport_.subscribe(
-      StereoTopic(node, "right/image_rect"), kQueueSize,
+      StereoTopic(node, "right/image_rect"), kPairQueueSize,
       [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<2>(image); }, {}, hints);
   frames_ = node.subscribe<Frame>(
-      "features", kQueueSize, [this](const auto& frame) { pairing_.Add<0>(frame); }, {}, no_delay);
+      "features", kPairQueueSize, [this](const auto& frame) { pairing_.Add<0>(frame); }, {},
+      no_delay);
 }
 
 std::string PoseNode::Impl::Save() {

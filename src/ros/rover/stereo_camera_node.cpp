@@ -11,7 +11,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kQueueSize = 2;
+constexpr int kCameraQueueSize = 2;
 constexpr double kStep_s = 0.1;
 constexpr double kReport_s = 1;
 
@@ -46,7 +46,7 @@ StereoCameraNode::Eye::Eye(const ros::NodeHandle& node, const std::string& name,
       calibration_(node_, name, url,
                    [&drive] { return drive.IsDriving() ? "the rover drives: stop it first" : ""; }),
       transport_(node_),
-      publisher_(transport_.advertiseCamera("image_raw", kQueueSize)) {}
+      publisher_(transport_.advertiseCamera("image_raw", kCameraQueueSize)) {}
 
 sensor_msgs::CameraInfo StereoCameraNode::Eye::Fitting(int width, int height) {
   sensor_msgs::CameraInfo info = calibration_.Get();

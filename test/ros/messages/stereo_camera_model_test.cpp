@@ -31,35 +31,38 @@ TEST(StereoCameraModel, TakesIntrinsicsFromTheLeftAndTheBaselineFromTheRight) {
 
 /// Spoils the right or left eye and expects an error with `text`.
 template <class Spoil>
-void ExpectRefused(const std::string& text, Spoil spoil) {
+void ExpectCameraRefused(const std::string& text, Spoil spoil) {
   sensor_msgs::CameraInfo left = kLeft, right = kRight;
   spoil(left, right);
   EXPECT_INVALID(MakeStereoCamera(left, right), text);
 }
 
 TEST(StereoCameraModel, SaysWhatIsWrongWithTheBaseline) {
-  ExpectRefused("P[3] is 0", [](auto&, auto& right) { right.P[3] = 0; });
-  ExpectRefused("in mm", [](auto&, auto& right) { right.P[3] = -350e3; });
-  ExpectRefused("swapped", [](auto&, auto& right) { right.P[3] = 350; });
-  ExpectRefused("swapped", [](auto& left, auto& right) { std::swap(left, right); });
-  ExpectRefused("not finite", [](auto&, auto& right) { right.P[3] = NAN; });
+  ExpectCameraRefused("P[3] is 0", [](auto&, auto& right) { right.P[3] = 0; });
+  ExpectCameraRefused("in mm", [](auto&, auto& right) { right.P[3] = -350e3; });
+  ExpectCameraRefused("swapped", [](auto&, auto& right) { right.P[3] = 350; });
+  ExpectCameraRefused("swapped", [](auto& left, auto& right) { std::swap(left, right); });
+  ExpectCameraRefused("not finite", [](auto&, auto& right) { right.P[3] = NAN; });
 }
 
 TEST(StereoCameraModel, RefusesAPairThatIsNotRectified) {
-  ExpectRefused("cx is 600 in the left P and 610", [](auto&, auto& right) { right.P[2] = 610; });
-  ExpectRefused("fy is 710 in the left P and 711", [](auto&, auto& right) { right.P[5] = 711; });
-  ExpectRefused("skew", [](auto& left, auto&) { left.P[1] = 0.5; });
+  ExpectCameraRefused("cx is 600 in the left P and 610",
+                      [](auto&, auto& right) { right.P[2] = 610; });
+  ExpectCameraRefused("fy is 710 in the left P and 711",
+                      [](auto&, auto& right) { right.P[5] = 711; });
+  ExpectCameraRefused("skew", [](auto& left, auto&) { left.P[1] = 0.5; });
 }
 
 TEST(StereoCameraModel, RefusesAnEyeThatIsNotCalibrated) {
-  ExpectRefused("left camera_info: the focal lengths in P are 0 and 0: this eye is not calibrated",
-                [](auto& left, auto&) { left.P.fill(0); });
+  ExpectCameraRefused(
+      "left camera_info: the focal lengths in P are 0 and 0: this eye is not calibrated",
+      [](auto& left, auto&) { left.P.fill(0); });
 }
 
 TEST(StereoCameraModel, RefusesSizesThatDifferAndNoSize) {
-  ExpectRefused("left image is 1226x370, the right one 1241x370",
-                [](auto&, auto& right) { right.width = 1241; });
-  ExpectRefused("size", [](auto& left, auto& right) { left.width = right.width = 0; });
+  ExpectCameraRefused("left image is 1226x370, the right one 1241x370",
+                      [](auto&, auto& right) { right.width = 1241; });
+  ExpectCameraRefused("size", [](auto& left, auto& right) { left.width = right.width = 0; });
 }
 
 TEST(StereoCameraModel, AnImageHasTheSizeThatItsCameraInfoTells) {
@@ -73,8 +76,8 @@ TEST(StereoCameraModel, AnImageHasTheSizeThatItsCameraInfoTells) {
 }
 
 TEST(StereoCameraModel, RefusesBinningAndRegionsOfInterest) {
-  ExpectRefused("binning", [](auto& left, auto&) { left.binning_x = 2; });
-  ExpectRefused("region", [](auto&, auto& right) { right.roi.x_offset = 8; });
+  ExpectCameraRefused("binning", [](auto& left, auto&) { left.binning_x = 2; });
+  ExpectCameraRefused("region", [](auto&, auto& right) { right.roi.x_offset = 8; });
 }
 
 }  // namespace

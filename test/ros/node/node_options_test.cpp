@@ -10,7 +10,7 @@ namespace {
 
 /// What Check() says of options of which `change` made one wrong.
 template <class Options, class Change>
-void ExpectRefused(const Change& change, const std::string& text) {
+void ExpectOptionRefused(const Change& change, const std::string& text) {
   Options options;
   EXPECT_NO_THROW(options.Check());
   change(options);
@@ -19,24 +19,25 @@ void ExpectRefused(const Change& change, const std::string& text) {
 
 TEST(PoseNodeOptions, EachPartIsChecked) {
   using Options = PoseNodeOptions;
-  ExpectRefused<Options>([](auto& o) { o.algorithm.odometry.min_points_to_start = 3; },
-                         "min_points_to_start");
-  ExpectRefused<Options>([](auto& o) { o.mount.slew_window_s = 0; }, "slew_window_s");
-  ExpectRefused<Options>([](auto& o) { o.output.odom_frame = ""; }, "odom_frame");
-  ExpectRefused<Options>([](auto& o) { o.health.row_residual_pairs = 0; }, "row_residual_pairs");
-  ExpectRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
-  ExpectRefused<Options>([](auto& o) { o.max_held_pairs = -1; }, "max_held_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.algorithm.odometry.min_points_to_start = 3; },
+                               "min_points_to_start");
+  ExpectOptionRefused<Options>([](auto& o) { o.mount.slew_window_s = 0; }, "slew_window_s");
+  ExpectOptionRefused<Options>([](auto& o) { o.output.odom_frame = ""; }, "odom_frame");
+  ExpectOptionRefused<Options>([](auto& o) { o.health.row_residual_pairs = 0; },
+                               "row_residual_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_held_pairs = -1; }, "max_held_pairs");
 }
 
 TEST(ArfmNodeOptions, EachPartIsChecked) {
   using Options = ArfmNodeOptions;
-  ExpectRefused<Options>([](auto& o) { o.algorithm.frontend.surf.threads = 0; }, "threads");
-  ExpectRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.algorithm.frontend.surf.threads = 0; }, "threads");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
 }
 
 TEST(BaNodeOptions, TheAlgorithmIsChecked) {
-  ExpectRefused<BaNodeOptions>([](auto& o) { o.algorithm.global.min_observations = 1; },
-                               "min_observations");
+  ExpectOptionRefused<BaNodeOptions>([](auto& o) { o.algorithm.global.min_observations = 1; },
+                                     "min_observations");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kSweepDegree = M_PI / 180;
 
 /// The largest faults of the base's pose over a drive.
 struct Drift {
@@ -58,7 +58,7 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
     if (!first_from_odom) first_from_odom = truth * pose.odom_from_base.Inverse();
     const Rigid3 fault = truth.Inverse() * *first_from_odom * pose.odom_from_base;
     drift.position_m = std::max(drift.position_m, fault.translation.norm());
-    drift.turn_deg = std::max(drift.turn_deg, fault.Angle() / kDegree);
+    drift.turn_deg = std::max(drift.turn_deg, fault.Angle() / kSweepDegree);
     drift.way_m = truth.translation.norm();
   }
   std::printf(

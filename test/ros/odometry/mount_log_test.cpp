@@ -6,7 +6,7 @@ namespace arfm_vo {
 namespace {
 
 /// From optical axes (z ahead) to those of the base (x ahead), 1 m above it and 0.5 m before it.
-Rigid3 BaseFromCamera(double pan_rad = 0) {
+Rigid3 LoggedMount(double pan_rad = 0) {
   Eigen::Matrix3d axes;
   axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return Rigid3(Eigen::Quaterniond(ExpSO3({0, 0, pan_rad})), Eigen::Vector3d(0.5, 0, 1)) *
@@ -31,7 +31,7 @@ TEST(MountLog, ARoverThatDrivesAheadMovesAlongX) {
   MountLog log;
   Trajectory camera;
   for (int i = 0; i < 3; ++i) {
-    log.Add(i, BaseFromCamera());
+    log.Add(i, LoggedMount());
     camera.push_back({static_cast<double>(i),
                       Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 0.1 * i))});
   }
@@ -45,13 +45,13 @@ TEST(MountLog, ARoverThatDrivesAheadMovesAlongX) {
 TEST(MountLog, ATurnInPlaceLeavesTheBaseWhereItIs) {
   const std::vector<Rigid3> bases = {Rigid3(), Rigid3(ExpSO3({0, 0, 0.7}), {0, 0, 0})};
   MountLog log;
-  log.Add(0, BaseFromCamera());
-  const Trajectory base = log.OfBase(CameraOf(bases, {BaseFromCamera(), BaseFromCamera()}));
+  log.Add(0, LoggedMount());
+  const Trajectory base = log.OfBase(CameraOf(bases, {LoggedMount(), LoggedMount()}));
   ExpectNear(base[1].world_from_camera, bases[1]);
 }
 
 TEST(MountLog, AHeadThatPansDoesNotMoveTheBase) {
-  const std::vector<Rigid3> mounts = {BaseFromCamera(), BaseFromCamera(0.3), BaseFromCamera(0.6)};
+  const std::vector<Rigid3> mounts = {LoggedMount(), LoggedMount(0.3), LoggedMount(0.6)};
   MountLog log;
   for (int i = 0; i < 3; ++i) log.Add(i, mounts[i]);
   for (const TrajectoryPose& pose : log.OfBase(CameraOf(std::vector<Rigid3>(3), mounts)))
@@ -61,10 +61,10 @@ TEST(MountLog, AHeadThatPansDoesNotMoveTheBase) {
 TEST(MountLog, LostPairsAreInterpolatedAsPosesOfTheBase) {
   const std::vector<Rigid3> bases = {Rigid3(), Rigid3(),
                                      Rigid3(ExpSO3({0, 0, 0.4}), Eigen::Vector3d(0.2, 0, 0))};
-  Trajectory camera = CameraOf(bases, std::vector<Rigid3>(3, BaseFromCamera()));
+  Trajectory camera = CameraOf(bases, std::vector<Rigid3>(3, LoggedMount()));
   camera[1].is_tracked = false;
   MountLog log;
-  log.Add(0, BaseFromCamera());
+  log.Add(0, LoggedMount());
   const Trajectory base = log.OfBase(camera);
   EXPECT_FALSE(base[1].is_tracked);
   ExpectNear(base[1].world_from_camera, Rigid3(ExpSO3({0, 0, 0.2}), Eigen::Vector3d(0.1, 0, 0)));
@@ -73,7 +73,7 @@ TEST(MountLog, LostPairsAreInterpolatedAsPosesOfTheBase) {
 TEST(MountLog, AHeadThatNeverRestsIsKeptAtFewerTimesInTheEnd) {
   MountLog log;
   const int num_pairs = static_cast<int>(kMaxFramesKept) + 10;
-  const auto mount = [](int pair) { return BaseFromCamera(1e-5 * pair); };
+  const auto mount = [](int pair) { return LoggedMount(1e-5 * pair); };
   for (int i = 0; i < num_pairs; ++i) log.Add(i, mount(i));
   const Rigid3 first = mount(0), last = mount(num_pairs - 1);
   const Trajectory camera = {{0, Rigid3(), true},

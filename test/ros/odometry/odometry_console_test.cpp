@@ -20,7 +20,7 @@ TEST(ConsoleWatch, DoesNotTellWhatPasses) {
   for (int s = 0; s <= 30; ++s) EXPECT_FALSE(watch.IsDue(s % 2 ? "problem" : "", s)) << s;
 }
 
-SessionUpdate PoseWithStatus(PoseStatus status, const std::string& text) {
+SessionUpdate ToldPose(PoseStatus status, const std::string& text) {
   SessionUpdate pose;
   pose.update.pose.status = status;
   pose.text = text;
@@ -35,22 +35,22 @@ std::optional<ConsoleLine> Watch(OdometryConsole& console, double start_s,
   return std::nullopt;
 }
 
-const SessionUpdate kTracked = PoseWithStatus(PoseStatus::kTracked, "tracked");
+const SessionUpdate kToldTracked = ToldPose(PoseStatus::kTracked, "tracked");
 
 TEST(OdometryConsole, TellsTheFirstPoseOnce) {
   OdometryConsole console;
-  const auto line = Watch(console, 0, kTracked);
+  const auto line = Watch(console, 0, kToldTracked);
   ASSERT_TRUE(line);
   EXPECT_FALSE(line->is_warning);
   EXPECT_THAT(line->text, HasSubstr("the first pose is there"));
-  EXPECT_FALSE(Watch(console, 1, kTracked));
+  EXPECT_FALSE(Watch(console, 1, kToldTracked));
 }
 
 TEST(OdometryConsole, ATransformThatIsMissingIsNamedWithTheRemedy) {
   OdometryConsole console;
-  const auto line = Watch(
-      console, 0,
-      PoseWithStatus(PoseStatus::kNoTransform, "no transform: tf base_link <- camera: no tree"));
+  const auto line =
+      Watch(console, 0,
+            ToldPose(PoseStatus::kNoTransform, "no transform: tf base_link <- camera: no tree"));
   ASSERT_TRUE(line);
   EXPECT_TRUE(line->is_warning);
   EXPECT_THAT(line->text, HasSubstr("base_link <- camera"));
@@ -59,30 +59,29 @@ TEST(OdometryConsole, ATransformThatIsMissingIsNamedWithTheRemedy) {
 
 TEST(OdometryConsole, ATransformThatComesLateIsTold) {
   OdometryConsole console;
-  const auto line = Watch(console, 0,
-                          PoseWithStatus(PoseStatus::kNoTransform,
-                                         "Lookup would require extrapolation into the future."));
+  const auto line = Watch(
+      console, 0,
+      ToldPose(PoseStatus::kNoTransform, "Lookup would require extrapolation into the future."));
   ASSERT_TRUE(line);
   EXPECT_THAT(line->text, HasSubstr("tf_timeout_s"));
 }
 
 TEST(OdometryConsole, SaysWhyItIsLostAndWhenItIsBack) {
   OdometryConsole console;
-  console.Take({}, kTracked, 0);
-  const auto lost =
-      Watch(console, 1, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few features"));
+  console.Take({}, kToldTracked, 0);
+  const auto lost = Watch(console, 1, ToldPose(PoseStatus::kTooFewFeatures, "too few features"));
   ASSERT_TRUE(lost);
   EXPECT_TRUE(lost->is_warning);
   EXPECT_THAT(lost->text, HasSubstr("too few features"));
   EXPECT_THAT(lost->text, HasSubstr("without texture"));
-  const auto back = console.Take({}, kTracked, 5);
+  const auto back = console.Take({}, kToldTracked, 5);
   ASSERT_TRUE(back);
   EXPECT_FALSE(back->is_warning);
   EXPECT_THAT(back->text, HasSubstr("after 5.0 s"));
 }
 
 /// With 500 features, of which so many are stereo points.
-StereoFrame MakeFrame(int num_points) {
+StereoFrame ToldFrame(int num_points) {
   StereoFrame frame;
   frame.features.keypoints.resize(500);
   frame.features.descriptors.create(500, 64, CV_32F);
@@ -92,38 +91,37 @@ StereoFrame MakeFrame(int num_points) {
 
 TEST(OdometryConsole, EyesThatDoNotFitAreTold) {
   OdometryConsole console;
-  const StereoFrame frame = MakeFrame(0);
-  const auto line =
-      Watch(console, 0, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few"), frame);
+  const StereoFrame frame = ToldFrame(0);
+  const auto line = Watch(console, 0, ToldPose(PoseStatus::kTooFewFeatures, "too few"), frame);
   ASSERT_TRUE(line);
   EXPECT_THAT(line->text, HasSubstr("the eyes not swapped"));
 }
 
 TEST(OdometryConsole, WhereEyesFitAndTheMapIsNotFoundTheMotionMayBeTooFast) {
   OdometryConsole console;
-  const StereoFrame frame = MakeFrame(300);
+  const StereoFrame frame = ToldFrame(300);
   const auto line =
-      Watch(console, 0, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), frame);
+      Watch(console, 0, ToldPose(PoseStatus::kTooFewMatches, "too few matches"), frame);
   ASSERT_TRUE(line);
   EXPECT_THAT(line->text, HasSubstr("too fast"));
 }
 
 TEST(OdometryConsole, SaysWhyAPoseIsDegraded) {
   OdometryConsole console;
-  console.Take({}, kTracked, 0);
+  console.Take({}, kToldTracked, 0);
   const auto degraded =
-      Watch(console, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
+      Watch(console, 1, ToldPose(PoseStatus::kDegraded, "the right camera is dark"));
   ASSERT_TRUE(degraded);
   EXPECT_TRUE(degraded->is_warning);
   EXPECT_EQ(degraded->text, "the right camera is dark");
-  EXPECT_THAT(console.Take({}, kTracked, 20)->text, HasSubstr("tracked again"));
+  EXPECT_THAT(console.Take({}, kToldTracked, 20)->text, HasSubstr("tracked again"));
 }
 
 TEST(OdometryConsole, CountsAllPairsInTheTotals) {
   OdometryConsole console;
-  console.Take({}, kTracked, 0);
-  console.Take({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1);
-  console.Take({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 2);
+  console.Take({}, kToldTracked, 0);
+  console.Take({}, ToldPose(PoseStatus::kNoConsensus, "no consensus"), 1);
+  console.Take({}, ToldPose(PoseStatus::kNoTransform, "no transform"), 2);
   EXPECT_EQ(console.Totals(4, 5),
             "3 pairs: 1 with a pose, 1 lost, 0 degraded, 1 without tf or skipped while the head "
             "turned; 4 "

@@ -7,7 +7,7 @@ namespace {
 
 /// Drives at 0.5 m/s for `duration_s`; the visual odometry sees `scale` times the way and reports
 /// between the tracks' stamps.
-void Drive(ScaleCheck& check, double duration_s, double scale) {
+void DriveBoth(ScaleCheck& check, double duration_s, double scale) {
   for (int i = 0; i < duration_s * 10; ++i) {
     check.AddTrack(0.1 * i, {0.05 * i, 0, 0});
     const double visual_s = 0.1 * i - 0.03;
@@ -17,14 +17,14 @@ void Drive(ScaleCheck& check, double duration_s, double scale) {
 
 TEST(ScaleCheck, IsOneWhereBothAgree) {
   ScaleCheck check;
-  Drive(check, 20, 1);
+  DriveBoth(check, 20, 1);
   ASSERT_TRUE(check.Ratio());
   EXPECT_NEAR(*check.Ratio(), 1, 1e-9);
 }
 
 TEST(ScaleCheck, ShowsAWrongBaseline) {
   ScaleCheck check;
-  Drive(check, 20, 1.25);
+  DriveBoth(check, 20, 1.25);
   EXPECT_NEAR(*check.Ratio(), 1.25, 1e-9);
 }
 
@@ -32,7 +32,7 @@ TEST(ScaleCheck, SaysNothingWithoutTracksOrBeforeFiveStretches) {
   ScaleCheck check;
   check.AddVisual(1, {1, 0, 0});
   EXPECT_FALSE(check.Ratio());
-  Drive(check, 9, 1);
+  DriveBoth(check, 9, 1);
   EXPECT_FALSE(check.Ratio());
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const StereoCamera kCamera{700, 710, 8, 6, 0.5, 16, 12};
+const StereoCamera kBagCamera{700, 710, 8, 6, 0.5, 16, 12};
 
 /// Pair i has stamp 0.1 i s, grey values 10 i and 10 i + 5, and lies i m ahead.
 SequencePair MakePair(int i) {
@@ -23,7 +23,7 @@ SequencePair MakePair(int i) {
   pair.true_world_from_camera = Rigid3(ExpSO3({0, 0.1 * i, 0}), Eigen::Vector3d(0, 0, i));
   return pair;
 }
-StereoMessages MakeMessages(int i) { return ToMessages(MakePair(i), kCamera, "camera"); }
+StereoMessages MakeMessages(int i) { return ToMessages(MakePair(i), kBagCamera, "camera"); }
 
 class BagSequenceTest : public testing::Test {
  protected:

@@ -12,7 +12,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 void SetTransform(tf2::BufferCore& buffer, const std::string& parent, const std::string& child,
                   const Rigid3& parent_from_child, double stamp_s = 100) {
@@ -76,13 +76,13 @@ TEST_F(GoalReaderTest, AGoalBesideTheRoverIsTurnedIntoTheMap) {
 }
 
 TEST_F(GoalReaderTest, WhatCanBeNoGoalIsRefusedWithTheReason) {
-  EXPECT_INVALID(reader_.Read(Goal(kNaN, 0, 0)), "goal refused: its position is not finite");
+  EXPECT_INVALID(reader_.Read(Goal(kNotANumber, 0, 0)), "goal refused: its position is not finite");
   EXPECT_INVALID(reader_.Read(Goal(1, 0, 0, "")), "goal refused: it has no frame_id");
   EXPECT_INVALID(reader_.Read(Goal(1, 0, 0, "moon")), "goal refused: frame 'moon'");
   geometry_msgs::PoseStamped goal = Goal(1, 0, 0);
   goal.pose.orientation.w = 0.5;
   EXPECT_INVALID(reader_.Read(goal), "goal refused: its quaternion is not of unit length");
-  goal.pose.orientation.w = kNaN;
+  goal.pose.orientation.w = kNotANumber;
   EXPECT_INVALID(reader_.Read(goal), "goal refused: its orientation is not finite");
 }
 
@@ -92,7 +92,7 @@ TEST_F(GoalReaderTest, APathIsReadPoseByPose) {
   EXPECT_INVALID(reader_.Read(path), "path refused: it has no poses");
   path.poses = {Goal(1, 0, 0, ""), Goal(2, 0, 0, "map")};
   EXPECT_EQ(reader_.Read(path).size(), 2u);
-  path.poses.push_back(Goal(3, kNaN, 0));
+  path.poses.push_back(Goal(3, kNotANumber, 0));
   EXPECT_INVALID(reader_.Read(path), "pose 2 of the path: goal refused");
 }
 
@@ -105,7 +105,7 @@ TEST(ReadVelocity, TakesWhatATrackedRoverCanDo) {
   twist.linear.y = 0.01;
   EXPECT_INVALID(ReadVelocity(twist), "a tracked rover moves along x");
   twist.linear.y = 0;
-  twist.angular.z = kNaN;
+  twist.angular.z = kNotANumber;
   EXPECT_INVALID(ReadVelocity(twist), "velocity refused: it is not finite");
 }
 
@@ -146,7 +146,7 @@ TEST(ToUncertainty, IsTheLongestAxisOfThePosition) {
 
 TEST(ToUncertainty, WhatIsNoCovarianceIsNotANumber) {
   nav_msgs::Odometry odometry;
-  odometry.pose.covariance[0] = kNaN;
+  odometry.pose.covariance[0] = kNotANumber;
   EXPECT_TRUE(std::isnan(ToUncertainty(odometry, 0).position_sigma_m));
   odometry.pose.covariance[0] = 1;
   odometry.pose.covariance[7] = -1;
