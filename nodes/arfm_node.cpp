@@ -1,7 +1,7 @@
-#include "arfm_vo/ros/arfm_node.h"
+#include "arfm_vo/ros/odometry/arfm_node.h"
 
-#include "arfm_vo/ros/arfm_node_options.h"
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/odometry/arfm_node_options.h"
 
 int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::ArfmNode, arfm_vo::ArfmNodeOptions>(

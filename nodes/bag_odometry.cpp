@@ -1,5 +1,5 @@
 #include "arfm_vo/evaluation/odometry_program.h"
-#include "arfm_vo/ros/bag_sequence.h"
+#include "arfm_vo/ros/replay/bag_sequence.h"
 
 int main(int argc, char** argv) {
   using namespace arfm_vo;

@@ -4,11 +4,11 @@
 
 #include <sstream>
 
-#include "arfm_vo/ros/conversions.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/stereo_input.h"
-#include "arfm_vo/ros/transform_input.h"
+#include "arfm_vo/ros/input/stereo_input.h"
+#include "arfm_vo/ros/input/transform_input.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/node/parameters.h"
 
 namespace arfm_vo {
 namespace {

@@ -1,8 +1,8 @@
-#include "arfm_vo/ros/chassis_node.h"
+#include "arfm_vo/ros/rover/chassis_node.h"
 
 #include <signal.h>
 
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
 
 int main(int argc, char** argv) {
   // Whoever ends this program leaves a standing rover behind.

@@ -1,5 +1,5 @@
-#include "arfm_vo/ros/drive_panel.h"
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/rover/drive_panel.h"
 
 int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::DrivePanel, arfm_vo::DrivePanelOptions>(

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "arfm_vo/datasets/kitti_sequence.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/stereo_publisher.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/replay/stereo_publisher.h"
 
 namespace arfm_vo {
 namespace {
@@ -56,9 +56,10 @@ class KittiPlayer {
       PublishClock(stamp_s);
       publisher_.Publish(ToMessages(*pair, sequence_.camera(), options_.frame_id));
       pair = sequence_.Next();
-      const double next_s = pair ? pair->images.stamp_s : stamp_s + options_.end_delay_s;
-      due +=
-          ros::WallDuration(options_.rate_hz > 0 && pair ? 1 / options_.rate_hz : next_s - stamp_s);
+      // After the last one the clock stands, which tells the nodes that no more pairs are due.
+      const double next_s = pair ? pair->images.stamp_s : stamp_s;
+      const double period_s = options_.rate_hz > 0 ? 1 / options_.rate_hz : next_s - stamp_s;
+      due += ros::WallDuration(pair ? period_s : options_.end_delay_s);
       if (ros::WallTime::now() > due) {  // too slow: go on from here instead of a burst
         ++num_late;
         due = ros::WallTime::now();

@@ -1,11 +1,11 @@
 #include <pluginlib/class_list_macros.hpp>
 
-#include "arfm_vo/ros/arfm_node.h"
-#include "arfm_vo/ros/ba_node.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/pan_tilt_node.h"
-#include "arfm_vo/ros/pose_node.h"
-#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/odometry/arfm_node.h"
+#include "arfm_vo/ros/odometry/ba_node.h"
+#include "arfm_vo/ros/odometry/pose_node.h"
+#include "arfm_vo/ros/rover/pan_tilt_node.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 
 namespace arfm_vo {
 

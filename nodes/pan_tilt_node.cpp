@@ -1,6 +1,6 @@
-#include "arfm_vo/ros/pan_tilt_node.h"
+#include "arfm_vo/ros/rover/pan_tilt_node.h"
 
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
 
 int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::PanTiltNode, arfm_vo::PanTiltNodeOptions>(

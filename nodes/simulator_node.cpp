@@ -1,6 +1,6 @@
-#include "arfm_vo/ros/simulator_node.h"
+#include "arfm_vo/ros/rover/simulator_node.h"
 
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
 
 int main(int argc, char** argv) {
   if (arfm_vo::TellHelp<arfm_vo::SimulatorNodeOptions>(

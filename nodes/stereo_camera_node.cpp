@@ -1,11 +1,11 @@
-#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 
 #include <exception>
 #include <iostream>
 #include <string>
 
 #include "arfm_vo/hardware/v4l2_call.h"
-#include "arfm_vo/ros/node_main.h"
+#include "arfm_vo/ros/node/node_main.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "arfm_vo/datasets/stamp_pairing.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/stereo_input.h"
+#include "arfm_vo/ros/input/stereo_input.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/node/parameters.h"
 
 namespace arfm_vo {
 namespace {

@@ -4,14 +4,14 @@
 #include <deque>
 #include <optional>
 
-#include "arfm_vo/ros/bounded_path.h"
-#include "arfm_vo/ros/conversions.h"
-#include "arfm_vo/ros/node_main.h"
-#include "arfm_vo/ros/parameters.h"
-#include "arfm_vo/ros/pose_message.h"
-#include "arfm_vo/ros/stereo_input.h"
-#include "arfm_vo/ros/transform_input.h"
-#include "arfm_vo/ros/truth_path.h"
+#include "arfm_vo/ros/display/bounded_path.h"
+#include "arfm_vo/ros/input/stereo_input.h"
+#include "arfm_vo/ros/input/transform_input.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/pose_message.h"
+#include "arfm_vo/ros/node/node_main.h"
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/replay/truth_path.h"
 
 namespace arfm_vo {
 namespace {

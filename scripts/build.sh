@@ -2,7 +2,7 @@
 # Builds the package and its tests into BUILD_DIR (default _b in the package).
 # Usage: scripts/build.sh [TARGET ...]        default targets: all, tests and the messages for Python
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
 # Debian's python3 first: another one on PATH breaks catkin_pkg.
 export PATH=/usr/bin:$PATH

@@ -4,7 +4,7 @@
 #        --checks   also what scripts/static_checks.sh needs
 #        --list GROUP ...   installs nothing, prints the packages of build, ros, libraries, tests, runtime, hardware
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 
 build=(g++ cmake ninja-build make pkg-config git ca-certificates catkin)
 # (libstereo-image-proc-dev and libimage-proc-dev hold the package.xml and nodelet lists that roslaunch needs.)

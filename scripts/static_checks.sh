@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Reads the sources without running them: shellcheck and pyflakes over the scripts, cppcheck over src and nodes, and with
+# Reads the sources without running them: shellcheck and pyflakes over the scripts, what a layer may use, the sizes of files
+# and folders (test/static_checks/sizes_test.py), cppcheck over src and nodes, and with
 # --tidy clang-tidy's checks of .clang-tidy over FOLDER ... (default: src and nodes; five seconds of CPU a source). Fails
 # with the first finding. Needs: apt-get install shellcheck pyflakes3 cppcheck [clang-tidy]
 # Usage: scripts/static_checks.sh [--tidy [FOLDER ...]]
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
 export PATH=/usr/bin:$PATH
 for tool in shellcheck pyflakes3 cppcheck; do
@@ -12,12 +13,15 @@ for tool in shellcheck pyflakes3 cppcheck; do
 done
 
 mapfile -t shell_scripts < <(find scripts test rosbag_fixtures .ci -name '*.sh' -o -path .ci/run | sort)
-mapfile -t python_scripts < <(find scripts test -name '*.py' | sort)
+mapfile -t python_scripts < <(find launch nodes scripts test -name '*.py' | sort)
 # (SC1091: devel/setup.sh is made by the build.)
 shellcheck -e SC1091 "${shell_scripts[@]}"
 echo "shellcheck: ${#shell_scripts[@]} scripts, no finding"
 pyflakes3 "${python_scripts[@]}"
 echo "pyflakes: ${#python_scripts[@]} scripts, no finding"
+test/layers_test.py
+test/static_checks/sizes_test.py
+test/static_checks/pages_test.py
 # (The two macros are of headers that it is not shown.)
 cppcheck -q -j"$(nproc)" --std=c++17 --language=c++ --enable=warning,performance,portability --error-exitcode=1 \
   --inline-suppr --suppressions-list=test/static_checks/cppcheck.txt --suppress=missingInclude -Iinclude \
@@ -30,7 +34,7 @@ folders=("$@")
 [ $# -gt 0 ] || folders=(src nodes)
 build=${BUILD_DIR:-_b_tidy}  # apart: clang does not read gcc's precompiled headers
 [ -f "$build/compile_commands.json" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DARFM_VO_UNITY=OFF > /dev/null
 ninja -C "$build" arfm_vo_generate_messages_cpp > /dev/null
 mapfile -t sources < <(find "${folders[@]}" -name '*.cpp' | sort)
 printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2> /dev/null

@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test. Usage: scripts/test.sh [CTEST_ARGUMENT ...]
-# With arguments only ctest runs, without the tests in the virtual machine.
+# Installs what is missing, builds, and runs the tests side by side, two for each CPU, as many of them wait.
+# Usage: scripts/test.sh [--full] [CTEST_ARGUMENT ...]
+#        --full   the tests of the label "full" too, which take long; CI runs them
+# With arguments of ctest only ctest runs, without the tests in the virtual machine.
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
+chosen=(-LE full)
+if [[ ${1-} == --full ]]; then chosen=(); shift; fi
 scripts/install_dependencies.sh
 scripts/build.sh
 export PATH=/usr/bin:$PATH
-(cd "${BUILD_DIR:-_b}" && ctest --output-on-failure "$@")
+(cd "${BUILD_DIR:-_b}" && ctest -j $(($(nproc) * 2)) --output-on-failure "${chosen[@]}" "$@")
 # On the kernel's own SocketCAN and V4L2. An emulated machine is 20 to 30 times slower than this one: what it shows of
 # times and pairs is worth something only where nothing else runs, so that is left to be called by hand.
 [ $# -gt 0 ] && exit

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Tests the drivers on the kernel's real SocketCAN and V4L2, in a small virtual machine (scripts/virtual_machine.sh):
+# Tests the drivers on the kernel's real SocketCAN and V4L2, in a small virtual machine (test/virtual_machine.sh):
 # every script in test/hardware/ runs in one of its own, and what they tell of faults and recoveries goes to
 # docs/hardware_faults.md. The package must be built. Skipped, with the reason, where there can be no such machine.
 # Usage: scripts/test_hardware.sh [--check] [PART ...]     video, vcan, chain; default: all
 #        --check leaves docs/hardware_faults.md as it is
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
-if reason=$(scripts/virtual_machine.sh --prepare 2>&1); then :; else
+if reason=$(test/virtual_machine.sh --prepare 2>&1); then :; else
   echo "SKIPPED: tests on real SocketCAN and V4L2: $reason"
   exit 0
 fi
@@ -39,7 +39,7 @@ write_tables() {
 }
 for part in "${parts[@]}"; do
   echo "== $part, in the virtual machine"
-  if scripts/virtual_machine.sh --timeout "${VM_TIMEOUT_S:-1500}" -- "test/hardware/$part.sh" | tee "$results/now"; then
+  if test/virtual_machine.sh --timeout "${VM_TIMEOUT_S:-1500}" -- "test/hardware/$part.sh" | tee "$results/now"; then
     echo "== $part: passed"
     mv "$results/now" "$results/$part"
     [[ $is_check ]] || { write_tables > "$table.new"; mv "$table.new" "$table"; }

@@ -9,7 +9,7 @@
 #        TEST        test_pose .., or the name of a file of test/nodes: ba_node ..; default: all unit tests
 # BUILD_DIR (default _b_KIND) is the build tree. GTEST_FILTER chooses among the tests of a unit test.
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
 undefined=undefined,float-cast-overflow
 case ${1-} in

@@ -9,7 +9,7 @@
 # Each ends with a line "SUITE: ... tests". The chroots (4 GB each) stay in ARFM_VO_SUITES (default: ~/.cache/arfm_vo/suites);
 # the packages come from where this machine's apt has them.
 set -euo pipefail
-. "$(dirname "$0")/help.sh"
+[[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
 cd "$(dirname "$0")/.."
 suites=${ARFM_VO_SUITES:-${XDG_CACHE_HOME:-$HOME/.cache}/arfm_vo/suites}
 mkdir -p "$suites"
@@ -115,7 +115,7 @@ test_chroot() {
     enter offline "$root" "${compiler[@]}" "/$folder/scripts/build.sh" "${core[@]/#/test_}"
     enter offline "$root" bash -c "cd /$folder/_b && ctest --output-on-failure -R '_gtest_test_($(IFS='|'; echo "${core[*]}"))\$'" || status=1
   else
-    enter offline "$root" "${compiler[@]}" "/$folder/scripts/test.sh" || status=1
+    enter offline "$root" "${compiler[@]}" "/$folder/scripts/test.sh" --full || status=1
   fi
   report "$1" "$root/$folder/_b"
   return $status

@@ -23,7 +23,7 @@ def read_layers(cmake_text):
         words = call.group(1).split()
         name, used, is_depends = words[0], set(), False
         for word in words[1:]:
-            if word in ("DEPENDS", "LIBRARIES", "TEST_LIBRARIES", "PRECOMPILED"):
+            if word in ("FOLDER", "FILES", "WITHOUT", "DEPENDS", "LIBRARIES", "PRECOMPILED"):
                 is_depends = word == "DEPENDS"
             elif is_depends:
                 if word not in layers:
@@ -43,9 +43,9 @@ def find_violations(package, layers):
         if layer not in layers and layer != "nodes":
             violations.append(f"{'/'.join(parts)}: folder {layer} is no layer of CMakeLists.txt")
             continue
-        if layer == "ros" and "rover" in layers:  # a library of some of its sources
-            layer = "rover"
         allowed = set(layers) if layer == "nodes" else layers[layer]
+        if layer == "ros" and "rover" in layers:  # of layers that only its folder rover is linked with, headers alone
+            allowed = layers["rover"] if "rover" in parts else layers["rover"] - {"rover"}
         for number, line in enumerate(file.read_text().splitlines(), 1):
             include = INCLUDE.match(line)
             if not include:
@@ -53,7 +53,7 @@ def find_violations(package, layers):
             num_includes += 1
             header = include.group(1)
             where = f"{'/'.join(parts)}:{number}: {header}"
-            own = re.match(r"arfm_vo/(\w+)/", header)
+            own = re.match(r"arfm_vo/(?:ros/(?=rover/))?(\w+)/", header)
             is_message = re.match(r"arfm_vo/\w+\.h$", header)
             if own and own.group(1) not in allowed:
                 violations.append(f"{where}: layer {layer} may not use {own.group(1)}")

@@ -100,7 +100,7 @@ void WritePicture(const std::filesystem::path& path, const cv::Mat& picture) {
   std::filesystem::rename(partial, path);
 }
 
-const ImagePair& FindFiles(const std::vector<ImagePair>& files, const std::string& name) {
+const ImagePair& FindFilesOfPair(const std::vector<ImagePair>& files, const std::string& name) {
   const auto found = std::find_if(files.begin(), files.end(),
                                   [&](const ImagePair& pair) { return pair.name == name; });
   if (found == files.end()) throw std::invalid_argument("no image pair '" + name + "'");
@@ -155,7 +155,7 @@ void WriteCalibration(const std::filesystem::path& folder, const std::vector<Ima
                       const Chessboard& board) {
   std::filesystem::create_directories(folder);
   for (const CornerPair& pair : calibration.pairs) {
-    const ImagePair& file = FindFiles(files, pair.name);
+    const ImagePair& file = FindFilesOfPair(files, pair.name);
     const cv::Mat left = ReadGrey(file.left), right = ReadGrey(file.right);
     WritePicture(folder / ("corners_" + pair.name + ".jpg"), DrawCorners(left, right, pair, board));
     if (&pair == &calibration.pairs.front())

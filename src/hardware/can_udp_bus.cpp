@@ -32,7 +32,7 @@ Datagram ToDatagram(const CanFrame& frame) {
   return datagram;
 }
 
-std::optional<CanFrame> ToFrame(const Datagram& datagram) {
+std::optional<CanFrame> ReadDatagram(const Datagram& datagram) {
   if (datagram[0] > static_cast<uint8_t>(CanFrameKind::kError) || datagram[5] > 8) return {};
   CanFrame frame;
   frame.kind = static_cast<CanFrameKind>(datagram[0]);
@@ -73,7 +73,7 @@ std::optional<CanFrame> CanUdpBus::Receive() {
   for (int attempt = 0; attempt < 2; ++attempt) {
     Datagram datagram;
     const auto size = ::recv(socket_.Get(), datagram.data(), datagram.size(), MSG_TRUNC);
-    if (size == kDatagramSize) return ToFrame(datagram);
+    if (size == kDatagramSize) return ReadDatagram(datagram);
     if (size >= 0) return CanFrame{CanFrameKind::kOther, 0, 0, {}};
     if (errno != ECONNREFUSED) break;
   }

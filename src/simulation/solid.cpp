@@ -4,13 +4,13 @@
 
 namespace arfm_vo {
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFar = std::numeric_limits<double>::infinity();
 }
 
 Solid::Span Solid::Cut(const Ray& ray) const {
   const double a = ray.direction.squaredNorm(), b = ray.origin.dot(ray.direction);
   const double discriminant = b * b - a * (ray.origin.squaredNorm() - 1);
-  if (discriminant <= 0) return {kInfinity, -kInfinity, 0};
+  if (discriminant <= 0) return {kFar, -kFar, 0};
   const double root = std::sqrt(discriminant);
   Span span{(-b - root) / a, (-b + root) / a, 0};
   for (size_t i = 0; i < planes.size(); ++i) {
@@ -18,7 +18,7 @@ Solid::Span Solid::Cut(const Ray& ray) const {
     const double approach = normal.dot(ray.direction);
     const double distance = planes[i].w() - normal.dot(ray.origin);
     if (std::abs(approach) < 1e-12) {
-      if (distance < 0) return {kInfinity, -kInfinity, 0};
+      if (distance < 0) return {kFar, -kFar, 0};
       continue;
     }
     const double crossing = distance / approach;

@@ -11,7 +11,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoDepth = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 12000;    ///< m
 constexpr double kShadowLift = 2e-4;   ///< m, off a surface, so that it does not shade itself
 constexpr double kSkyRadiance = 0.62;  ///< at the horizon
@@ -20,7 +20,7 @@ constexpr double kEdgeBend = 0.02;  ///< relative bend of the inverse depth that
 
 /// What one ray of sight meets.
 struct Sight {
-  double depth = kInfinity;
+  double depth = kNoDepth;
   double radiance = 0;
   int surface = kSky;  ///< differs between neighbours where there is an edge
 };

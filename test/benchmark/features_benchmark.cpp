@@ -1,5 +1,5 @@
 // SURF and its matching against what Debian offers for the same job, on a real stereo pair:
-// ARFM_VO_PAIR=LEFT.png:RIGHT.png (scripts/benchmark.sh), else a scene made of noise.
+// ARFM_VO_PAIR=LEFT.png:RIGHT.png (scripts/measure.sh benchmark), else a scene made of noise.
 #include <benchmark/benchmark.h>
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>

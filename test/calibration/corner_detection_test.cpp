@@ -9,7 +9,7 @@
 namespace arfm_vo {
 namespace {
 
-const Chessboard kBoard{9, 6, 0.1};
+const Chessboard kCornerBoard{9, 6, 0.1};
 
 double Rms(const BoardCorners& a, const BoardCorners& b) {
   return cv::norm(a, b, cv::NORM_L2) / std::sqrt(double(a.size()));
@@ -18,12 +18,12 @@ double Rms(const BoardCorners& a, const BoardCorners& b) {
 TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(11);
-  const BoardRenderer renderer(rig.left, kBoard);
-  for (const Rigid3& pose : RandomBoardPoses(rig, kBoard, 4, 0.7, engine)) {
-    const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kBoard.Size());
+  const BoardRenderer renderer(rig.left, kCornerBoard);
+  for (const Rigid3& pose : RandomBoardPoses(rig, kCornerBoard, 4, 0.7, engine)) {
+    const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kCornerBoard.Size());
     ASSERT_TRUE(corners);
     const BoardCorners truth =
-        AlignOrder(*corners, ProjectBoard(rig.left, kBoard, pose), kBoard.Size());
+        AlignOrder(*corners, ProjectBoard(rig.left, kCornerBoard, pose), kCornerBoard.Size());
     EXPECT_LT(Rms(*corners, truth), 0.06);
   }
 }
@@ -31,12 +31,12 @@ TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
 TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
   const TrueRig rig = MakeRig(1);  // wider than the search's image
   RandomEngine engine(12);
-  const Rigid3 pose = RandomBoardPoses(rig, kBoard, 1, 0.3, engine)[0];
-  const cv::Mat image = BoardRenderer(rig.left, kBoard).Render(pose, 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kBoard.Size());
+  const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, 0.3, engine)[0];
+  const cv::Mat image = BoardRenderer(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
   const BoardCorners truth =
-      AlignOrder(*corners, ProjectBoard(rig.left, kBoard, pose), kBoard.Size());
+      AlignOrder(*corners, ProjectBoard(rig.left, kCornerBoard, pose), kCornerBoard.Size());
   EXPECT_LT(Rms(*corners, truth), 0.06);
   cv::Point2f mean(0, 0);
   for (size_t i = 0; i < truth.size(); ++i)
@@ -45,15 +45,16 @@ TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
 }
 
 TEST(CornerDetection, NothingInAnImageWithoutTheWholeBoard) {
-  EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kBoard.Size()));
+  EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kCornerBoard.Size()));
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(13);
-  cv::Mat image = BoardRenderer(rig.left, kBoard)
-                      .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kBoard.Size());
+  cv::Mat image =
+      BoardRenderer(rig.left, kCornerBoard)
+          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
   cv::circle(image, (*corners)[4], 40, cv::Scalar(128), cv::FILLED);  // a hand over the board
-  EXPECT_FALSE(DetectCorners(image, kBoard.Size()));
+  EXPECT_FALSE(DetectCorners(image, kCornerBoard.Size()));
 }
 
 /// The detector guesses some corners that it does not see.
@@ -61,15 +62,15 @@ TEST(CornerDetection, ABoardWithAHiddenCornerIsNotSeenWhole) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(15);
   const cv::Mat image =
-      BoardRenderer(rig.left, kBoard)
-          .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kBoard.Size());
+      BoardRenderer(rig.left, kCornerBoard)
+          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+  const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
   const double square_px = cv::norm((*corners)[1] - (*corners)[0]);
   for (const int hidden : {0, 4, 9, 22, 31, 53}) {
     cv::Mat covered = image.clone();
     cv::circle(covered, (*corners)[hidden], cvRound(0.6 * square_px), cv::Scalar(128), cv::FILLED);
-    EXPECT_FALSE(DetectCorners(covered, kBoard.Size())) << "corner " << hidden;
+    EXPECT_FALSE(DetectCorners(covered, kCornerBoard.Size())) << "corner " << hidden;
   }
 }
 
@@ -78,8 +79,8 @@ TEST(CornerDetection, GuessesTheSizeOfTheBoard) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(14);
   const cv::Mat image =
-      BoardRenderer(rig.left, kBoard)
-          .Render(RandomBoardPoses(rig, kBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
+      BoardRenderer(rig.left, kCornerBoard)
+          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
   const auto size = GuessBoardSize(image);
   ASSERT_TRUE(size);
   EXPECT_EQ(*size, cv::Size(9, 6));

@@ -10,7 +10,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kTick_s = 0.02;
+constexpr double kControlTick_s = 0.02;
 
 /// A base that moves as it is told, times a gain, behind the limiter.
 struct IdealDrive {
@@ -21,15 +21,15 @@ struct IdealDrive {
   SpeedLimiter limiter{SpeedLimiterOptions{}, TrackKinematics(TrackKinematicsOptions{})};
 
   bool DriveTo(GoalController& controller, double limit_s = 1000) {
-    for (; time_s < limit_s; time_s += kTick_s) {
+    for (; time_s < limit_s; time_s += kControlTick_s) {
       const PlanarMotion wanted = controller.Update(pose, rest_s > 0.5);
       if (controller.HasArrived()) return true;
-      const PlanarMotion motion = limiter.Limit(wanted, kTick_s);
-      rest_s = motion.IsZero() ? rest_s + kTick_s : 0;
+      const PlanarMotion motion = limiter.Limit(wanted, kControlTick_s);
+      rest_s = motion.IsZero() ? rest_s + kControlTick_s : 0;
       min_forward_mps = std::min(min_forward_mps, motion.forward_mps);
       max_forward_mps = std::max(max_forward_mps, motion.forward_mps);
-      pose = Advance(pose, forward_gain * motion.forward_mps * kTick_s,
-                     turn_gain * motion.turn_radps * kTick_s);
+      pose = Advance(pose, forward_gain * motion.forward_mps * kControlTick_s,
+                     turn_gain * motion.turn_radps * kControlTick_s);
     }
     return false;
   }

@@ -7,16 +7,16 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kTick_s = 0.02, kGauge_m = 0.583;
+constexpr double kWatchTick_s = 0.02, kGauge_m = 0.583;
 
 class MotionWatchTest : public ::testing::Test {
  protected:
   /// Commands `commanded` for `duration_s` while the tracks run as `left_mps` and `right_mps`.
   void Run(double duration_s, const PlanarMotion& commanded, double left_mps, double right_mps) {
     const TrackKinematics kinematics({kGauge_m, 1.0});
-    for (const double end_s = now_s_ + duration_s; now_s_ < end_s; now_s_ += kTick_s) {
-      ways_.left_m += kTick_s * left_mps;
-      ways_.right_m += kTick_s * right_mps;
+    for (const double end_s = now_s_ + duration_s; now_s_ < end_s; now_s_ += kWatchTick_s) {
+      ways_.left_m += kWatchTick_s * left_mps;
+      ways_.right_m += kWatchTick_s * right_mps;
       watch_.ObserveCommand(now_s_, commanded);
       watch_.ObserveWays(now_s_, ways_);
       watch_.ObserveMotion(now_s_, kinematics.MotionOf({left_mps, right_mps}));

@@ -9,7 +9,7 @@
 namespace arfm_vo {
 namespace {
 
-Rigid3 At(double x_m, double y_m = 0, double heading_rad = 0) {
+Rigid3 SightingAt(double x_m, double y_m = 0, double heading_rad = 0) {
   return {ExpSO3({0, 0, heading_rad}), Eigen::Vector3d(x_m, y_m, 0)};
 }
 
@@ -34,8 +34,8 @@ class PoseWatchTest : public ::testing::Test {
 
 TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
   Drive(10, 0);
-  EXPECT_FALSE(See(10, At(0)));
-  watch_.Observe(10.5, PoseObservation{10.5, At(3), {}});
+  EXPECT_FALSE(See(10, SightingAt(0)));
+  watch_.Observe(10.5, PoseObservation{10.5, SightingAt(3), {}});
   EXPECT_FALSE(watch_.Judge(10.5, tracks_));
   EXPECT_EQ(watch_.LastSighting().taken_s, 10) << "judged without its covariance";
   watch_.Observe(10.6, PoseUncertainty{10.5, 0.01, 0.01});
@@ -49,7 +49,7 @@ TEST_F(PoseWatchTest, ACovarianceFromTheFutureIsNotTaken) {
 
 TEST_F(PoseWatchTest, ANewEpochHasNoPoseYet) {
   Drive(10, 0);
-  See(10, At(0));
+  See(10, SightingAt(0));
   ASSERT_FALSE(watch_.FindFault(10));
   EXPECT_TRUE(watch_.ObserveEpoch(2, 10.1));
   EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseMissing);
@@ -58,7 +58,7 @@ TEST_F(PoseWatchTest, ANewEpochHasNoPoseYet) {
 TEST_F(PoseWatchTest, ACovarianceOfAnotherEpochSaysNothingOfThisOne) {
   EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10.2, 0.01, 0.01}));
   EXPECT_TRUE(watch_.ObserveEpoch(2, 10.1));
-  watch_.Observe(10.1, PoseObservation{10.1, At(0), {}});
+  watch_.Observe(10.1, PoseObservation{10.1, SightingAt(0), {}});
   watch_.Judge(10.1, tracks_);
   EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseUncertain);
 }
@@ -80,7 +80,7 @@ TEST(PoseWatch, WhereNoCovarianceIsAskedForNoneIsWaitedFor) {
   options.requires_covariance = false;
   PoseWatch watch(options, TrackKinematics({}));
   watch.ObserveEpoch(1, 10);
-  watch.Observe(10, PoseObservation{10, At(0), {}});
+  watch.Observe(10, PoseObservation{10, SightingAt(0), {}});
   EXPECT_FALSE(watch.Judge(10, TrackHistory(2)));
   EXPECT_FALSE(watch.FindFault(10));
 }
@@ -112,77 +112,77 @@ TEST_F(PoseWatchTest, ACreepThatIsSlowerThanTheWindowIsNoSlide) {
   for (int i = 0; i < 6; ++i) {
     const double now_s = 10 + consistency.slide_window_s * i;
     Drive(now_s, 0);
-    EXPECT_FALSE(See(now_s, At(0, 0.4 * consistency.max_error_m * i))) << i;
+    EXPECT_FALSE(See(now_s, SightingAt(0, 0.4 * consistency.max_error_m * i))) << i;
   }
 }
 
 TEST_F(PoseWatchTest, AgreesWithTracksThatSlip) {
   Drive(10, 0);
-  See(10, At(0));
+  See(10, SightingAt(0));
   Drive(11, 0.1);
-  EXPECT_FALSE(See(11, At(0.09)));
+  EXPECT_FALSE(See(11, SightingAt(0.09)));
   Drive(12, 0.2);
-  EXPECT_FALSE(See(12, At(0.1)));
+  EXPECT_FALSE(See(12, SightingAt(0.1)));
 }
 
 TEST_F(PoseWatchTest, AJumpIsMeasuredAgainstTheTracks) {
   Drive(10, 0);
-  See(10, At(0));
+  See(10, SightingAt(0));
   Drive(11, 0.1);
-  const auto fault = See(11, At(0.1 + 0.5));
+  const auto fault = See(11, SightingAt(0.1 + 0.5));
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->detail.rfind("off the tracks by 0.50 m (allowed 0.20 m)", 0), 0u)
       << fault->detail;
-  EXPECT_FALSE(See(11.5, At(0.6))) << "the next is compared with the one that has jumped";
+  EXPECT_FALSE(See(11.5, SightingAt(0.6))) << "the next is compared with the one that has jumped";
 }
 
 TEST_F(PoseWatchTest, ACovarianceThatHasGrownAllowsMoreButNotAnything) {
   Drive(10, 0);
-  See(10, At(0), 0.01);
-  EXPECT_FALSE(See(11, At(0.25), 0.1)) << "3 sigma of 0.1 m";
-  EXPECT_TRUE(See(12, At(1.25), 1.5)) << "a covariance excuses 0.3 m at most";
+  See(10, SightingAt(0), 0.01);
+  EXPECT_FALSE(See(11, SightingAt(0.25), 0.1)) << "3 sigma of 0.1 m";
+  EXPECT_TRUE(See(12, SightingAt(1.25), 1.5)) << "a covariance excuses 0.3 m at most";
 }
 
 TEST_F(PoseWatchTest, ACorrectionWithinTheFormerCovarianceIsNoContradiction) {
   Drive(10, 0);
-  See(10, At(0), 0.1);
-  EXPECT_FALSE(See(11, At(0.25), 0.01));
+  See(10, SightingAt(0), 0.1);
+  EXPECT_FALSE(See(11, SightingAt(0.25), 0.01));
 }
 
 TEST_F(PoseWatchTest, ASightingThatIsUncertainIsNotComparedWith) {
   Drive(10, 0);
-  See(10, At(0));
-  EXPECT_FALSE(See(10.5, At(7), 99.99));
+  See(10, SightingAt(0));
+  EXPECT_FALSE(See(10.5, SightingAt(7), 99.99));
   EXPECT_EQ(watch_.LastSighting().taken_s, 10);
-  EXPECT_EQ(See(11, At(7))->reason, StopReason::kPoseContradiction);
+  EXPECT_EQ(See(11, SightingAt(7))->reason, StopReason::kPoseContradiction);
 }
 
 TEST_F(PoseWatchTest, ASidewaysStepIsLessExcusedThanOneAhead) {
   Drive(10, 0);
-  See(10, At(0, 0, M_PI / 2));
+  See(10, SightingAt(0, 0, M_PI / 2));
   Drive(11, 0.1);
-  EXPECT_FALSE(See(11, At(0, 0.28, M_PI / 2)));
-  EXPECT_TRUE(See(11.5, At(0.18, 0.28, M_PI / 2)));
+  EXPECT_FALSE(See(11, SightingAt(0, 0.28, M_PI / 2)));
+  EXPECT_TRUE(See(11.5, SightingAt(0.18, 0.28, M_PI / 2)));
 }
 
 TEST_F(PoseWatchTest, SightingsFromBeforeANewEpochDoNotCount) {
   Drive(10, 0);
-  See(10, At(5));
+  See(10, SightingAt(5));
   EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
-  EXPECT_FALSE(See(10.9, At(5)));
+  EXPECT_FALSE(See(10.9, SightingAt(5)));
   EXPECT_FALSE(watch_.HasPose());
-  EXPECT_FALSE(See(11, At(0)));
+  EXPECT_FALSE(See(11, SightingAt(0)));
   EXPECT_TRUE(watch_.HasPose());
 }
 
 TEST_F(PoseWatchTest, ADatumCountsInItsEpochOnly) {
   Drive(10, 0);
-  See(10, At(0), 3);
+  See(10, SightingAt(0), 3);
   ASSERT_TRUE(watch_.SetDatum());
   EXPECT_FALSE(watch_.FindFault(10).value_or(StopReason::kPoseMissing) ==
                StopReason::kPoseUncertain);
   EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
-  See(11, At(0), 3);
+  See(11, SightingAt(0), 3);
   EXPECT_EQ(watch_.FindFault(11), StopReason::kPoseUncertain);
 }
 

@@ -1,4 +1,4 @@
-// libFuzzer's entry (scripts/fuzz.sh): FUZZ_TARGET names what to feed.
+// libFuzzer's entry (scripts/measure.sh fuzz): FUZZ_TARGET names what to feed.
 
 #include <cstdio>
 #include <cstdlib>

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "arfm_vo/ros/goal_reader.h"
-#include "arfm_vo/ros/image_conversion.h"
-#include "arfm_vo/ros/stereo_camera_model.h"
+#include "arfm_vo/ros/messages/image_conversion.h"
+#include "arfm_vo/ros/messages/stereo_camera_model.h"
+#include "arfm_vo/ros/rover/goal_reader.h"
 #include "fuzz/byte_source.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/promise.h"

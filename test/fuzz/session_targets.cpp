@@ -3,7 +3,7 @@
 
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/session.h"
-#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/messages/conversions.h"
 #include "fuzz/byte_source.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/message_editor.h"

@@ -12,7 +12,7 @@
 namespace arfm_vo {
 namespace {
 
-const CanFrame kFrame = MakeCanFrame(0x111, {0, 100, 0xFF, 0x9C, 0, 0, 0, 1});
+const CanFrame kUdpFrame = MakeCanFrame(0x111, {0, 100, 0xFF, 0x9C, 0, 0, 0, 1});
 
 struct LoopbackSocket {
   FileDescriptor fd{::socket(AF_INET, SOCK_DGRAM, 0)};
@@ -42,26 +42,26 @@ class CanUdpBusTest : public ::testing::Test {
 TEST_F(CanUdpBusTest, FramesArriveByteForByteInOrder) {
   const auto a = OpenCanBus(Address(port_a_, port_b_)), b = OpenCanBus(Address(port_b_, port_a_));
   EXPECT_FALSE(b->Receive());
-  EXPECT_EQ(a->Send(kFrame), CanSendStatus::kSent);
+  EXPECT_EQ(a->Send(kUdpFrame), CanSendStatus::kSent);
   EXPECT_EQ(a->Send(MakeCanFrame(0x421, {1})), CanSendStatus::kSent);
-  EXPECT_EQ(AwaitFrame(*b), kFrame);
+  EXPECT_EQ(AwaitFrame(*b), kUdpFrame);
   EXPECT_EQ(AwaitFrame(*b), MakeCanFrame(0x421, {1}));
   EXPECT_FALSE(b->Receive());
 }
 
 TEST_F(CanUdpBusTest, WhereNobodyListensFramesAreRefused) {
   CanUdpBus a(port_a_, port_b_);
-  a.Send(kFrame);
-  EXPECT_EQ(a.Send(kFrame), CanSendStatus::kBusy);
+  a.Send(kUdpFrame);
+  EXPECT_EQ(a.Send(kUdpFrame), CanSendStatus::kBusy);
 }
 
 TEST_F(CanUdpBusTest, TheOtherEndMayComeBack) {
   CanUdpBus a(port_a_, port_b_);
-  for (int i = 0; i < 3; ++i) a.Send(kFrame);
+  for (int i = 0; i < 3; ++i) a.Send(kUdpFrame);
   CanUdpBus b(port_b_, port_a_);
-  a.Send(kFrame);
-  EXPECT_EQ(a.Send(kFrame), CanSendStatus::kSent);
-  EXPECT_EQ(AwaitFrame(b), kFrame);
+  a.Send(kUdpFrame);
+  EXPECT_EQ(a.Send(kUdpFrame), CanSendStatus::kSent);
+  EXPECT_EQ(AwaitFrame(b), kUdpFrame);
 }
 
 TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {

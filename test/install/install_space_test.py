@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(sys.argv[2], "scripts"))
+sys.path.insert(0, os.path.join(sys.argv[2], "test"))
 from ports import find_free_port  # noqa: E402
 
 BUILD_DIR, SOURCE_DIR, INSTALL_PREFIX = sys.argv[1:4]
@@ -66,7 +66,7 @@ class InstallSpaceTest(unittest.TestCase):
     def test_launch_files_load_and_their_programs_are_installed(self):
         said = self.run_installed("/usr/bin/python3", "-c", CHECK_LAUNCH_FILES,
                                   self.installed("share", "arfm_vo"), FIXTURE)
-        num_files = len(os.listdir(os.path.join(SOURCE_DIR, "launch")))
+        num_files = sum(name.endswith(".launch") for name in os.listdir(os.path.join(SOURCE_DIR, "launch")))
         self.assertIn(f"{num_files} launch files", said)
         self.assertIn(self.installed("lib", "arfm_vo", "pose_node"), said)
         self.assertNotIn(BUILD_DIR, said)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Runs the command blocks of README.md as they stand there, in order, in one fresh shell in the package's folder.
+"""Runs the command blocks of Markdown pages as they stand there, in order, in one fresh shell in the package's folder.
 
-Usage: readme_blocks.py README [--long] [--list]
+Usage: readme_blocks.py PAGE ... [--long] [--list]
 
 A comment above a block tells what the test does with it:
   <!-- readme_blocks: skip, REASON -->      it cannot run unattended
@@ -16,9 +16,10 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from ports import find_free_port  # noqa: E402
 
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)```", re.S)
 # What roslaunch says of a node that ends badly, while it goes on.
 FAILURES = ("process has died [pid", "Traceback")
@@ -27,10 +28,10 @@ EXCUSED, EXCUSED_WITHIN_LINES = "has no attribute 'isAlive'", 10
 
 
 def read_blocks(path):
-    """[(line, what the test does with it, commands)]"""
+    """[("page:line", what the test does with it, commands)]"""
     with open(path) as file:
         text = file.read()
-    return [(text.count("\n", 0, match.start(2)) + 1, match.group(1) or "run", match.group(2))
+    return [(f"{os.path.basename(path)}:{text.count(chr(10), 0, match.start(2)) + 1}", match.group(1) or "run", match.group(2))
             for match in BLOCK.finditer(text)]
 
 
@@ -41,10 +42,10 @@ def find_end(todo):
 
 
 def write_script(blocks):
-    """One shell script of all blocks, which names each block's line before it runs it."""
+    """One shell script of all blocks, which names each block's page and line before it runs it."""
     script = ["set -eo pipefail"]
-    for line, todo, commands in blocks:
-        script.append(f'echo "README.md:{line}"')
+    for place, todo, commands in blocks:
+        script.append(f'echo "== {place}"')
         end_s = find_end(todo)
         if end_s is None:
             script.append(commands)
@@ -74,7 +75,7 @@ def run(script, folder, home):
         print(text, end="", flush=True)
         said.append(text)
     code = process.wait()
-    block = next((text.strip() for text in reversed(said) if text.startswith("README.md:")), "README.md")
+    block = next((text.strip() for text in reversed(said) if text.startswith("== ")), "the first block")
     if code != 0:
         sys.exit(f"{block}: this block ended with {code}")
     failed = find_failures(said)
@@ -84,23 +85,23 @@ def run(script, folder, home):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("readme")
+    parser.add_argument("pages", nargs="+", metavar="PAGE")
     parser.add_argument("--long", action="store_true", help="run the long blocks too")
     parser.add_argument("--list", action="store_true", help="say only what would be done with each block")
     arguments = parser.parse_args()
-    blocks = read_blocks(arguments.readme)
+    blocks = [block for page in arguments.pages for block in read_blocks(page)]
     chosen = [block for block in blocks
               if block[1] == "run" or find_end(block[1]) or (arguments.long and block[1].startswith("long, "))]
-    for line, todo, _ in blocks:
-        print(f"README.md:{line}: {todo}")
+    for place, todo, _ in blocks:
+        print(f"{place}: {todo}")
         if todo != "run" and not find_end(todo) and not todo.startswith(("skip, ", "long, ")):
-            sys.exit(f"README.md:{line}: a comment that the test does not know: {todo}")
+            sys.exit(f"{place}: a comment that the test does not know: {todo}")
     if not chosen:
         sys.exit("there is no block to run")
     if arguments.list:
         return
     with tempfile.TemporaryDirectory(prefix="arfm_vo_readme_") as home:
-        run(write_script(chosen), os.path.dirname(os.path.abspath(arguments.readme)), home)
+        run(write_script(chosen), ROOT, home)
     print(f"{len(chosen)} of {len(blocks)} blocks were run")
 
 

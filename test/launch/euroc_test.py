@@ -67,7 +67,7 @@ class EurocTest(LaunchCase):
         self.assertEqual(code, 0, said)
         self.assertIn("36 left, 36 right images", said)
         code, console = self.launch(
-            "replay.launch", "rviz:=false", "end_delay_s:=3", "bag:=stereo.bag", "rectify:=true",
+            "replay.launch", "rviz:=false", "end_delay_s:=3", "bag:=stereo.bag", "rectify:=true", "rate:=0.5",
             "left_image:=/cam0/image_raw", "right_image:=/cam1/image_raw", "left_info:=/cam0/camera_info",
             "right_info:=/cam1/camera_info")
         self.assertEqual(code, 0, console)

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from ports import find_free_port  # noqa: E402
 
 os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % find_free_port()

@@ -28,7 +28,7 @@ class RefusalsTest(LaunchCase):
 
     def test_each_launch_file_refuses_an_argument_that_it_has_not(self):
         self.assertIn("no argument base_fram:= (is base_frame:= meant?)", self.refuse("bag:=" + FIXTURE, "base_fram:=a"))
-        for name in sorted(os.listdir(os.path.join(SOURCE_DIR, "launch"))):
+        for name in sorted(name for name in os.listdir(os.path.join(SOURCE_DIR, "launch")) if name.endswith(".launch")):
             code, console = self.launch(name, "sequence:=.", "bag:=" + FIXTURE, "no_such:=1", limit_s=60)
             self.assertNotEqual(code, 0, console)
             self.assertRegex(console, name + " has no argument (sequence|bag|no_such):=")
@@ -60,7 +60,7 @@ class RefusalsTest(LaunchCase):
             check_running.py / pose_node || echo "refused while it runs"
             kill -9 $pid; rosnode list
             check_running.py / pose_node && echo "taken"
-            kill -INT %1; wait""".replace("check_running.py", os.path.join(SOURCE_DIR, "scripts", "check_running.py")))
+            kill -INT %1; wait""".replace("check_running.py", os.path.join(SOURCE_DIR, "launch", "check_running.py")))
         self.assertRegex(console, "(?s)/pose_node runs already on .*refused while it runs.*/pose_node.*\ntaken")
 
     def test_a_mistyped_parameter_ends_the_replay_and_is_named(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """replay.launch as a user calls it, on bags of many shapes: what it does and what its console says.
 
-Usage: replay_test.py BUILD_DIR SOURCE_DIR
+Usage: replay_test.py BUILD_DIR SOURCE_DIR [ReplayTest | CameraTest]
 """
 import os
 import re
@@ -51,12 +51,14 @@ LATE_LISTENER = """
 """
 
 
-class ReplayTest(LaunchCase):
+class ReplayCase(LaunchCase):
     def replay(self, *arguments):
         code, console = self.launch("replay.launch", "rviz:=false", "end_delay_s:=3", *arguments)
         self.assertEqual(code, 0, console)
         return console
 
+
+class ReplayTest(ReplayCase):
     def test_paths_relative_to_the_caller_are_resolved_and_the_totals_are_told(self):
         os.symlink(FIXTURE, os.path.join(self.folder, "my drive.bag"))
         console = self.replay("bag:=my drive.bag", "trajectory_dir:=out")
@@ -65,6 +67,74 @@ class ReplayTest(LaunchCase):
         self.assertIn(f"36 poses saved in {self.folder}/out/poses.txt", console)
         self.assertTrue(os.path.exists(os.path.join(self.folder, "out", "trajectory.tum")))
         self.assertIn("assumed is tf base_link <- left_camera_optical", console)
+
+    def test_the_mount_in_the_tf_of_the_bag_goes_before_the_assumed_one(self):
+        from geometry_msgs.msg import TransformStamped
+        from tf2_msgs.msg import TFMessage
+        self.write_bag("tf.bag", lambda topic, message: (topic, message))
+        mount = TransformStamped()
+        mount.header.stamp = rospy.Time(1000)
+        mount.header.frame_id, mount.child_frame_id = "base_link", "left_camera_optical"
+        mount.transform.rotation.w = 1
+        with rosbag.Bag(os.path.join(self.folder, "tf.bag"), "a") as bag:
+            bag.write("/tf_static", TFMessage([mount]), rospy.Time(1000))
+        console = self.replay("bag:=tf.bag")
+        self.assertIn("36 pairs: 36 with a pose", console)
+        self.assertNotIn("assumed is", console)
+
+    def test_no_pair_is_lost_before_somebody_listens_to_the_synchronized_ones(self):
+        launch = os.path.join(self.folder, "late.launch")
+        with open(launch, "w") as file:
+            file.write(LATE_LISTENER % {"folder": self.folder, "bag": FIXTURE})
+        code, console = self.launch(launch, package=())
+        self.assertEqual(code, 0, console)
+        self.assertIn("36 pairs, 0 images without partner", console)
+        with rosbag.Bag(os.path.join(self.folder, "synchronized.bag")) as bag:
+            counts = {topic: info.message_count for topic, info in bag.get_type_and_topic_info().topics.items()}
+        self.assertEqual(list(counts.values()), [36] * 4, counts)
+
+    def test_a_bag_at_twice_its_speed_keeps_its_pose(self):
+        console = self.replay("bag:=" + FIXTURE, "rate:=2")
+        pairs, tracked, lost = map(int, re.search(r"(\d+) pairs: (\d+) with a pose, (\d+) lost", console).groups())
+        self.assertGreaterEqual(pairs, 10, console)  # a busy machine drops some
+        self.assertEqual((tracked, lost), (pairs, 0), console)
+
+    def test_an_interrupted_replay_ends_all_that_it_has_started(self):
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "rate:=0.1", limit_s=8)
+        self.assertIn("[master] killing on exit", console)
+
+    def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out",
+                                 limit_s=30)
+        self.assertIn("time jumped back", console)
+        for name in "trajectory.tum", "trajectory_2.tum":
+            with open(os.path.join(self.folder, "out", name)) as file:
+                self.assertGreater(sum(not line.startswith("#") for line in file), 30, name)
+
+    def test_two_robots_on_one_master_do_not_touch_each_other(self):
+        with rosbag.Bag(FIXTURE) as source, rosbag.Bag(os.path.join(self.folder, "both.bag"), "w") as bag:
+            for topic, message, stamp in source.read_messages():
+                for robot in ("/a", "/b") if "ground_truth" not in topic else ():
+                    bag.write(robot + topic, message, stamp)
+        with open(os.path.join(self.folder, "both.launch"), "w") as file:
+            file.write(TWO_ROBOTS % {"folder": self.folder})
+        code, console = self.launch("both.launch", package=())
+        self.assertEqual(code, 0, console)
+        rows = []
+        for robot in "a", "b":
+            self.assertIn(f"tf {robot}/base_link <- {robot}/camera", console)
+            table = np.loadtxt(os.path.join(self.folder, robot, "trajectory.tum"))
+            rows.append({row[0]: row[1:4] for row in table})
+        self.assertEqual(console.count(" 0 lost"), 2, console)
+        common = sorted(set(rows[0]) & set(rows[1]))  # a busy machine drops some
+        self.assertGreater(len(common), 10, console)
+        ways_m = [np.linalg.norm(row[common[-1]] - row[common[0]]) for row in rows]
+        self.assertGreater(ways_m[0], 0.5)
+        self.assertAlmostEqual(ways_m[0], ways_m[1], delta=0.02)
+
+
+class CameraTest(ReplayCase):
+    """Bags as other cameras record them."""
 
     def replay_renamed(self, left, right, image, frame):
         """Replays the fixture as the camera of the namespaces `left` and `right` would record it."""
@@ -98,20 +168,6 @@ class ReplayTest(LaunchCase):
         self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
                             "camera_gray_left")
 
-    def test_the_mount_in_the_tf_of_the_bag_goes_before_the_assumed_one(self):
-        from geometry_msgs.msg import TransformStamped
-        from tf2_msgs.msg import TFMessage
-        self.write_bag("tf.bag", lambda topic, message: (topic, message))
-        mount = TransformStamped()
-        mount.header.stamp = rospy.Time(1000)
-        mount.header.frame_id, mount.child_frame_id = "base_link", "left_camera_optical"
-        mount.transform.rotation.w = 1
-        with rosbag.Bag(os.path.join(self.folder, "tf.bag"), "a") as bag:
-            bag.write("/tf_static", TFMessage([mount]), rospy.Time(1000))
-        console = self.replay("bag:=tf.bag")
-        self.assertIn("36 pairs: 36 with a pose", console)
-        self.assertNotIn("assumed is", console)
-
     def test_stamps_that_differ_are_told_and_paired_on_demand(self):
         def delay_right(topic, message):
             if "/right/" in topic:
@@ -125,57 +181,11 @@ class ReplayTest(LaunchCase):
         self.assertIn("36 pairs: 36 with a pose",
                       self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
 
-    def test_no_pair_is_lost_before_somebody_listens_to_the_synchronized_ones(self):
-        launch = os.path.join(self.folder, "late.launch")
-        with open(launch, "w") as file:
-            file.write(LATE_LISTENER % {"folder": self.folder, "bag": FIXTURE})
-        code, console = self.launch(launch, package=())
-        self.assertEqual(code, 0, console)
-        self.assertIn("36 pairs, 0 images without partner", console)
-        with rosbag.Bag(os.path.join(self.folder, "synchronized.bag")) as bag:
-            counts = {topic: info.message_count for topic, info in bag.get_type_and_topic_info().topics.items()}
-        self.assertEqual(list(counts.values()), [36] * 4, counts)
-
     def test_raw_images_are_told_and_rectified_on_demand(self):
         self.write_bag("raw.bag",
                        lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
         self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
-        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true"))
-
-    def test_a_bag_at_twice_its_speed_keeps_its_pose(self):
-        console = self.replay("bag:=" + FIXTURE, "rate:=2")
-        pairs, tracked, lost = map(int, re.search(r"(\d+) pairs: (\d+) with a pose, (\d+) lost", console).groups())
-        self.assertGreaterEqual(pairs, 10, console)  # a busy machine drops some
-        self.assertEqual((tracked, lost), (pairs, 0), console)
-
-    def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
-        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out",
-                                 limit_s=30)
-        self.assertIn("time jumped back", console)
-        for name in "trajectory.tum", "trajectory_2.tum":
-            with open(os.path.join(self.folder, "out", name)) as file:
-                self.assertGreater(sum(not line.startswith("#") for line in file), 30, name)
-
-    def test_two_robots_on_one_master_do_not_touch_each_other(self):
-        with rosbag.Bag(FIXTURE) as source, rosbag.Bag(os.path.join(self.folder, "both.bag"), "w") as bag:
-            for topic, message, stamp in source.read_messages():
-                for robot in ("/a", "/b") if "ground_truth" not in topic else ():
-                    bag.write(robot + topic, message, stamp)
-        with open(os.path.join(self.folder, "both.launch"), "w") as file:
-            file.write(TWO_ROBOTS % {"folder": self.folder})
-        code, console = self.launch("both.launch", package=())
-        self.assertEqual(code, 0, console)
-        rows = []
-        for robot in "a", "b":
-            self.assertIn(f"tf {robot}/base_link <- {robot}/camera", console)
-            table = np.loadtxt(os.path.join(self.folder, robot, "trajectory.tum"))
-            rows.append({row[0]: row[1:4] for row in table})
-        self.assertEqual(console.count(" 0 lost"), 2, console)
-        common = sorted(set(rows[0]) & set(rows[1]))  # a busy machine drops some
-        self.assertGreater(len(common), 10, console)
-        ways_m = [np.linalg.norm(row[common[-1]] - row[common[0]]) for row in rows]
-        self.assertGreater(ways_m[0], 0.5)
-        self.assertAlmostEqual(ways_m[0], ways_m[1], delta=0.02)
+        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true", "rate:=0.5"))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 #include "nodes/node_process.h"
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <map>
 
-#include "arfm_vo/ros/stereo_camera_model.h"
-#include "arfm_vo/ros/stereo_messages.h"
+#include "arfm_vo/ros/messages/stereo_camera_model.h"
+#include "arfm_vo/ros/messages/stereo_messages.h"
 #include "datasets/sequence_folder.h"
 #include "nodes/inbox.h"
 #include "nodes/node_process.h"

@@ -15,14 +15,14 @@
 
 #include <memory>
 
-#include "arfm_vo/ros/arfm_node.h"
-#include "arfm_vo/ros/ba_node.h"
-#include "arfm_vo/ros/chassis_node.h"
-#include "arfm_vo/ros/drive_panel.h"
-#include "arfm_vo/ros/pan_tilt_node.h"
-#include "arfm_vo/ros/pose_node.h"
-#include "arfm_vo/ros/simulator_node.h"
-#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/ros/odometry/arfm_node.h"
+#include "arfm_vo/ros/odometry/ba_node.h"
+#include "arfm_vo/ros/odometry/pose_node.h"
+#include "arfm_vo/ros/rover/chassis_node.h"
+#include "arfm_vo/ros/rover/drive_panel.h"
+#include "arfm_vo/ros/rover/pan_tilt_node.h"
+#include "arfm_vo/ros/rover/simulator_node.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 
 // These nodes' classes stand in their programs.

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "arfm_vo/ros/chassis_node.h"
-#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/ros/rover/chassis_node.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 #include "nodes/malformed_nodes.h"
 
 namespace arfm_vo {

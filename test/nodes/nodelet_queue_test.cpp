@@ -4,7 +4,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "arfm_vo/StereoFrameStamped.h"
-#include "arfm_vo/ros/arfm_node.h"
+#include "arfm_vo/ros/odometry/arfm_node.h"
 #include "nodes/inbox.h"
 
 namespace arfm_vo {

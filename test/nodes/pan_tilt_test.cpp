@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "arfm_vo/hardware/simulated_ptu_port.h"
-#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "nodes/inbox.h"
 

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "arfm_vo/hardware/monotonic_clock.h"
-#include "arfm_vo/ros/stereo_camera_node.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 #include "hardware/simulated_cameras.h"
 #include "nodes/inbox.h"
 

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "arfm_vo/odometry/placed_map.h"
-#include "arfm_vo/ros/conversions.h"
+#include "arfm_vo/ros/messages/conversions.h"
 #include "base/held_memory.h"
 
 namespace arfm_vo {

@@ -358,7 +358,7 @@ std::string Milliseconds(double duration_s) {
 std::string Table() {
   std::ostringstream text;
   text << "# Faults, and how the rover stops\n\n"
-       << "Made by `scripts/fault_table.sh` (the test `FaultTable`): each fault is injected into a "
+       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is injected into a "
           "simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real chassis, on a "
           "simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the moment it "
           "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
@@ -423,7 +423,7 @@ TEST(FaultTable, TheDocumentIsWhatTheTestMeasured) {
   std::ifstream file(ARFM_VO_SOURCE_DIR "/docs/faults.md");
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), Table()) << "docs/faults.md is out of date: run scripts/fault_table.sh";
+  EXPECT_EQ(text.str(), Table()) << "docs/faults.md is out of date: run scripts/measure.sh fault_table";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const StereoCamera kCamera{420, 421, 7.5, 5.5, 0.2, 16, 12};
+const StereoCamera kFolderCamera{420, 421, 7.5, 5.5, 0.2, 16, 12};
 
 class KittiFolderWriterTest : public testing::Test {
  protected:
@@ -35,7 +35,7 @@ class KittiFolderWriterTest : public testing::Test {
 };
 
 TEST_F(KittiFolderWriterTest, WritesWhatAKittiFolderHolds) {
-  KittiFolderWriter writer(folder_.string(), kCamera);
+  KittiFolderWriter writer(folder_.string(), kFolderCamera);
   writer.Write(Pair(0, 10), Rigid3());
   writer.Write(Pair(0.5, 20), Rigid3(Eigen::Quaterniond::Identity(), {0.25, 0, -1}));
   writer.Close();
@@ -51,7 +51,7 @@ TEST_F(KittiFolderWriterTest, WritesWhatAKittiFolderHolds) {
 
 TEST_F(KittiFolderWriterTest, LeavesNothingWhereItWasNotClosed) {
   {
-    KittiFolderWriter writer(folder_.string(), kCamera);
+    KittiFolderWriter writer(folder_.string(), kFolderCamera);
     writer.Write(Pair(0, 10), Rigid3());
   }
   EXPECT_FALSE(fs::exists(folder_));
@@ -60,7 +60,7 @@ TEST_F(KittiFolderWriterTest, LeavesNothingWhereItWasNotClosed) {
 
 TEST_F(KittiFolderWriterTest, RefusesAFolderThatExists) {
   fs::create_directories(folder_);
-  EXPECT_THROW(KittiFolderWriter(folder_.string(), kCamera), std::invalid_argument);
+  EXPECT_THROW(KittiFolderWriter(folder_.string(), kFolderCamera), std::invalid_argument);
 }
 
 }  // namespace

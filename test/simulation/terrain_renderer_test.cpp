@@ -12,7 +12,7 @@ namespace {
 
 const StereoCamera kCamera{160, 160, 79.5, 59.5, 0.2, 160, 120};
 
-TerrainOptions SmallOptions() {
+TerrainOptions SmallPictureOptions() {
   TerrainOptions options;
   options.side_m = 25.6;
   options.seed = 3;
@@ -20,7 +20,7 @@ TerrainOptions SmallOptions() {
 }
 
 TerrainOptions LevelOptions() {
-  TerrainOptions options = SmallOptions();
+  TerrainOptions options = SmallPictureOptions();
   options.relief_m = 0;
   options.hills_m = 0;
   options.rocks.density_per_m2 = 0;
@@ -107,7 +107,8 @@ bool SameBytes(const cv::Mat& a, const cv::Mat& b) {
 TEST(TerrainRenderer, SameBytesOnAnyNumberOfThreads) {
   RenderOptions one, three;
   three.num_threads = 3;
-  const Terrain terrain_one(SmallOptions(), {}, 1), terrain_three(SmallOptions(), {}, 3);
+  const Terrain terrain_one(SmallPictureOptions(), {}, 1),
+      terrain_three(SmallPictureOptions(), {}, 3);
   const Rigid3 pose = LookAhead(terrain_one, -5, 2, 17);
   const cv::Mat a = TerrainRenderer(terrain_one, one).Render(kCamera, pose, 7);
   const cv::Mat b = TerrainRenderer(terrain_three, three).Render(kCamera, pose, 7);
@@ -116,7 +117,7 @@ TEST(TerrainRenderer, SameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(TerrainRenderer, NoiseHasTheDeviationAskedFor) {
-  const Terrain terrain(SmallOptions());
+  const Terrain terrain(SmallPictureOptions());
   RenderOptions noisy, clean;
   noisy.sensor.noise_grey_levels = 2;
   clean.sensor.noise_grey_levels = 0;
@@ -176,7 +177,7 @@ Residual CompareEyes(const RenderedView& left, const RenderedView& right) {
 }
 
 TEST(TerrainRenderer, EyesAgreeToAHundredthOfAPixel) {
-  const Terrain terrain(SmallOptions());
+  const Terrain terrain(SmallPictureOptions());
   const TerrainRenderer renderer(terrain, {});
   double disparity = 0, row = 0;
   for (int k = 0; k < 4; ++k) {

@@ -49,7 +49,7 @@ class NotingBus : public CanBus {
 void PrintRow(const std::string& fault, const std::string& stop, const std::string& remedy) {
   std::cout << "| " << fault << " | " << stop << " | " << remedy << " |\n";
 }
-std::string Milliseconds(double duration_s) {
+std::string ToMilliseconds(double duration_s) {
   return std::to_string(std::lround(1000 * duration_s));
 }
 
@@ -163,7 +163,7 @@ TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) 
   ASSERT_TRUE(RunsWell("ip link set vcan0 down"));
   const double down_s = Now();
   EXPECT_TRUE(RunUntil(0.2, [&] { return Reason() == StopReason::kBusDown; }));
-  PrintRow("`ip link set vcan0 down`", Milliseconds(Now() - down_s),
+  PrintRow("`ip link set vcan0 down`", ToMilliseconds(Now() - down_s),
            "`ip link set vcan0 up`; start");
   Run(1);
   EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
@@ -217,7 +217,7 @@ TEST_F(VcanDriveTest, TheButtonIsObeyedWithin200MillisecondsUnderAFlood) {
   ASSERT_TRUE(RunUntil(5, [&] { return Reason() == StopReason::kChassisEmergency; }));
   const double stop_s = StopSeconds() - pressed_s;
   EXPECT_LE(stop_s - overslept_s_, 0.2) << "stopped after " << stop_s << " s";
-  PrintRow("emergency stop button under a flood", Milliseconds(stop_s),
+  PrintRow("emergency stop button under a flood", ToMilliseconds(stop_s),
            "release the button; start");
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMaxWayOnAWrongPose_m = 0.1;
 
-Rigid3 PlaceAt(double x_m, double y_m, double heading_rad = 0) {
+Rigid3 WrongPlaceAt(double x_m, double y_m, double heading_rad = 0) {
   return PlaceOnLevelGround({x_m, y_m, heading_rad});
 }
 
@@ -46,9 +46,9 @@ class WrongPoseTest : public ::testing::Test {
 };
 
 TEST_F(WrongPoseTest, OdometryThatRestartsOnTheGoalIsNoArrival) {
-  drive_.told_from_true_ = PlaceAt(9, 0);
+  drive_.told_from_true_ = WrongPlaceAt(9, 0);
   DriveTo({0, 0, 0.0}, 3);
-  RestartOdometryAt(PlaceAt(0, 0));
+  RestartOdometryAt(WrongPlaceAt(0, 0));
   drive_.Run(10);
   ExpectBlocked(StopReason::kPoseContradiction);
   EXPECT_NE(drive_.pilot().Status().detail.find(" m"), std::string::npos);
@@ -56,9 +56,9 @@ TEST_F(WrongPoseTest, OdometryThatRestartsOnTheGoalIsNoArrival) {
 }
 
 TEST_F(WrongPoseTest, OdometryThatRestartsElsewhereDrivesNowhere) {
-  drive_.told_from_true_ = PlaceAt(5, -15, M_PI / 2);
+  drive_.told_from_true_ = WrongPlaceAt(5, -15, M_PI / 2);
   DriveTo({0, 5, {}}, 3);
-  RestartOdometryAt(PlaceAt(0, 0));
+  RestartOdometryAt(WrongPlaceAt(0, 0));
   drive_.Run(120);
   ExpectBlocked(StopReason::kPoseContradiction);
 }
@@ -76,7 +76,7 @@ TEST_F(WrongPoseTest, ANewEpochDropsTheGoalAndBlocksEvenWhereThePoseStaysTheSame
 
 TEST_F(WrongPoseTest, AJumpThatIsSeenBeforeItsEpochIsToldIsANewEpoch) {
   DriveTo({6, 0, {}}, 5);
-  RestartOdometryAt(PlaceAt(0, 0));
+  RestartOdometryAt(WrongPlaceAt(0, 0));
   drive_.Run(0.3);
   ExpectBlocked(StopReason::kPoseContradiction);
   ++drive_.epoch_;
@@ -99,7 +99,7 @@ TEST_F(WrongPoseTest, AnOdometryThatIsKilledAndRestartedDrivesNowhere) {
   DriveTo({6, 0, {}}, 15);
   drive_.has_pose_ = false;
   drive_.Run(1.6);
-  RestartOdometryAt(PlaceAt(0, 0));
+  RestartOdometryAt(WrongPlaceAt(0, 0));
   drive_.has_pose_ = true;
   drive_.Run(60);
   ExpectBlocked(StopReason::kPoseContradiction);
@@ -111,25 +111,25 @@ TEST_F(WrongPoseTest, TheFirstPoseAfterAPauseMustAgreeWithTheTracks) {
   drive_.Run(1.5);
   ASSERT_EQ(drive_.pilot().Status().state, DriveState::kPaused);
   drive_.sigma_m_ = 0.01;
-  RestartOdometryAt(PlaceAt(drive_.plant().Pose().x_m + 0.5, 0));
+  RestartOdometryAt(WrongPlaceAt(drive_.plant().Pose().x_m + 0.5, 0));
   drive_.Run(20);
   ExpectBlocked(StopReason::kPoseContradiction);
 }
 
 TEST_F(WrongPoseTest, AHeadingThatJumpsBlocks) {
   DriveTo({6, 0, {}}, 5);
-  RestartOdometryAt(PlaceAt(drive_.plant().Pose().x_m, 0, 0.6));
+  RestartOdometryAt(WrongPlaceAt(drive_.plant().Pose().x_m, 0, 0.6));
   drive_.Run(5);
   ExpectBlocked(StopReason::kPoseContradiction);
 }
 
 TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   DriveTo({6, 0, {}}, 5);
-  drive_.map_from_odom_ = PlaceAt(0.05, 0.05);
+  drive_.map_from_odom_ = WrongPlaceAt(0.05, 0.05);
   drive_.Run(2);
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
   at_fault_ = drive_.plant().Pose();
-  drive_.map_from_odom_ = PlaceAt(0.05, 1);
+  drive_.map_from_odom_ = WrongPlaceAt(0.05, 1);
   drive_.Run(20);
   ExpectBlocked(StopReason::kMapStep);
   EXPECT_TRUE(drive_.pilot().Status().has_goal);
@@ -140,11 +140,11 @@ TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
 
 TEST_F(WrongPoseTest, ASmallTurnOfTheMapIsDrivenOnAndALargeOneAsks) {
   DriveTo({6, 0, {}}, 5);
-  drive_.map_from_odom_ = PlaceAt(0, 0, 0.08);
+  drive_.map_from_odom_ = WrongPlaceAt(0, 0, 0.08);
   drive_.Run(2);
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
   at_fault_ = drive_.plant().Pose();
-  drive_.map_from_odom_ = PlaceAt(0, 0, 0.2);
+  drive_.map_from_odom_ = WrongPlaceAt(0, 0, 0.2);
   drive_.Run(5);
   ExpectBlocked(StopReason::kMapStep);
 }
@@ -169,7 +169,7 @@ TEST(Fence, ARoverThatTheMapPlacesOutsideItStops) {
   ASSERT_TRUE(drive.pilot().SetRoute({{6, 0, {}}}).is_accepted);
   drive.Run(3);
   ASSERT_EQ(drive.pilot().Status().state, DriveState::kDriving);
-  drive.map_from_odom_ = PlaceAt(0, -0.22);  // a step that is allowed
+  drive.map_from_odom_ = WrongPlaceAt(0, -0.22);  // a step that is allowed
   drive.Run(0.3);
   EXPECT_EQ(drive.pilot().Status().state, DriveState::kBlocked);
   EXPECT_STREQ(ToString(drive.pilot().Status().reason), ToString(StopReason::kOutsideFence));
@@ -180,7 +180,7 @@ TEST_F(WrongPoseTest, APoseThatCreepsAwayWhileTheTracksStandIsSliding) {
   ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
   drive_.Run(1);
   drive_.each_tick_ = [this] {
-    drive_.told_from_true_ = PlaceAt(0, 0.001) * drive_.told_from_true_;
+    drive_.told_from_true_ = WrongPlaceAt(0, 0.001) * drive_.told_from_true_;
   };
   drive_.Run(5);
   EXPECT_EQ(drive_.pilot().Status().reason, StopReason::kSliding);

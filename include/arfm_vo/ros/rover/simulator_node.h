@@ -1,0 +1,114 @@
+#pragma once
+
+#include <arfm_vo/GoalReport.h>
+#include <arfm_vo/OdometryStatus.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "arfm_vo/hardware/simulated_ptu_port.h"
+#include "arfm_vo/rehearsal/rehearsal.h"
+#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/simulation/simulated_chassis.h"
+
+namespace arfm_vo {
+
+struct SimulatorNodeOptions {
+  std::string can = "udp:47112:47111";  ///< the chassis' end of the bus, as OpenCanBus takes it
+  std::string head_port;  ///< name of the pan-tilt unit's device file, made here; empty: the head
+                          ///< is fixed, and its tf told
+  std::string map_frame = "map";                     ///< of base_truth
+  std::string base_frame = "base_link";              ///< x ahead, midway between the tracks
+  std::string camera_frame = "left_camera_optical";  ///< frame_id of the images
+  double max_speed_up = 1;     ///< simulated time over wall time, at most; 1 while the head moves
+  double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
+  double max_wait_s = 10;      ///< ..for so much wall time at most
+  double pair_period_s = 0.5;  ///< simulated time between stereo pairs
+  std::string picture;         ///< PNG of the drive, written when a goal has ended; empty: none
+  TerrainOptions terrain;
+  TrackedPlantOptions plant;
+  StereoRigOptions rig;
+  RenderOptions render;
+  RoverShape shape;
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("can", can);
+    visit("head_port", head_port);
+    visit("map_frame", map_frame);
+    visit("base_frame", base_frame);
+    visit("camera_frame", camera_frame);
+    visit("max_speed_up", max_speed_up);
+    visit("max_latency_s", max_latency_s);
+    visit("max_wait_s", max_wait_s);
+    visit("pair_period_s", pair_period_s);
+    visit("picture", picture);
+    visit("terrain", terrain);
+    visit("plant", plant);
+    visit("rig", rig);
+    visit("render", render);
+    visit("shape", shape);
+  }
+};
+
+/// The world around the nodes: /clock, a tracked chassis at the other end of the CAN bus that slips
+/// on a terrain, a pan-tilt unit on a serial line, stereo pairs rendered where the rover truly
+/// stands and its head truly looks, and the truth.
+class SimulatorNode {
+ public:
+  /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus or
+  /// the head's device file cannot be opened.
+  SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node);
+
+  /// Until ROS shuts down.
+  void Run();
+
+ private:
+  void WaitForSubscribers();
+  bool HasOdometry() const { return odometry_done_ >= pair_stamp_; }
+  void WaitForOdometry();
+  void Step();
+  /// Since it was asked last.
+  bool HasHeadMoved();
+  Rigid3 BaseFromCamera();
+  void TakePair();
+  void PublishClock() const;
+  void PublishTruth(const Rigid3& map_from_base) const;
+  void PublishFixedMount();
+  void TakeStatus(const OdometryStatus& status) {
+    odometry_done_ = std::max(odometry_done_, status.header.stamp);
+  }
+  void TakeOdometry(const nav_msgs::Odometry& odometry);
+  void TakeReport(const GoalReport& report);
+  void ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const;
+  void SavePicture() const;
+  ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_); }
+
+  const SimulatorNodeOptions options_;
+  Terrain terrain_;
+  TerrainRenderer renderer_;
+  StereoCamera camera_;
+  Rigid3 map_from_world_;
+  SimulatedChassis chassis_;
+  Drive drive_;  ///< since the last goal ended, for the picture
+  double driven_before_m_ = 0;
+  std::atomic<uint64_t> now_ns_;  ///< read by the head's thread
+  std::unique_ptr<SimulatedPtuPort> head_;
+  std::array<double, 2> head_angles_{};  ///< rad; pan, tilt
+  uint64_t pair_due_ns_;
+  uint32_t num_pairs_ = 0;
+  ros::Time odometry_done_, pair_stamp_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  StereoPublisher stereo_;
+  ros::Publisher clock_, truth_, ground_;
+  ros::Subscriber status_subscriber_, odometry_subscriber_, report_subscriber_;
+};
+
+}  // namespace arfm_vo

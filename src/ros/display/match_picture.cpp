@@ -1,0 +1,59 @@
+#include "arfm_vo/ros/display/match_picture.h"
+
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "arfm_vo/ros/display/depth_colors.h"
+
+namespace arfm_vo {
+namespace {
+
+const cv::Scalar kGreen(60, 220, 60), kRed(60, 60, 255), kWhite(255, 255, 255);
+constexpr int kTextHeight_px = 22;
+constexpr int kSubpixelBits = 3;  // coordinates in eighths of a pixel
+
+cv::Point ToSubpixels(double u, double v) {
+  return {cvRound(u * (1 << kSubpixelBits)), cvRound(v * (1 << kSubpixelBits))};
+}
+
+void DrawRing(cv::Mat& picture, double u, double v, int radius_px, const cv::Scalar& color,
+              int thickness) {
+  cv::circle(picture, ToSubpixels(u, v), radius_px << kSubpixelBits, color, thickness, cv::LINE_AA,
+             kSubpixelBits);
+}
+
+std::string Describe(const StereoFrame& frame, const PoseEstimate& pose) {
+  char text[160];
+  if (pose.IsMeasured())
+    std::snprintf(text, sizeof text, "%s%d of %d map points agree, rms %.2f px",
+                  pose.IsTracked() ? "" : "DEGRADED: ", pose.num_inliers, pose.num_matches,
+                  pose.rms_px);
+  else
+    std::snprintf(text, sizeof text, "LOST: %s (%d matches, %zu stereo points)",
+                  ToString(pose.status), pose.num_matches, frame.points.size());
+  return text;
+}
+
+}  // namespace
+
+cv::Mat DrawMatches(const cv::Mat& left, const StereoFrame& frame, const OdometryUpdate& update) {
+  cv::Mat picture(left.rows + kTextHeight_px, left.cols, CV_8UC3, cv::Scalar::all(0));
+  cv::Mat image = picture.rowRange(kTextHeight_px, picture.rows);
+  cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
+
+  std::vector<float> depths_m;
+  for (const StereoPoint& point : frame.points) depths_m.push_back(point.x_in_camera.z());
+  const DepthColors colors(depths_m);
+  for (const StereoPoint& point : frame.points)
+    DrawRing(image, point.observation.x(), point.observation.y(), 2,
+             colors.BgrOf(point.x_in_camera.z()), cv::FILLED);
+  for (const LandmarkObservation& observation : update.observations)
+    DrawRing(image, observation.pixels[0], observation.pixels[1], 5, kGreen, 1);
+
+  cv::putText(picture, Describe(frame, update.pose), {6, kTextHeight_px - 7},
+              cv::FONT_HERSHEY_SIMPLEX, 0.5, update.pose.IsTracked() ? kWhite : kRed, 1,
+              cv::LINE_AA);
+  return picture;
+}
+
+}  // namespace arfm_vo

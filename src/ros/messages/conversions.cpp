@@ -1,0 +1,235 @@
+#include "arfm_vo/ros/messages/conversions.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "arfm_vo/driving/range_check.h"
+#include "arfm_vo/ros/messages/message_checks.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kDescriptorLength = 64;
+
+void ExportKeypoints(const Features& features, StereoFrameStamped& message) {
+  for (const Keypoint& keypoint : features.keypoints) {
+    message.keypoint_x.push_back(keypoint.x);
+    message.keypoint_y.push_back(keypoint.y);
+    message.keypoint_scale.push_back(keypoint.scale);
+    message.keypoint_angle.push_back(keypoint.angle);
+    message.keypoint_response.push_back(keypoint.response);
+    message.keypoint_laplacian_sign.push_back(keypoint.laplacian_sign);
+  }
+  if (features.keypoints.empty()) return;
+  const cv::Mat& descriptors = features.descriptors;
+  Require(descriptors.type() == CV_32FC1 && descriptors.cols == kDescriptorLength &&
+              descriptors.rows == features.size(),
+          "features: descriptors must be [N x 64] of float");
+  for (int row = 0; row < descriptors.rows; ++row)
+    message.descriptors.insert(message.descriptors.end(), descriptors.ptr<float>(row),
+                               descriptors.ptr<float>(row) + kDescriptorLength);
+}
+
+Features ImportFeatures(const StereoFrameStamped& message) {
+  const std::string name = "StereoFrameStamped: ";
+  const size_t size = message.keypoint_x.size();
+  RequireSize(message.keypoint_y, size, name + "keypoint_y");
+  RequireSize(message.keypoint_scale, size, name + "keypoint_scale");
+  RequireSize(message.keypoint_angle, size, name + "keypoint_angle");
+  RequireSize(message.keypoint_response, size, name + "keypoint_response");
+  RequireSize(message.keypoint_laplacian_sign, size, name + "keypoint_laplacian_sign");
+  RequireSize(message.descriptors, size * kDescriptorLength, name + "descriptors");
+  RequireFinite(message.keypoint_x, name + "keypoint_x");
+  RequireFinite(message.keypoint_y, name + "keypoint_y");
+  RequireFinite(message.keypoint_scale, name + "keypoint_scale");
+  RequireFinite(message.keypoint_angle, name + "keypoint_angle");
+  RequireFinite(message.keypoint_response, name + "keypoint_response");
+  RequireFinite(message.descriptors, name + "descriptors");
+
+  const std::string keypoint_x = name + "keypoint_x", keypoint_y = name + "keypoint_y",
+                    keypoint_scale = name + "keypoint_scale";
+  for (size_t i = 0; i < size; ++i) {
+    const float x = message.keypoint_x[i], y = message.keypoint_y[i];
+    RequireElement(x >= 0 && x < message.camera.width, keypoint_x, i, "lies outside the image");
+    RequireElement(y >= 0 && y < message.camera.height, keypoint_y, i, "lies outside the image");
+    RequireElement(
+        message.keypoint_scale[i] > 0 && message.keypoint_scale[i] < message.camera.width,
+        keypoint_scale, i, "must be positive and less than the image");
+  }
+  Features features;
+  features.keypoints.reserve(size);
+  for (size_t i = 0; i < size; ++i)
+    features.keypoints.push_back({message.keypoint_x[i], message.keypoint_y[i],
+                                  message.keypoint_scale[i], message.keypoint_angle[i],
+                                  message.keypoint_response[i],
+                                  message.keypoint_laplacian_sign[i]});
+  features.descriptors.create(static_cast<int>(size), kDescriptorLength, CV_32FC1);
+  if (size > 0)
+    std::memcpy(features.descriptors.data, message.descriptors.data(),
+                message.descriptors.size() * sizeof(float));
+  return features;
+}
+
+StereoPoints ImportPoints(const StereoFrameStamped& message) {
+  const std::string name = "StereoFrameStamped: ";
+  const size_t size = message.point_keypoint.size();
+  RequireSize(message.point_observation, 3 * size, name + "point_observation");
+  RequireSize(message.point_row_residual, size, name + "point_row_residual");
+  RequireSize(message.point_sigma, size, name + "point_sigma");
+  RequireSize(message.point_position, 3 * size, name + "point_position");
+  RequireSize(message.point_disparity_gradient, 2 * size, name + "point_disparity_gradient");
+  RequireFinite(message.point_disparity_gradient, name + "point_disparity_gradient");
+  RequireFinite(message.point_observation, name + "point_observation");
+  RequireFinite(message.point_row_residual, name + "point_row_residual");
+  RequireFinite(message.point_sigma, name + "point_sigma");
+  RequireFinite(message.point_position, name + "point_position");
+  const std::string point_keypoint = name + "point_keypoint", point_sigma = name + "point_sigma",
+                    point_position = name + "point_position",
+                    point_row_residual = name + "point_row_residual",
+                    point_observation = name + "point_observation";
+  const auto [width, height] = std::pair(message.camera.width, message.camera.height);
+  StereoPoints points(size);
+  for (size_t i = 0; i < size; ++i) {
+    const int keypoint = message.point_keypoint[i];
+    const double row_residual_px = message.point_row_residual[i];
+    RequireElement(keypoint >= 0 && static_cast<size_t>(keypoint) < message.keypoint_x.size(),
+                   point_keypoint, i, "is the number of no keypoint");
+    RequireElement(message.point_position[3 * i + 2] > 0, point_position, 3 * i + 2,
+                   "is behind the camera");
+    RequireElement(message.point_sigma[i] > 0, point_sigma, i, "is not positive");
+    RequireElement(std::abs(row_residual_px) < height, point_row_residual, i,
+                   "is larger than the image");
+    const double* seen = &message.point_observation[3 * i];
+    RequireInImage(seen[0], seen[1], width, height, point_observation, 3 * i);
+    RequireInImage(seen[2], seen[1] + row_residual_px, width, height, point_observation, 3 * i + 2);
+    points[i].keypoint = keypoint;
+    points[i].observation = Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
+    points[i].row_residual_px = row_residual_px;
+    points[i].sigma_px = message.point_sigma[i];
+    points[i].x_in_camera = Eigen::Map<const Eigen::Vector3d>(&message.point_position[3 * i]);
+    points[i].disparity_gradient =
+        Eigen::Map<const Eigen::Vector2d>(&message.point_disparity_gradient[2 * i]);
+  }
+  return points;
+}
+
+/// What says how the pair is as a whole.
+void RequireSummary(const StereoFrameStamped& message) {
+  const std::string name = "StereoFrameStamped: ";
+  constexpr double kMaxGrey = 255;
+  RequireInRange(message.row_agreement, 0, 1, name + "row_agreement");
+  RequireInRange(message.ratio_threshold, 0, 1, name + "ratio_threshold");
+  RequireInRange(message.grey_mean, 0, kMaxGrey, name + "grey_mean");
+  RequireInRange(message.grey_variance, 0, kMaxGrey * kMaxGrey, name + "grey_variance");
+  Require(message.num_right_keypoints <= uint64_t{message.camera.width} * message.camera.height,
+          name + "num_right_keypoints is larger than the number of pixels");
+  RequireFinite(message.stage_ms, name + "stage_ms");
+  RequireSize(message.stage_names, message.stage_ms.size(), name + "stage_names");
+}
+
+}  // namespace
+
+geometry_msgs::Transform ToTransformMessage(const Rigid3& b_from_a) {
+  geometry_msgs::Transform message;
+  message.translation.x = b_from_a.translation.x();
+  message.translation.y = b_from_a.translation.y();
+  message.translation.z = b_from_a.translation.z();
+  message.rotation.x = b_from_a.rotation.x();
+  message.rotation.y = b_from_a.rotation.y();
+  message.rotation.z = b_from_a.rotation.z();
+  message.rotation.w = b_from_a.rotation.w();
+  return message;
+}
+
+geometry_msgs::Pose ToPoseMessage(const Rigid3& b_from_a) {
+  const geometry_msgs::Transform transform = ToTransformMessage(b_from_a);
+  geometry_msgs::Pose message;
+  message.position.x = transform.translation.x;
+  message.position.y = transform.translation.y;
+  message.position.z = transform.translation.z;
+  message.orientation = transform.rotation;
+  return message;
+}
+
+Rigid3 FromMessage(const geometry_msgs::Transform& message, const std::string& name) {
+  const auto& [x, y, z] =
+      std::tie(message.translation.x, message.translation.y, message.translation.z);
+  const Eigen::Quaterniond rotation(message.rotation.w, message.rotation.x, message.rotation.y,
+                                    message.rotation.z);
+  const Rigid3 b_from_a(rotation, Eigen::Vector3d(x, y, z));
+  Require(b_from_a.IsFinite(), name + " is not finite");
+  Require(std::abs(rotation.norm() - 1) < 1e-3,
+          name + ": the rotation is no unit quaternion, its norm is " +
+              std::to_string(rotation.norm()));
+  return b_from_a;
+}
+
+RectifiedStereo ToMessage(const StereoCamera& camera) {
+  RectifiedStereo message;
+  message.fx = camera.fx;
+  message.fy = camera.fy;
+  message.cx = camera.cx;
+  message.cy = camera.cy;
+  message.baseline_m = camera.baseline_m;
+  message.width = camera.width;
+  message.height = camera.height;
+  return message;
+}
+
+StereoCamera FromMessage(const RectifiedStereo& message) {
+  const StereoCamera camera{message.fx,
+                            message.fy,
+                            message.cx,
+                            message.cy,
+                            message.baseline_m,
+                            static_cast<int>(message.width),
+                            static_cast<int>(message.height)};
+  camera.Check();
+  return camera;
+}
+
+StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camera) {
+  StereoFrameStamped message;
+  message.header.stamp.fromSec(frame.stamp_s);
+  message.camera = ToMessage(camera);
+  ExportKeypoints(frame.features, message);
+  for (const StereoPoint& point : frame.points) {
+    message.point_keypoint.push_back(point.keypoint);
+    message.point_row_residual.push_back(point.row_residual_px);
+    message.point_sigma.push_back(point.sigma_px);
+    for (int axis = 0; axis < 3; ++axis) {
+      message.point_observation.push_back(point.observation[axis]);
+      message.point_position.push_back(point.x_in_camera[axis]);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      message.point_disparity_gradient.push_back(point.disparity_gradient[axis]);
+    }
+  }
+  message.num_right_keypoints = frame.num_right_keypoints;
+  message.left_is_repeated = frame.left_is_repeated;
+  message.right_is_repeated = frame.right_is_repeated;
+  message.eyes_are_swapped = frame.eyes_are_swapped;
+  message.row_agreement = frame.row_agreement;
+  message.grey_mean = frame.grey.mean;
+  message.grey_variance = frame.grey.variance;
+  message.ratio_threshold = frame.ratio_threshold;
+  return message;
+}
+
+StereoFrame FromMessage(const StereoFrameStamped& message) {
+  RequireSummary(message);
+  StereoFrame frame;
+  frame.stamp_s = message.header.stamp.toSec();
+  frame.features = ImportFeatures(message);
+  frame.points = ImportPoints(message);
+  frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
+  frame.left_is_repeated = message.left_is_repeated;
+  frame.right_is_repeated = message.right_is_repeated;
+  frame.eyes_are_swapped = message.eyes_are_swapped;
+  frame.row_agreement = message.row_agreement;
+  frame.grey = {message.grey_mean, message.grey_variance};
+  frame.ratio_threshold = message.ratio_threshold;
+  return frame;
+}
+
+}  // namespace arfm_vo

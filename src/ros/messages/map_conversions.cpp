@@ -1,0 +1,161 @@
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/message_checks.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr int kDescriptorLength = 64;
+
+LandmarkObservations ImportObservations(const KeyframeStamped& message) {
+  const std::string name = "KeyframeStamped: ";
+  const size_t size = message.observation_landmark.size();
+  RequireSize(message.observation_pixels, 4 * size, name + "observation_pixels");
+  RequireSize(message.observation_has_right, size, name + "observation_has_right");
+  RequireSize(message.observation_sigma, size, name + "observation_sigma");
+  RequireFinite(message.observation_pixels, name + "observation_pixels");
+  RequireFinite(message.observation_sigma, name + "observation_sigma");
+  RequireAscending(message.observation_landmark, name + "observation_landmark");
+  const std::string pixels = name + "observation_pixels", sigma = name + "observation_sigma";
+  const auto [width, height] = std::pair(message.camera.width, message.camera.height);
+  LandmarkObservations observations(size);
+  for (size_t i = 0; i < size; ++i) {
+    observations[i].landmark = message.observation_landmark[i];
+    observations[i].pixels = Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]);
+    observations[i].has_right = message.observation_has_right[i];
+    observations[i].sigma_px = message.observation_sigma[i];
+    RequireElement(observations[i].sigma_px > 0, sigma, i, "is not positive");
+    const Eigen::Vector4d& seen = observations[i].pixels;
+    RequireInImage(seen[0], seen[1], width, height, pixels, 4 * i);
+    if (observations[i].has_right)
+      RequireInImage(seen[2], seen[3], width, height, pixels, 4 * i + 2);
+  }
+  return observations;
+}
+
+std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
+  const std::string name = "KeyframeStamped: ";
+  const size_t size = message.landmark_id.size();
+  RequireSize(message.landmark_position, 3 * size, name + "landmark_position");
+  RequireSize(message.landmark_laplacian_sign, size, name + "landmark_laplacian_sign");
+  RequireSize(message.landmark_descriptors, kDescriptorLength * size,
+              name + "landmark_descriptors");
+  RequireFinite(message.landmark_position, name + "landmark_position");
+  RequireFinite(message.landmark_descriptors, name + "landmark_descriptors");
+  std::vector<Landmark> landmarks(size);
+  for (size_t i = 0; i < size; ++i) {
+    landmarks[i].id = message.landmark_id[i];
+    landmarks[i].x_in_world = Eigen::Map<const Eigen::Vector3d>(&message.landmark_position[3 * i]);
+    landmarks[i].keypoint.laplacian_sign = message.landmark_laplacian_sign[i];
+    std::copy_n(message.landmark_descriptors.begin() + kDescriptorLength * i, kDescriptorLength,
+                landmarks[i].descriptor.begin());
+  }
+  return landmarks;
+}
+
+CorrectionBelief ImportCorrection(const MapUpdateStamped& message) {
+  const std::string name = "MapUpdateStamped: ";
+  constexpr size_t kSize = StereoCorrection::kSize;
+  RequireSize(message.correction_px, kSize, name + "correction_px");
+  RequireFinite(message.correction_px, name + "correction_px");
+  RequireSize(message.correction_covariance, kSize * kSize, name + "correction_covariance");
+  RequireFinite(message.correction_covariance, name + "correction_covariance");
+  CorrectionBelief correction;
+  correction.mean.coefficients_px =
+      Eigen::Map<const StereoCorrection::Coefficients>(message.correction_px.data());
+  correction.covariance =
+      Eigen::Map<const CorrectionBelief::Matrix>(message.correction_covariance.data());
+  Require(correction.covariance.diagonal().minCoeff() > 0,
+          name + "correction_covariance has a variance that is not positive");
+  return correction;
+}
+
+}  // namespace
+
+KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
+  const Keyframe& seen = keyframe.keyframe;
+  KeyframeStamped message;
+  message.header.stamp.fromSec(seen.stamp_s);
+  message.epoch = keyframe.epoch;
+  message.camera = ToMessage(keyframe.camera);
+  message.odom_from_world = ToTransformMessage(keyframe.odom_from_world);
+  message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
+  message.id = seen.id;
+  message.camera_from_world = ToTransformMessage(seen.camera_from_world);
+  for (const LandmarkObservation& observation : seen.observations) {
+    message.observation_landmark.push_back(observation.landmark);
+    for (int i = 0; i < 4; ++i)
+      message.observation_pixels.push_back(i < 2 || observation.has_right ? observation.pixels[i]
+                                                                          : 0);
+    message.observation_has_right.push_back(observation.has_right);
+    message.observation_sigma.push_back(observation.sigma_px);
+  }
+  for (const Landmark& landmark : keyframe.landmarks) {
+    message.landmark_id.push_back(landmark.id);
+    for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
+    message.landmark_laplacian_sign.push_back(landmark.keypoint.laplacian_sign);
+    message.landmark_descriptors.insert(message.landmark_descriptors.end(),
+                                        landmark.descriptor.begin(), landmark.descriptor.end());
+  }
+  return message;
+}
+
+PlacedKeyframe FromMessage(const KeyframeStamped& message) {
+  PlacedKeyframe keyframe;
+  keyframe.epoch = message.epoch;
+  keyframe.camera = FromMessage(message.camera);
+  keyframe.odom_from_world =
+      FromMessage(message.odom_from_world, "KeyframeStamped: odom_from_world");
+  keyframe.base_from_camera =
+      FromMessage(message.base_from_camera, "KeyframeStamped: base_from_camera");
+  keyframe.keyframe.id = message.id;
+  keyframe.keyframe.stamp_s = message.header.stamp.toSec();
+  keyframe.keyframe.camera_from_world =
+      FromMessage(message.camera_from_world, "KeyframeStamped: camera_from_world");
+  keyframe.keyframe.observations = ImportObservations(message);
+  keyframe.landmarks = ImportLandmarks(message);
+  return keyframe;
+}
+
+MapUpdateStamped ToMessage(const MapUpdate& update) {
+  MapUpdateStamped message;
+  for (const MapUpdate::KeyframePose& keyframe : update.keyframes) {
+    message.keyframe_id.push_back(keyframe.id);
+    message.camera_from_world.push_back(ToTransformMessage(keyframe.camera_from_world));
+  }
+  for (const MapUpdate::LandmarkPosition& landmark : update.landmarks) {
+    message.landmark_id.push_back(landmark.id);
+    for (int i = 0; i < 3; ++i) message.landmark_position.push_back(landmark.x_in_world[i]);
+  }
+  const auto& mean = update.correction.mean.coefficients_px;
+  const auto& covariance = update.correction.covariance;
+  message.correction_px.assign(mean.data(), mean.data() + mean.size());
+  message.correction_covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  message.num_keyframes = update.num_keyframes;
+  return message;
+}
+
+MapUpdate FromMessage(const MapUpdateStamped& message) {
+  const std::string name = "MapUpdateStamped: ";
+  RequireSize(message.camera_from_world, message.keyframe_id.size(), name + "camera_from_world");
+  RequireSize(message.landmark_position, 3 * message.landmark_id.size(),
+              name + "landmark_position");
+  RequireFinite(message.landmark_position, name + "landmark_position");
+  RequireAscending(message.keyframe_id, name + "keyframe_id");
+  RequireAscending(message.landmark_id, name + "landmark_id");
+  MapUpdate update;
+  for (size_t i = 0; i < message.keyframe_id.size(); ++i)
+    update.keyframes.push_back({message.keyframe_id[i], FromMessage(message.camera_from_world[i],
+                                                                    name + "camera_from_world[" +
+                                                                        std::to_string(i) + "]")});
+  for (size_t i = 0; i < message.landmark_id.size(); ++i)
+    update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
+                                                            &message.landmark_position[3 * i])});
+  update.correction = ImportCorrection(message);
+  update.num_keyframes = message.num_keyframes;
+  Require(!update.keyframes.empty(), name + "keyframe_id is empty");
+  Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
+          name + "num_keyframes is less than there are");
+  return update;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,60 @@
+#include "arfm_vo/ros/odometry/learned_calibration.h"
+
+#include <ros/console.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "arfm_vo/configuration/learned_correction_file.h"
+
+namespace arfm_vo {
+namespace {
+
+std::filesystem::path FindRosHome() {
+  if (const char* home = std::getenv("ROS_HOME")) return home;
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home ? home : ".") / ".ros";
+}
+
+}  // namespace
+
+LearnedCalibration::LearnedCalibration(const LearnedCalibrationOptions& options)
+    : options_(options) {
+  if (options_.learned_calibration_dir.empty()) {
+    options_.learned_calibration_dir = FindRosHome() / "arfm_vo";
+  }
+}
+
+std::string LearnedCalibration::Path() const {
+  return std::filesystem::path(options_.learned_calibration_dir) / NameLearnedCorrection(*camera_);
+}
+
+std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& camera) {
+  if (!options_.remember_calibration || (camera_ && *camera_ == camera)) return std::nullopt;
+  camera_ = camera;
+  try {
+    const auto correction = ReadLearnedCorrection(Path(), camera);
+    if (!correction) return std::nullopt;
+    written_ = *correction;
+    ROS_INFO("what earlier drives told of the rectification is read from %s (known to %.2f px)",
+             Path().c_str(), correction->MaxColumnSigma(camera));
+    return correction;
+  } catch (const std::exception& error) {
+    ROS_WARN("learned calibration is not read: %s", error.what());
+    return std::nullopt;
+  }
+}
+
+void LearnedCalibration::Write(const CorrectionBelief& correction) {
+  const bool is_new = correction.mean.coefficients_px != written_.mean.coefficients_px ||
+                      correction.covariance != written_.covariance;
+  if (!options_.remember_calibration || !camera_ || !is_new) return;
+  try {
+    WriteLearnedCorrection(Path(), *camera_, correction);
+    written_ = correction;
+  } catch (const std::exception& error) {
+    ROS_WARN_THROTTLE(60, "learned calibration is not kept: %s", error.what());
+  }
+}
+
+}  // namespace arfm_vo

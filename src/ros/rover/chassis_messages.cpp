@@ -1,0 +1,193 @@
+#include "arfm_vo/ros/rover/chassis_messages.h"
+
+#include <limits>
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+static_assert(DriveStatus::BLOCKED == static_cast<int>(DriveState::kBlocked));
+static_assert(DriveStatus::WARNING == static_cast<int>(DriveState::kWarning));
+static_assert(DriveStatus::DRIVING == static_cast<int>(DriveState::kDriving));
+static_assert(GoalReport::REPLACED == static_cast<int>(GoalOutcome::kReplaced));
+static_assert(ChassisState::MODE_REMOTE == static_cast<int>(ControlMode::kRemote));
+static_assert(ChassisState::VEHICLE_FAULT == static_cast<int>(VehicleState::kFault));
+
+const char* ToString(ControlMode mode) {
+  switch (mode) {
+    case ControlMode::kStandby:
+      return "standby";
+    case ControlMode::kCan:
+      return "CAN";
+    case ControlMode::kUart:
+      return "UART";
+    case ControlMode::kRemote:
+      return "remote control";
+    case ControlMode::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+int LevelOf(const PilotStatus& status) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  if (status.state == DriveState::kBlocked) return Level::ERROR;
+  const bool is_well = status.state == DriveState::kDriving || status.state == DriveState::kReady;
+  return is_well ? Level::OK : Level::WARN;
+}
+
+}  // namespace
+
+DriveStatus ToMessage(const PilotStatus& status) {
+  DriveStatus message;
+  message.state = static_cast<uint8_t>(status.state);
+  message.state_text = ToString(status.state);
+  message.reason = ToString(status.reason);
+  message.detail = status.detail;
+  message.has_goal = status.has_goal;
+  if (status.has_goal) message.phase = ToString(status.phase);
+  message.next_waypoint = static_cast<uint32_t>(status.next_waypoint);
+  message.num_waypoints = static_cast<uint32_t>(status.num_waypoints);
+  message.distance_to_goal_m = status.distance_to_goal_m;
+  message.heading_error_rad = status.heading_error_rad;
+  message.forward_mps = status.motion.forward_mps;
+  message.turn_radps = status.motion.turn_radps;
+  return message;
+}
+
+GoalReport ToMessage(const GoalResult& result) {
+  GoalReport message;
+  message.result = static_cast<uint8_t>(result.outcome);
+  message.text = ToString(result.outcome);
+  if (result.reason != StopReason::kNone)
+    message.text += std::string(": ") + ToString(result.reason);
+  if (!result.detail.empty()) message.text += " " + result.detail;
+  message.x_m = result.goal.x_m;
+  message.y_m = result.goal.y_m;
+  message.heading_rad = result.goal.heading_rad.value_or(0);
+  message.position_error_m = result.position_error_m;
+  message.heading_error_rad = result.heading_error_rad;
+  return message;
+}
+
+GoalReport RefusedGoal(const std::string& reason) {
+  GoalReport message;
+  message.result = GoalReport::REFUSED;
+  message.text = reason;
+  return message;
+}
+
+TrackSlip ToMessage(const Slip& slip) {
+  TrackSlip message;
+  message.has_forward_ratio = slip.forward_ratio.has_value();
+  message.forward_ratio = slip.forward_ratio.value_or(0);
+  message.has_turn_ratio = slip.turn_ratio.has_value();
+  message.turn_ratio = slip.turn_ratio.value_or(0);
+  message.sight_forward_m = slip.sight_forward_m;
+  message.track_forward_m = slip.track_forward_m;
+  message.sight_turn_rad = slip.sight_turn_rad;
+  message.track_turn_rad = slip.track_turn_rad;
+  return message;
+}
+
+ChassisState ToChassisMessage(const ChassisLink& link) {
+  const ChassisReadings& readings = link.Readings();
+  const ChassisTraffic& traffic = link.Traffic();
+  ChassisState message;
+  const SystemState system = readings.system.value_or(SystemState{});
+  message.vehicle = static_cast<uint8_t>(system.vehicle);
+  message.mode = static_cast<uint8_t>(readings.system ? system.mode : ControlMode::kUnknown);
+  message.error_bits = system.error_bits;
+  message.battery_v = system.battery_v;
+  const PlanarMotion motion = readings.motion.value_or(MotionState{}).motion;
+  message.forward_mps = motion.forward_mps;
+  message.turn_radps = motion.turn_radps;
+  const TrackOdometer odometer = readings.odometer.value_or(TrackOdometer{});
+  message.left_track_m = 0.001 * odometer.left_mm;
+  message.right_track_m = 0.001 * odometer.right_mm;
+  for (size_t side = 0; side < 2; ++side) {
+    const MotorState motor = readings.motors[side].value_or(MotorState{});
+    message.motor_rpm[side] = motor.speed_rpm;
+    message.motor_current_a[side] = motor.current_a;
+    const MotorDriverState driver = readings.drivers[side].value_or(MotorDriverState{});
+    message.driver_celsius[side] = driver.driver_celsius;
+    message.motor_celsius[side] = driver.motor_celsius;
+    message.driver_status_bits[side] = driver.status_bits;
+  }
+  message.bus = ToString(link.BusState());
+  message.num_frames_sent = traffic.num_sent;
+  message.num_frames_received = traffic.num_received;
+  message.num_frames_dropped = traffic.num_send_busy + traffic.num_send_down;
+  message.num_frames_unreadable = traffic.num_unreadable;
+  message.num_error_frames = traffic.num_error_frames;
+  return message;
+}
+
+sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings) {
+  sensor_msgs::BatteryState message;
+  message.voltage = message.current = message.percentage = message.charge = message.capacity =
+      message.design_capacity = static_cast<float>(kNaN);
+  message.present = true;
+  if (readings.system) message.voltage = static_cast<float>(readings.system->battery_v);
+  if (!readings.battery) return message;
+  message.voltage = static_cast<float>(readings.battery->voltage_v);
+  message.current = static_cast<float>(readings.battery->current_a);
+  message.percentage = static_cast<float>(readings.battery->charge_percent / 100.0);
+  return message;
+}
+
+nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMotion& motion) {
+  constexpr double kPositionVariance_m2 = 1, kHeadingVariance_rad2 = 1, kUnmeasured = 9999;
+  nav_msgs::Odometry message;
+  message.pose.pose.position.x = pose.x_m;
+  message.pose.pose.position.y = pose.y_m;
+  message.pose.pose.orientation.z = std::sin(pose.heading_rad / 2);
+  message.pose.pose.orientation.w = std::cos(pose.heading_rad / 2);
+  for (int i = 0; i < 6; ++i) {
+    message.pose.covariance[7 * i] = kUnmeasured;
+    message.twist.covariance[7 * i] = kUnmeasured;
+  }
+  message.pose.covariance[0] = message.pose.covariance[7] = kPositionVariance_m2;
+  message.pose.covariance[35] = kHeadingVariance_rad2;
+  message.twist.twist.linear.x = motion.forward_mps;
+  message.twist.twist.angular.z = motion.turn_radps;
+  message.twist.covariance[0] = 0.02 * 0.02;
+  message.twist.covariance[35] = 0.1 * 0.1;
+  return message;
+}
+
+void FillDiagnostics(const PilotStatus& status, const ChassisLink& link,
+                     diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
+  const ChassisTraffic& traffic = link.Traffic();
+  const bool says_reason = status.reason != StopReason::kNone;
+  diagnostics.summary(LevelOf(status), std::string(ToString(status.state)) +
+                                           (says_reason ? ": " : "") +
+                                           (says_reason ? ToString(status.reason) : "") +
+                                           (status.detail.empty() ? "" : " " + status.detail));
+  if (status.is_tilt_near_limit)
+    diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "rover is tilted");
+  diagnostics.add("bus", ToString(link.BusState()));
+  if (link.BusState() != CanBusState::kUp)
+    diagnostics.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::ERROR, "CAN bus is %s",
+                              ToString(link.BusState()));
+  if (const auto& system = link.Readings().system) {
+    diagnostics.add("mode", ToString(system->mode));
+    diagnostics.add("battery_v", system->battery_v);
+    diagnostics.addf("error_bits", "0x%04X", system->error_bits);
+    if (system->error_bits & kUnderVoltageWarning)
+      diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "battery is low");
+    if (system->error_bits & kRemoteLost)
+      diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "remote control is lost");
+  }
+  diagnostics.add("frames sent", traffic.num_sent);
+  diagnostics.add("frames received", traffic.num_received);
+  diagnostics.add("frames dropped, queue full", traffic.num_send_busy);
+  diagnostics.add("frames dropped, bus down", traffic.num_send_down);
+  diagnostics.add("frames unreadable", traffic.num_unreadable);
+  diagnostics.add("motion commands of other drivers", traffic.num_foreign_commands);
+  diagnostics.add("error frames", traffic.num_error_frames);
+  diagnostics.add("bus-off events", traffic.num_bus_off);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,189 @@
+#include "arfm_vo/ros/rover/chassis_node.h"
+
+#include <std_srvs/Trigger.h>
+
+#include <utility>
+
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/node/wait_for_clock.h"
+#include "arfm_vo/ros/rover/chassis_messages.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kTick_s = 0.02;
+
+ChassisNodeOptions ReadOptions(const ros::NodeHandle& private_node) {
+  const auto options = ReadParameters<ChassisNodeOptions>(private_node);
+  Require(!ros::Time::isSimTime() || IsSimulatedBus(options.can),
+          "use_sim_time is set, but can '" + options.can +
+              "' is a real bus: simulated time is for udp:.. and vcan.. only");
+  return options;
+}
+
+/// A latched message says nothing of now.
+template <class Event>
+bool IsLatched(const Event& event) {
+  const auto& header = event.getConnectionHeader();
+  const auto latching = header.find("latching");
+  return latching != header.end() && latching->second == "1";
+}
+
+}  // namespace
+
+ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadOptions(private_node)),
+      lock_(std::in_place, options_.can),
+      transforms_(node, buffer_),
+      sight_(buffer_, options_.map_frame, options_.odom_frame, options_.base_frame),
+      goal_reader_(buffer_, options_.map_frame, options_.max_goal_age_s),
+      driver_(options_.pilot, OpenCanBus(options_.can, ChassisLink::Filters())),
+      publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
+                 options_.base_frame),
+      updater_(node, private_node) {
+  updater_.setHardwareID("chassis on " + options_.can);
+  updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
+  WaitForClock();
+  Listen(node);
+  Serve(private_node);
+  SetPace(node);
+}
+
+void ChassisNode::Listen(ros::NodeHandle& node) {
+  const auto subscribe = [&](const char* topic, auto callback) {
+    subscribers_.push_back(node.subscribe(topic, 10, callback, this));
+  };
+  subscribe("goal", &ChassisNode::TakeGoal);
+  subscribe("waypoints", &ChassisNode::TakePath);
+  subscribe("cmd_vel", &ChassisNode::TakeVelocity);
+  subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);
+  subscribe("operator_heartbeat", &ChassisNode::TakeHeartbeat);
+  subscribe("odom", &ChassisNode::TakeOdometry);
+  subscribe("status", &ChassisNode::TakeOdometryStatus);
+}
+
+void ChassisNode::Serve(ros::NodeHandle& private_node) {
+  const auto serve = [&](const char* name, std::function<Reply()> act) {
+    using Event = ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>;
+    const auto answer = [this, act, name](Event& event) {
+      const Reply reply = act();
+      Tick();
+      event.getResponse().success = reply.is_accepted;
+      event.getResponse().message = reply.text;
+      ROS_INFO("%s called by %s: %s", name, event.getCallerName().c_str(), reply.text.c_str());
+      return true;
+    };
+    ros::AdvertiseServiceOptions options;
+    options.initBySpecType<Event>(private_node.resolveName(name),
+                                  boost::function<bool(Event&)>(answer));
+    servers_.push_back(private_node.advertiseService(options));
+  };
+  Pilot& pilot = driver_.pilot();
+  serve("start", [this, &pilot] { return pilot.Start(clock_.Now()); });
+  serve("stop", [&pilot] { return pilot.Stop(), Reply{true, "stopped"}; });
+  serve("cancel", [&pilot] { return pilot.CancelRoute(), Reply{true, "no goal"}; });
+  serve("clear_errors", [this] { return ClearErrors(); });
+  serve("set_datum", [&pilot] { return pilot.SetDatum(); });
+  serve("release_emergency_stop", [&pilot] {
+    return pilot.ReleaseEmergencyStops(), Reply{true, "released"};
+  });
+}
+
+Reply ChassisNode::ClearErrors() {
+  const DriveState state = driver_.pilot().Status().state;
+  const auto& measured = driver_.link().Readings().motion;
+  const bool is_at_rest = state != DriveState::kDriving && state != DriveState::kWarning &&
+                          (!measured || measured->motion.IsZero());
+  if (!is_at_rest) return {false, "not sent: the rover moves"};
+  driver_.link().SendClearErrors();
+  return {true, "sent"};
+}
+
+void ChassisNode::SetPace(ros::NodeHandle& node) {
+  // Simulated time may run faster or slower than the wall's: then it sets the pace, and the wall
+  // only watches that it goes on.
+  const bool is_simulated = ros::Time::isSimTime();
+  if (is_simulated)
+    timer_ = node.createTimer(ros::Duration(kTick_s), [this](const ros::TimerEvent&) { Tick(); });
+  steady_timer_ = node.createSteadyTimer(ros::WallDuration(is_simulated ? 0.1 : kTick_s),
+                                         [this](const ros::SteadyTimerEvent&) { Tick(); });
+}
+
+void ChassisNode::Tick() {
+  const double now_s = clock_.Now();
+  if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
+  last_tick_s_ = now_s;
+  Look(now_s);
+  driver_.Tick(now_s);
+  publisher_.Publish(now_s, driver_);
+  updater_.update();
+}
+
+void ChassisNode::Look(double now_s) {
+  const bool is_clock_stalled =
+      (ros::SteadyTime::now() - clock_moved_).toSec() > options_.max_clock_stall_s;
+  const auto sighting = sight_.Look();
+  if (!sighting || is_clock_stalled) return driver_.pilot().ObserveNoPose();
+  if (sighting->MapAge(ros::Time::now()) > options_.max_map_age_s)
+    return driver_.pilot().ObserveNoPose(StopReason::kMapStale);
+  if (sighting->stamp != seen_) seen_s_ = clock_.At(sighting->stamp);
+  seen_ = sighting->stamp;
+  driver_.pilot().ObservePose(now_s, {seen_s_, sighting->odom_from_base, sighting->map_from_odom});
+}
+
+void ChassisNode::Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const {
+  FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
+  diagnostics.add("tf refused, from the future", transforms_.num_from_future());
+  diagnostics.add("odometry refused, from the future", num_odometry_refused_);
+}
+
+template <class Message>
+void ChassisNode::TakeRoute(const Message& message) {
+  try {
+    goal_reader_.RequireFresh(message.header, ros::Time::now());
+    Route route;
+    if constexpr (std::is_same_v<Message, nav_msgs::Path>) {
+      route = goal_reader_.Read(message);
+    } else {
+      route = {goal_reader_.Read(message)};
+    }
+    const Reply reply = driver_.pilot().SetRoute(std::move(route));
+    Require(reply.is_accepted, reply.text);
+    Tick();
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN("%s", error.what());
+    publisher_.PublishRefusal(error.what());
+  }
+}
+
+void ChassisNode::TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event) {
+  PlanarMotion motion;
+  try {
+    motion = ReadVelocity(*event.getConstMessage());
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_THROTTLE(1, "%s", error.what());
+  }
+  const Reply reply = driver_.pilot().SetVelocity(clock_.Now(), motion, event.getPublisherName());
+  if (!reply.is_accepted) ROS_WARN_THROTTLE(1, "%s", reply.text.c_str());
+}
+
+void ChassisNode::TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event) {
+  driver_.pilot().SetEmergencyStop(event.getPublisherName(), event.getConstMessage()->data);
+  Tick();
+}
+
+void ChassisNode::TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event) {
+  if (!IsLatched(event)) driver_.pilot().ObserveOperator(clock_.Now());
+}
+
+void ChassisNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
+  const PoseUncertainty uncertainty = ToUncertainty(odometry, clock_.At(odometry.header.stamp));
+  if (!driver_.pilot().ObserveUncertainty(clock_.Now(), uncertainty)) ++num_odometry_refused_;
+}
+
+void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatus>& event) {
+  const double taken_s = clock_.At(event.getConstMessage()->header.stamp);
+  driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,124 @@
+#include "arfm_vo/ros/rover/drive_panel.h"
+
+#include <std_srvs/Trigger.h>
+
+#include <cstdio>
+
+#include "arfm_vo/ros/node/parameters.h"
+
+namespace arfm_vo {
+namespace {
+
+using visualization_msgs::InteractiveMarkerControl;
+using visualization_msgs::InteractiveMarkerFeedback;
+using visualization_msgs::Marker;
+
+constexpr double kTextHeight_m = 0.14, kButton_m = 0.3, kRow_m = 0.45;
+/// chassis_node tells 5 times a second.
+const ros::WallDuration kMaxSilence(2);
+const char* const kName = "drive_panel";
+
+Marker MakeMarker(int type, double y_m, double z_m, double size_m) {
+  Marker marker;
+  marker.type = type;
+  marker.pose.position.y = y_m;
+  marker.pose.position.z = z_m;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = size_m;
+  marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1;
+  return marker;
+}
+
+Marker MakeText(const std::string& text, double y_m, double z_m) {
+  Marker marker = MakeMarker(Marker::TEXT_VIEW_FACING, y_m, z_m, kTextHeight_m);
+  marker.text = text;
+  return marker;
+}
+
+InteractiveMarkerControl MakeButton(const std::string& name, double y_m, double z_m, float red,
+                                    float green) {
+  InteractiveMarkerControl button;
+  button.name = name;
+  button.interaction_mode = InteractiveMarkerControl::BUTTON;
+  button.always_visible = true;
+  button.orientation.w = 1;
+  button.markers = {MakeMarker(Marker::CUBE, y_m, z_m, kButton_m),
+                    MakeText(name, y_m, z_m + kButton_m)};
+  button.markers[0].color.r = red;
+  button.markers[0].color.g = green;
+  button.markers[0].color.b = 0.1f;
+  return button;
+}
+
+}  // namespace
+
+std::string Describe(const DriveStatus& status) {
+  std::string text = status.state_text;
+  if (status.reason != "none") text += ": " + status.reason;
+  if (!status.has_goal) return text;
+  char way[48];
+  std::snprintf(way, sizeof(way), "\n%s, %.1f m to go", status.phase.c_str(),
+                status.distance_to_goal_m);
+  return text + way;
+}
+
+DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<DrivePanelOptions>(private_node)),
+      start_(node.serviceClient<std_srvs::Trigger>("chassis_node/start")),
+      stop_(node.serviceClient<std_srvs::Trigger>("chassis_node/stop")),
+      server_(kName) {
+  status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
+  Show(state_);
+  timer_ = node.createWallTimer(ros::WallDuration(0.5),
+                                [this](const ros::WallTimerEvent&) { NoticeSilence(); });
+}
+
+void DrivePanel::TakeStatus(const DriveStatus& status) {
+  heard_ = ros::WallTime::now();
+  if (Describe(status) != state_) Show(Describe(status));
+}
+
+void DrivePanel::TakeClick(const InteractiveMarkerFeedback& feedback) {
+  ros::ServiceClient& service = feedback.control_name == "stop" ? stop_ : start_;
+  if (feedback.control_name != "stop" && feedback.control_name != "start") return;
+  std_srvs::Trigger call;
+  const bool is_answered = service.call(call);
+  answer_ = feedback.control_name + ": " +
+            (is_answered ? call.response.message : "no answer from " + service.getService());
+  ROS_INFO("%s", answer_.c_str());
+  Show(state_);
+}
+
+visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
+  visualization_msgs::InteractiveMarker panel;
+  panel.header.frame_id = options_.base_frame;
+  panel.name = kName;
+  panel.scale = 1;
+  panel.pose.orientation.w = 1;
+  const double z_m = options_.height_m;
+  InteractiveMarkerControl words;
+  words.name = "words";
+  words.always_visible = true;
+  words.orientation.w = 1;
+  words.markers = {MakeText(state_ + "\n" + answer_, 0, z_m + 2 * kRow_m)};
+  panel.controls = {MakeButton("start", kRow_m, z_m, 0.1f, 0.7f),
+                    MakeButton("stop", -kRow_m, z_m, 0.9f, 0.1f), words};
+  return panel;
+}
+
+void DrivePanel::Show(const std::string& state) {
+  state_ = state;
+  const auto take = [this](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
+    TakeClick(*feedback);
+  };
+  server_.insert(MakePanel(), take, InteractiveMarkerFeedback::BUTTON_CLICK);
+  server_.applyChanges();
+}
+
+void DrivePanel::NoticeSilence() {
+  if (heard_.isZero() || ros::WallTime::now() - heard_ < kMaxSilence) return;
+  heard_ = {};
+  Show("chassis_node is silent");
+}
+
+}  // namespace arfm_vo

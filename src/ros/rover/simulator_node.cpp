@@ -1,0 +1,209 @@
+#include "arfm_vo/ros/rover/simulator_node.h"
+
+#include <rosgraph_msgs/Clock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "arfm_vo/rehearsal/drive_picture.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/pose_message.h"
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/rover/terrain_marker.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr uint64_t kStep_ns = 10'000'000;
+/// So late that a clock may step back by hours.
+constexpr uint64_t kStart_ns = 10'000'000'000'000;
+const ros::WallDuration kPoll(0.002);
+
+PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
+  return [&terrain, shape](const RoverPose& pose) {
+    return PlaceRover(terrain, PlanarPose{{pose.x_m, pose.y_m}, pose.heading_rad}, shape);
+  };
+}
+
+}  // namespace
+
+void SimulatorNodeOptions::Check() const {
+  Require(!can.empty(), "can must name a bus");
+  Require(max_speed_up > 0 && max_speed_up <= 1000, "max_speed_up must be in (0, 1000]");
+  Require(max_latency_s >= 0 && max_latency_s <= 600, "max_latency_s must be in 0..600");
+  Require(max_wait_s >= 0 && max_wait_s <= 600, "max_wait_s must be in 0..600");
+  Require(pair_period_s >= 0.02 && pair_period_s <= 60, "pair_period_s must be in 0.02..60");
+  terrain.Check();
+  plant.Check();
+  rig.Check();
+  render.Check();
+  shape.Check();
+}
+
+SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadParameters<SimulatorNodeOptions>(private_node)),
+      terrain_(options_.terrain, Corridor{}, options_.render.num_threads),
+      renderer_(terrain_, options_.render),
+      camera_(options_.rig.Camera()),
+      map_from_world_(GroundOf(terrain_, options_.shape)(RoverPose{}).Inverse()),
+      chassis_(OpenCanBus(options_.can),
+               TrackedPlant(options_.plant, RoverPose{}, GroundOf(terrain_, options_.shape))),
+      now_ns_(kStart_ns),
+      head_(options_.head_port.empty() ? nullptr
+                                       : std::make_unique<SimulatedPtuPort>(
+                                             options_.head_port, SimulatedPtuOptions::Instant(),
+                                             [this] { return 1e-9 * now_ns_; })),
+      pair_due_ns_(now_ns_),
+      stereo_(ros::NodeHandle(node, "stereo")),
+      clock_(node.advertise<rosgraph_msgs::Clock>("/clock", 10)),
+      truth_(node.advertise<nav_msgs::Odometry>("base_truth", 10)),
+      ground_(node.advertise<visualization_msgs::Marker>(
+          "terrain", 1, [this](const auto& subscriber) { ShowTerrain(subscriber); })),
+      status_subscriber_(node.subscribe("status", 10, &SimulatorNode::TakeStatus, this)),
+      odometry_subscriber_(node.subscribe("odom", 10, &SimulatorNode::TakeOdometry, this)),
+      report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)) {}
+
+void SimulatorNode::ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const {
+  subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
+}
+
+void SimulatorNode::Run() {
+  if (!head_) PublishFixedMount();
+  WaitForSubscribers();
+  while (ros::ok()) {
+    // A reading of the head takes some ms of wall time on its line, in which it must not go far.
+    const double speed_up =
+        HasHeadMoved() ? std::min(1.0, options_.max_speed_up) : options_.max_speed_up;
+    const ros::WallTime due = ros::WallTime::now() + ros::WallDuration(1e-9 * kStep_ns / speed_up);
+    Step();
+    ros::spinOnce();
+    ros::WallTime::sleepUntil(due);
+  }
+}
+
+void SimulatorNode::WaitForSubscribers() {
+  ROS_INFO("waiting for subscribers of the stereo topics");
+  while (ros::ok() && !stereo_.HasSubscribers()) {
+    PublishClock();
+    ros::spinOnce();
+    ros::WallDuration(0.02).sleep();
+  }
+}
+
+void SimulatorNode::WaitForOdometry() {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(options_.max_wait_s);
+  while (ros::ok() && !HasOdometry() && ros::WallTime::now() < end) {
+    ros::spinOnce();
+    kPoll.sleep();
+  }
+  if (HasOdometry()) return;
+  ROS_WARN("no odometry of a pair within %g s", options_.max_wait_s);
+  odometry_done_ = pair_stamp_;
+}
+
+void SimulatorNode::Step() {
+  const bool is_late = (Stamp() - pair_stamp_).toSec() >= options_.max_latency_s;
+  if (is_late && !HasOdometry()) WaitForOdometry();
+  now_ns_ += kStep_ns;
+  PublishClock();
+  chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
+  if (now_ns_ < pair_due_ns_) return;
+  pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));
+  TakePair();
+}
+
+bool SimulatorNode::HasHeadMoved() {
+  if (!head_) return false;
+  const std::array<double, 2> angles = {head_->Angle(PtuAxis::kPan), head_->Angle(PtuAxis::kTilt)};
+  return std::exchange(head_angles_, angles) != angles;
+}
+
+Rigid3 SimulatorNode::BaseFromCamera() {
+  if (!head_) return BaseFromLeftEye(options_.shape);
+  // The unit tilts upward, BaseFromLeftEye downward.
+  return BaseFromLeftEye(options_.shape, head_->Angle(PtuAxis::kPan),
+                         -head_->Angle(PtuAxis::kTilt));
+}
+
+void SimulatorNode::TakePair() {
+  const Rigid3 world_from_base = chassis_.plant().WorldFromBase();
+  const Rigid3 world_from_camera = world_from_base * BaseFromCamera();
+  pair_stamp_ = Stamp();
+  SequencePair pair;
+  pair.images = renderer_.RenderPair(camera_, world_from_camera, num_pairs_++,
+                                     Stamp().toSec() - kStampOffset_s);
+  pair.true_world_from_camera = world_from_camera;
+  StereoMessages messages = ToMessages(pair, camera_, options_.camera_frame);
+  stereo_.Publish(messages);
+  TrackPoint point;
+  point.time_s = pair_stamp_.toSec();
+  point.truth = ProjectToPlane(map_from_world_ * world_from_base);
+  point.slope_deg = SlopeOf(world_from_base);
+  drive_.track.push_back(point);
+  PublishTruth(map_from_world_ * world_from_base);
+}
+
+void SimulatorNode::PublishClock() const {
+  rosgraph_msgs::Clock clock;
+  clock.clock = Stamp();
+  clock_.publish(clock);
+}
+
+void SimulatorNode::PublishTruth(const Rigid3& map_from_base) const {
+  nav_msgs::Odometry truth;
+  truth.header.stamp = Stamp();
+  truth.header.frame_id = options_.map_frame;
+  truth.child_frame_id = options_.base_frame;
+  truth.pose.pose = ToPoseMessage(map_from_base);
+  truth_.publish(truth);
+}
+
+void SimulatorNode::PublishFixedMount() {
+  geometry_msgs::TransformStamped mount;
+  mount.header.stamp = Stamp();
+  mount.header.frame_id = options_.base_frame;
+  mount.child_frame_id = options_.camera_frame;
+  mount.transform = ToTransformMessage(BaseFromCamera());
+  broadcaster_.sendTransform(mount);
+}
+
+void SimulatorNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
+  for (auto point = drive_.track.rbegin(); point != drive_.track.rend(); ++point) {
+    if (std::abs(point->time_s - odometry.header.stamp.toSec()) > 1e-3) continue;
+    point->sight = ProjectToPlane(ToRigid3(odometry.pose.pose));
+    point->is_tracked = true;
+    return;
+  }
+}
+
+void SimulatorNode::TakeReport(const GoalReport& report) {
+  if (options_.picture.empty() || drive_.track.empty() || report.result == GoalReport::REFUSED)
+    return;
+  const TrackPoint& end = drive_.track.back();
+  drive_.outcome = report.text;
+  drive_.goal = {report.x_m, report.y_m, report.heading_rad};
+  drive_.final_error_m = std::hypot(report.x_m - end.truth.x_m, report.y_m - end.truth.y_m);
+  drive_.final_heading_error_deg =
+      std::abs(WrapAngle(report.heading_rad - end.truth.heading_rad)) * 180 / M_PI;
+  drive_.driven_m = chassis_.plant().DrivenDistance() - driven_before_m_;
+  drive_.duration_s = end.time_s - drive_.track.front().time_s;
+  for (const TrackPoint& point : drive_.track)
+    drive_.steepest_deg = std::max(drive_.steepest_deg, point.slope_deg);
+  SavePicture();
+  drive_.track.assign(1, TrackPoint(end));
+  drive_.steepest_deg = 0;
+  driven_before_m_ = chassis_.plant().DrivenDistance();
+}
+
+void SimulatorNode::SavePicture() const {
+  const std::string temporary = options_.picture + ".new.png";
+  if (cv::imwrite(temporary, DrawDrive(terrain_, RoverPose{}, drive_))) {
+    std::filesystem::rename(temporary, options_.picture);
+  } else {
+    ROS_ERROR("%s cannot be written", temporary.c_str());
+  }
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,84 @@
+#include "arfm_vo/ros/messages/stereo_camera_model.h"
+
+#include <gtest/gtest.h>
+
+#include "ros/expect_throw.h"
+
+namespace arfm_vo {
+namespace {
+
+/// camera_info of an eye of KITTI's shape; `p3` is P[3].
+sensor_msgs::CameraInfo MakeInfo(double p3) {
+  sensor_msgs::CameraInfo info;
+  info.width = 1226;
+  info.height = 370;
+  info.P = {700, 0, 600, p3, 0, 710, 180, 0, 0, 0, 1, 0};
+  return info;
+}
+
+const sensor_msgs::CameraInfo kLeft = MakeInfo(0), kRight = MakeInfo(-350);
+
+TEST(StereoCameraModel, TakesIntrinsicsFromTheLeftAndTheBaselineFromTheRight) {
+  const StereoCamera camera = MakeStereoCamera(kLeft, kRight);
+  EXPECT_DOUBLE_EQ(camera.baseline_m, 0.5);  // 350 / 700
+  EXPECT_DOUBLE_EQ(camera.fx, 700);
+  EXPECT_DOUBLE_EQ(camera.fy, 710);
+  EXPECT_DOUBLE_EQ(camera.cx, 600);
+  EXPECT_DOUBLE_EQ(camera.cy, 180);
+  EXPECT_EQ(camera.width, 1226);
+  EXPECT_EQ(camera.height, 370);
+}
+
+/// Spoils the right or left eye and expects an error with `text`.
+template <class Spoil>
+void ExpectCameraRefused(const std::string& text, Spoil spoil) {
+  sensor_msgs::CameraInfo left = kLeft, right = kRight;
+  spoil(left, right);
+  EXPECT_INVALID(MakeStereoCamera(left, right), text);
+}
+
+TEST(StereoCameraModel, SaysWhatIsWrongWithTheBaseline) {
+  ExpectCameraRefused("P[3] is 0", [](auto&, auto& right) { right.P[3] = 0; });
+  ExpectCameraRefused("in mm", [](auto&, auto& right) { right.P[3] = -350e3; });
+  ExpectCameraRefused("swapped", [](auto&, auto& right) { right.P[3] = 350; });
+  ExpectCameraRefused("swapped", [](auto& left, auto& right) { std::swap(left, right); });
+  ExpectCameraRefused("not finite", [](auto&, auto& right) { right.P[3] = NAN; });
+}
+
+TEST(StereoCameraModel, RefusesAPairThatIsNotRectified) {
+  ExpectCameraRefused("cx is 600 in the left P and 610",
+                      [](auto&, auto& right) { right.P[2] = 610; });
+  ExpectCameraRefused("fy is 710 in the left P and 711",
+                      [](auto&, auto& right) { right.P[5] = 711; });
+  ExpectCameraRefused("skew", [](auto& left, auto&) { left.P[1] = 0.5; });
+}
+
+TEST(StereoCameraModel, RefusesAnEyeThatIsNotCalibrated) {
+  ExpectCameraRefused(
+      "left camera_info: the focal lengths in P are 0 and 0: this eye is not calibrated",
+      [](auto& left, auto&) { left.P.fill(0); });
+}
+
+TEST(StereoCameraModel, RefusesSizesThatDifferAndNoSize) {
+  ExpectCameraRefused("left image is 1226x370, the right one 1241x370",
+                      [](auto&, auto& right) { right.width = 1241; });
+  ExpectCameraRefused("size", [](auto& left, auto& right) { left.width = right.width = 0; });
+}
+
+TEST(StereoCameraModel, AnImageHasTheSizeThatItsCameraInfoTells) {
+  sensor_msgs::Image image;
+  image.width = kRight.width;
+  image.height = kRight.height;
+  CheckSize(image, kRight, "/right");
+  image.width -= 8;
+  EXPECT_INVALID(CheckSize(image, kRight, "/right"),
+                 "/right is 1218x370, its camera_info says 1226x370");
+}
+
+TEST(StereoCameraModel, RefusesBinningAndRegionsOfInterest) {
+  ExpectCameraRefused("binning", [](auto& left, auto&) { left.binning_x = 2; });
+  ExpectCameraRefused("region", [](auto&, auto& right) { right.roi.x_offset = 8; });
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include "arfm_vo/ros/odometry/arfm_node_options.h"
+#include "arfm_vo/ros/odometry/ba_node_options.h"
+#include "arfm_vo/ros/odometry/pose_node_options.h"
+#include "ros/expect_throw.h"
+
+namespace arfm_vo {
+namespace {
+
+/// What Check() says of options of which `change` made one wrong.
+template <class Options, class Change>
+void ExpectOptionRefused(const Change& change, const std::string& text) {
+  Options options;
+  EXPECT_NO_THROW(options.Check());
+  change(options);
+  EXPECT_INVALID(options.Check(), text);
+}
+
+TEST(PoseNodeOptions, EachPartIsChecked) {
+  using Options = PoseNodeOptions;
+  ExpectOptionRefused<Options>([](auto& o) { o.algorithm.odometry.min_points_to_start = 3; },
+                               "min_points_to_start");
+  ExpectOptionRefused<Options>([](auto& o) { o.mount.slew_window_s = 0; }, "slew_window_s");
+  ExpectOptionRefused<Options>([](auto& o) { o.output.odom_frame = ""; }, "odom_frame");
+  ExpectOptionRefused<Options>([](auto& o) { o.health.row_residual_pairs = 0; },
+                               "row_residual_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_held_pairs = -1; }, "max_held_pairs");
+}
+
+TEST(ArfmNodeOptions, EachPartIsChecked) {
+  using Options = ArfmNodeOptions;
+  ExpectOptionRefused<Options>([](auto& o) { o.algorithm.frontend.surf.threads = 0; }, "threads");
+  ExpectOptionRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
+}
+
+TEST(BaNodeOptions, TheAlgorithmIsChecked) {
+  ExpectOptionRefused<BaNodeOptions>([](auto& o) { o.algorithm.global.min_observations = 1; },
+                                     "min_observations");
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "arfm_vo/odometry/stereo_frontend.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/odometry/mounted_session.h"
+#include "arfm_vo/simulation/scene.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kSweepDegree = M_PI / 180;
+
+/// The largest faults of the base's pose over a drive.
+struct Drift {
+  double position_m = 0, turn_deg = 0, way_m = 0;
+  int num_tracked = 0, num_slewing = 0;
+};
+
+/// Renders a drive and runs the odometry on it with the head's tf as from a unit on a slow line
+/// (8 readings a second are assumed), at times of its own, interpolated to the images' stamps.
+Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
+  constexpr int kStride = 2;  // 5 pairs a second
+  constexpr double kReading_s = 0.125, kStart_s = 100;
+  const Scene scene(options);
+  tf2::BufferCore buffer{ros::Duration(600)};
+  for (double t = -1; t < scene.Stamp(scene.num_pairs()) + 1; t += kReading_s) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp.fromSec(kStart_s + t);
+    transform.header.frame_id = "base_link";
+    transform.child_frame_id = "left_camera_optical";
+    transform.transform = ToTransformMessage(scene.BaseFromLeft(t));
+    buffer.setTransform(transform, "test");
+  }
+  CameraMountOptions mount_options;
+  mount_options.max_slew_dps = max_slew_dps;
+  const CameraMount mount(buffer, mount_options);
+  StereoFrontend frontend(scene.camera(), {});
+  Session session({});
+  Drift drift;
+  std::optional<Rigid3> first_from_odom;
+  for (int i = 0; i < scene.num_pairs(); i += kStride) {
+    StereoImages images = scene.RenderPair(i);
+    images.stamp_s += kStart_s;
+    std_msgs::Header header;
+    header.stamp.fromSec(images.stamp_s);
+    header.frame_id = "left_camera_optical";
+    const SessionUpdate pose =
+        ProcessMounted(session, mount, frontend.Process(images), scene.camera(), images, header);
+    drift.num_slewing += !pose.IsTried();
+    if (!pose.IsTracked()) continue;
+    ++drift.num_tracked;
+    const Rigid3 truth = scene.FirstFromBase(i);
+    if (!first_from_odom) first_from_odom = truth * pose.odom_from_base.Inverse();
+    const Rigid3 fault = truth.Inverse() * *first_from_odom * pose.odom_from_base;
+    drift.position_m = std::max(drift.position_m, fault.translation.norm());
+    drift.turn_deg = std::max(drift.turn_deg, fault.Angle() / kSweepDegree);
+    drift.way_m = truth.translation.norm();
+  }
+  std::printf(
+      "  %d pairs, %d tracked, %d slewing, way %.2f m: base off by at most %.4f m, %.3f deg\n",
+      (scene.num_pairs() + 1) / kStride, drift.num_tracked, drift.num_slewing, drift.way_m,
+      drift.position_m, drift.turn_deg);
+  return drift;
+}
+
+SceneOptions SweepOptions(const char* path, int num_pairs) {
+  SceneOptions options;
+  options.path = path;
+  options.num_pairs = num_pairs;
+  options.sweep_pan_deg = 60;
+  options.sweep_tilt_deg = 30;
+  options.width = 320;
+  options.height = 240;
+  options.margin_m = 10;
+  options.num_threads = 2;
+  return options;
+}
+
+TEST(HeadSweep, AParkedRoverStaysWhereItIs) {
+  const Drift drift = Drive(SweepOptions("rest", 81));
+  EXPECT_EQ(drift.num_tracked, 41);
+  EXPECT_LT(drift.position_m, 0.01);
+  EXPECT_LT(drift.turn_deg, 0.3);
+}
+
+TEST(HeadSweep, ADrivingRoverGoesItsWayAllTheSame) {
+  SceneOptions options = SweepOptions("straight", 81);
+  options.step_m = 0.02;
+  const Drift drift = Drive(options);
+  EXPECT_EQ(drift.num_tracked, 41);
+  EXPECT_NEAR(drift.way_m, 1.6, 0.05);
+  EXPECT_LT(drift.position_m, 0.01);
+  EXPECT_LT(drift.turn_deg, 0.3);
+}
+
+TEST(HeadSweep, TheGateSkipsPairsOfAFastHead) {
+  // The head passes its middle at 33 deg/s and turns at 17 deg/s halfway to its ends.
+  const Drift drift = Drive(SweepOptions("rest", 81), 24);
+  EXPECT_GT(drift.num_slewing, 10);
+  EXPECT_GT(drift.num_tracked, 5);
+  EXPECT_EQ(drift.num_tracked + drift.num_slewing, 41);
+  EXPECT_LT(drift.position_m, 0.01);
+  EXPECT_LT(drift.turn_deg, 0.3);
+}
+
+}  // namespace
+}  // namespace arfm_vo

@@ -1,0 +1,171 @@
+#include "arfm_vo/ros/rover/camera_health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "arfm_vo/configuration/yaml_reader.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
+
+namespace arfm_vo {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using testing::HasSubstr;
+using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
+
+/// 10 pairs since the last report, as asked.
+StereoCameraStatus GoodStatus() {
+  StereoCameraStatus status;
+  status.is_open = true;
+  status.rate_hz = 10;
+  status.num_pairs = 110;
+  return status;
+}
+
+StereoCameraStatus StatusBefore() {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  return status;
+}
+
+Wrapper Camera(const StereoCameraStatus& status) {
+  Wrapper report;
+  ReportCamera(status, StatusBefore(), {}, {}, report);
+  return report;
+}
+
+TEST(CameraHealth, PairsAsAskedAreOk) {
+  EXPECT_EQ(Camera(GoodStatus()).level, DiagnosticStatus::OK);
+}
+
+TEST(CameraHealth, FiguresAreTold) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_unpaired_left = 3;
+  status.num_unpaired_right = 4;
+  status.num_ambiguous = 5;
+  status.num_dropped = 6;
+  status.num_corrupted = 7;
+  status.num_stamped_late = 8;
+  status.num_failures = 9;
+  status.skew_s = 0.001;
+  status.max_skew_s = 0.002;
+  std::map<std::string, std::string> told;
+  for (const auto& figure : Camera(status).values) told[figure.key] = figure.value;
+  EXPECT_EQ(told["pairs"], "110");
+  EXPECT_EQ(told["pairs a second"], "10.00");
+  EXPECT_EQ(told["skew, right - left, last pair (ms)"], "1.000");
+  EXPECT_EQ(told["skew, largest (ms)"], "2.000");
+  EXPECT_EQ(told["frames without partner, left"], "3");
+  EXPECT_EQ(told["frames without partner, right"], "4");
+  EXPECT_EQ(told["frames too close to be told apart"], "5");
+  EXPECT_EQ(told["frames dropped by the driver"], "6");
+  EXPECT_EQ(told["frames corrupted"], "7");
+  EXPECT_EQ(told["frames without a usable stamp"], "8");
+  EXPECT_EQ(told["failures"], "9");
+}
+
+TEST(CameraHealth, AFailureIsAnErrorWithItsReason) {
+  StereoCameraStatus status = GoodStatus();
+  status.is_open = false;
+  status.problem = "/dev/video1: No such device";
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("/dev/video1"));
+}
+
+TEST(CameraHealth, EyesThatNeverMatchAreAnErrorThatTellsTheSkew) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = status.num_unpaired_right = 10;
+  status.rejected_skew_s = 0.02;
+  status.problem = "no pairs yet";  // as before the first pair
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("20.0 ms apart"));
+}
+
+TEST(CameraHealth, AnEyeThatIsAloneIsAnError) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = 10;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("from one eye alone"));
+  status.problem = "right eye gives no frames";
+  EXPECT_THAT(Camera(status).message, HasSubstr("right eye gives no frames"));
+}
+
+TEST(CameraHealth, FramesTooCloseToBeToldApartAreAnErrorThatTellsWhy) {
+  StereoCameraStatus status = GoodStatus();
+  status.num_pairs = 100;
+  status.num_unpaired_left = status.num_unpaired_right = status.num_ambiguous = 10;
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Camera(status).message, HasSubstr("within 8.0 ms"));
+}
+
+TEST(CameraHealth, SeldomPairsAndLonelyFramesAreWarnings) {
+  StereoCameraStatus seldom = GoodStatus();
+  seldom.rate_hz = 7.9;
+  EXPECT_EQ(Camera(seldom).level, DiagnosticStatus::WARN);
+  StereoCameraStatus lonely = GoodStatus();
+  lonely.num_unpaired_right = 2;  // 2 of 12
+  EXPECT_EQ(Camera(lonely).level, DiagnosticStatus::WARN);
+  EXPECT_THAT(Camera(lonely).message, HasSubstr("17 %"));
+}
+
+TEST(CameraHealth, ADeviceThatDoesNotDoAsAskedIsAWarning) {
+  StereoCameraStatus status = GoodStatus();
+  status.warning = "left eye: its gain cannot be set";
+  EXPECT_EQ(Camera(status).level, DiagnosticStatus::WARN);
+  EXPECT_EQ(Camera(status).message, status.warning);
+}
+
+sensor_msgs::CameraInfo Info(double baseline_m) {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.K[0] = info.P[0] = 500;
+  info.P[3] = -500 * baseline_m;
+  return info;
+}
+
+Wrapper Calibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right) {
+  Wrapper report;
+  ReportCalibration(left, right, 640, 480, report);
+  return report;
+}
+
+TEST(CameraHealth, CalibrationIsWatched) {
+  EXPECT_EQ(Calibration(Info(0), Info(0.2)).level, DiagnosticStatus::OK);
+  EXPECT_EQ(Calibration({}, {}).level, DiagnosticStatus::WARN);
+  EXPECT_THAT(Calibration(Info(0), {}).message, HasSubstr("right eye is not calibrated"));
+  sensor_msgs::CameraInfo small = Info(0.2);
+  small.width = 320;
+  EXPECT_EQ(Calibration(Info(0), small).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Calibration(Info(0), small).message, HasSubstr("320x480"));
+}
+
+TEST(CameraHealth, ABaselineInMillimetresOrOfSwappedEyesIsAnError) {
+  EXPECT_EQ(Calibration(Info(0), Info(200)).level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(Calibration(Info(0), Info(-0.2)).level, DiagnosticStatus::ERROR);
+  EXPECT_THAT(Calibration(Info(0), Info(-0.2)).message, HasSubstr("swapped"));
+}
+
+TEST(StereoCameraNodeOptions, ShippedConfigIsReadStrictly) {
+  const auto options = ReadYamlFile<StereoCameraNodeOptions>(std::string(ARFM_VO_SOURCE_DIR) +
+                                                             "/config/camera.yaml");
+  EXPECT_EQ(options.camera.left_device, "/dev/video0");
+}
+
+TEST(StereoCameraNodeOptions, PathsThatAreNoUrlsAreRefused) {
+  StereoCameraNodeOptions options;
+  options.left_camera_info_url = "/etc/rover/left.yaml";
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options.left_camera_info_url = options.right_camera_info_url = "file:///etc/rover/left.yaml";
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options.right_camera_info_url = "file:///etc/rover/right.yaml";
+  EXPECT_NO_THROW(options.Check());
+}
+
+}  // namespace
+}  // namespace arfm_vo
