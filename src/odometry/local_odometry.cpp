@@ -13,21 +13,6 @@
 #include "window_adjustment.h"
 
 namespace arfm_vo {
-namespace {
-
-/// How far a point has moved in the picture since `before`, even if it is as far as it may be; px.
-double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
-                 const StereoPoint& point) {
-  const double disparity_px = camera.Disparity(point.x_in_camera.z());
-  const double least_px = disparity_px - 3 * std::sqrt(2) * point.sigma_px;
-  if (least_px <= 0) return 0;
-  const Eigen::Vector3d x = before_from_now * (point.x_in_camera * (disparity_px / least_px));
-  if (x.z() <= 0) return camera.width;
-  return (camera.Project(x) - point.observation.head<2>()).norm();
-}
-
-}  // namespace
-
 void LocalOdometryOptions::Check() const {
   tracker.Check();
   keyframes.Check();
@@ -74,9 +59,7 @@ class LocalOdometry::Implementation {
     update.can_start =
         is_left_good && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
-    frame.is_still = FindStill(newest_features_, frame.features, camera_.width, camera_.height);
-    frame.rest_log_ratio =
-        RestLogRatio(frame.features, frame.is_still, camera_.width, camera_.height);
+    FlagStill(camera_, newest_features_, frame);
     FinishAdjustment();
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
@@ -90,7 +73,7 @@ class LocalOdometry::Implementation {
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
       if (!is_right_good) frame.points = PointsByMotion(frame, update);
-      RemoveFixed(update, frame);
+      RemoveFixed(update.pose.camera_from_world, frame);
       AddKeyframe(frame, images, update);
       newest_features_ = frame.features;
     }
@@ -174,23 +157,18 @@ class LocalOdometry::Implementation {
 
   /// Takes away what stands still in the picture though the camera has moved, where that is too
   /// much to be chance.
-  void RemoveFixed(const OdometryUpdate& update, StereoFrame& frame) {
+  void RemoveFixed(const Rigid3& camera_from_world, StereoFrame& frame) {
     const bool is_new_map = map_.keyframes().empty();
-    const Rigid3 before =
-        is_new_map ? update.pose.camera_from_world : map_.keyframes().back().camera_from_world;
-    const Rigid3 before_from_now = before * update.pose.camera_from_world.Inverse();
-    int num_moved = 0, num_fixed = 0;
-    std::vector<char> is_fixed(frame.features.size());
-    for (const StereoPoint& point : frame.points) {
-      const double reach_px = 2 * StillReach(frame.features.keypoints[point.keypoint]);
-      const bool has_moved = is_new_map || LeastFlow(camera_, before_from_now, point) > reach_px;
-      is_fixed[point.keypoint] = has_moved && frame.is_still[point.keypoint];
-      num_moved += has_moved;
-      num_fixed += is_fixed[point.keypoint];
-    }
-    if (!is_new_map && num_moved > 0) verdict_.CountFixed(1. * num_fixed / num_moved);
+    const FixedPoints fixed =
+        FindFixed(camera_, frame,
+                  is_new_map ? std::nullopt
+                             : std::optional(map_.keyframes().back().camera_from_world *
+                                             camera_from_world.Inverse()));
+    if (!is_new_map && fixed.share) verdict_.CountFixed(*fixed.share);
     if (!verdict_.IsSomethingFixed()) return;
-    const auto hides = [&](const StereoPoint& point) { return is_fixed[point.keypoint] != 0; };
+    const auto hides = [&](const StereoPoint& point) {
+      return fixed.is_fixed[point.keypoint] != 0;
+    };
     frame.points.erase(std::remove_if(frame.points.begin(), frame.points.end(), hides),
                        frame.points.end());
   }

@@ -20,6 +20,17 @@ constexpr double kCovered = 0.3, kAnotherPasses = 0.05;
 /// Least cosine between descriptors of one and the same thing.
 constexpr float kAlike = 0.8F;
 
+/// How far a point has moved in the picture since `before`, even if it is as far as it may be; px.
+double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
+                 const StereoPoint& point) {
+  const double disparity_px = camera.Disparity(point.x_in_camera.z());
+  const double least_px = disparity_px - 3 * std::sqrt(2) * point.sigma_px;
+  if (least_px <= 0) return 0;
+  const Eigen::Vector3d x = before_from_now * (point.x_in_camera * (disparity_px / least_px));
+  if (x.z() <= 0) return camera.width;
+  return (camera.Project(x) - point.observation.head<2>()).norm();
+}
+
 bool IsSame(const Features& before, int i, const Features& now, int k) {
   const Keypoint &a = before.keypoints[i], &b = now.keypoints[k];
   const double du = a.x - b.x, dv = a.y - b.y;
@@ -78,6 +89,27 @@ double RestLogRatio(const Features& now, const std::vector<char>& is_still, int 
     log_ratio += share > kMostStill ? if_still : share < kFewStill ? if_moved : 0;
   }
   return log_ratio;
+}
+
+void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame) {
+  frame.is_still = FindStill(before, frame.features, camera.width, camera.height);
+  frame.rest_log_ratio = RestLogRatio(frame.features, frame.is_still, camera.width, camera.height);
+}
+
+FixedPoints FindFixed(const StereoCamera& camera, const StereoFrame& frame,
+                      const std::optional<Rigid3>& before_from_now) {
+  FixedPoints fixed;
+  fixed.is_fixed.resize(frame.features.size());
+  int num_moved = 0, num_fixed = 0;
+  for (const StereoPoint& point : frame.points) {
+    const double reach_px = 2 * StillReach(frame.features.keypoints[point.keypoint]);
+    if (before_from_now && LeastFlow(camera, *before_from_now, point) <= reach_px) continue;
+    fixed.is_fixed[point.keypoint] = frame.is_still[point.keypoint];
+    num_fixed += frame.is_still[point.keypoint];
+    ++num_moved;
+  }
+  if (num_moved > 0) fixed.share = static_cast<double>(num_fixed) / num_moved;
+  return fixed;
 }
 
 }  // namespace arfm_vo

@@ -15,11 +15,12 @@ MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 
 FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scripts", "src", "test", "urdf")
 LARGER = {
     # Folders, files.
-    "docs": 32, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 40,
+    "docs": 32, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 42,
     "test/hardware": 28, "test/nodes": 33, "test/odometry": 26, "test/recordings": 26,
     # Lines.
     "src/driving/drive_state.cpp, a function": 73,  # a switch over all reasons
-    "src/mapping/local_map.cpp": 265, "src/pose/pose_election.cpp": 261,
+    "src/mapping/local_map.cpp": 266, "src/odometry/global_map.cpp": 268,
+    "src/odometry/local_odometry.cpp": 262, "test/odometry/global_map_test.cpp": 260, "src/pose/pose_election.cpp": 261,
     "test/bundle_adjustment/bundle_adjustment_test.cpp": 350, "test/bundle_adjustment/bundle_scene.h": 153,
     "test/calibration/rendered_board.h": 168, "test/experiments/experiments_report.py": 628,
     "test/experiments/matching_experiment.cpp": 263, "test/features/plain_surf.h": 195, "test/hardware/pan_tilt_test.cpp": 300,
