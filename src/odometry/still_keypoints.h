@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 

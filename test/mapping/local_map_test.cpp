@@ -91,6 +91,36 @@ TEST(LocalMap, ForgetsWhatOnlyOldKeyframesSaw) {
   EXPECT_EQ(landmark.keypoint.x, second[0].pixels.x());
 }
 
+/// Points in all the picture, 20 px apart, but for `hidden_px` at the left.
+std::vector<Eigen::Vector3d> Grid(double hidden_px) {
+  std::vector<Eigen::Vector3d> points;
+  for (int v = 10; v < 480; v += 20) {
+    for (int u = 10; u < 640; u += 20) {
+      if (u >= hidden_px) points.push_back({1. * u, 1. * v, 35});
+    }
+  }
+  return points;
+}
+
+TEST(LocalMap, DoubtsWhatAppearsWhereKnownPointsVanish) {
+  for (const double hidden_px : {0., 400.}) {
+    LocalMapOptions options = SmallMap();
+    options.max_landmarks_in_view = 2000;
+    LocalMap map(kCamera, options);
+    LandmarkObservations tracked;
+    const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});
+    for (const auto& observation : first.observations) {
+      if (observation.pixels.x() >= hidden_px) tracked.push_back(observation);
+    }
+    map.AddKeyframe(MakeFrame({{100, 250, 70}, {600, 250, 70}}), kImage, Rigid3(), tracked);
+    for (const Landmark& landmark : map.NewestLandmarks()) {
+      const bool is_hidden = landmark.keypoint.x < hidden_px;
+      EXPECT_NEAR(landmark.num_contradicted, is_hidden ? 2 : 0, 0.1) << hidden_px;
+    }
+    EXPECT_EQ(map.NewestLandmarks().size(), 2u);
+  }
+}
+
 TEST(LocalMap, LooksNoMoreForLandmarksMissedInARow) {
   LocalMap map(kCamera, SmallMap());
   map.AddKeyframe(MakeFrame({{320, 240, 35}}), kImage, Rigid3(), {});

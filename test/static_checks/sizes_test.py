@@ -16,7 +16,7 @@ FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scri
 LARGER = {
     # Folders, files.
     "docs": 32, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 42,
-    "test/hardware": 28, "test/nodes": 33, "test/odometry": 26, "test/recordings": 26,
+    "test/hardware": 28, "test/nodes": 33, "test/odometry": 27, "test/recordings": 26,
     # Lines.
     "src/driving/drive_state.cpp, a function": 73,  # a switch over all reasons
     "src/mapping/local_map.cpp": 266, "src/odometry/global_map.cpp": 268,
