@@ -63,10 +63,10 @@ double MovingCells::LogRatioOfHidden(double u, double v) const {
 }
 
 void MovingCells::FindHidden(const StereoCamera& camera) {
-  const double cell_px = camera.width / kCellsAcross;
+  const int cell_px = camera.width / kCellsAcross;
   double sum = 0, num = 0;
-  for (double v = cell_px / 2; v < camera.height; v += cell_px) {
-    for (double u = cell_px / 2; u < camera.width; u += cell_px) {
+  for (int v = cell_px / 2; v < camera.height; v += cell_px) {
+    for (int u = cell_px / 2; u < camera.width; u += cell_px) {
       if (seen_.Count(u, v) + vanished_.Count(u, v) == 0) continue;
       sum +=
           std::log(1 - kHidden + kHidden * std::exp(std::min(kMostTold, LogRatioOfHidden(u, v))));
