@@ -81,10 +81,10 @@ std::optional<CorrectionBelief> ReadLearnedCorrection(const std::string& path,
   const auto covariance = ReadList(file, "covariance_px2", correction.covariance.size(), path);
   correction.mean.coefficients_px = Eigen::Map<const StereoCorrection::Coefficients>(mean.data());
   correction.covariance = Eigen::Map<const CorrectionBelief::Matrix>(covariance.data());
+  correction.is_of_earlier_drive = true;
   Require(correction.covariance.isApprox(correction.covariance.transpose(), 1e-6) &&
               correction.covariance.llt().info() == Eigen::Success,
           path + ": covariance_px2 is not a covariance");
-  correction.is_of_earlier_drive = true;
   return correction;
 }
 

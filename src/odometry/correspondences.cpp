@@ -30,10 +30,17 @@ constexpr int kCellsAcross = 12, kFewInCell = 3;
 
 }  // namespace
 
-double LogRatioOfShare(double share) {
-  constexpr double kTogether = 0.75, kApart = 0.25;
-  return Correspondences::kRegions * (share * std::log(kTogether / kApart) +
-                                      (1 - share) * std::log((1 - kTogether) / (1 - kApart)));
+double LogRatioOfShare(double share, double if_true, double if_not) {
+  return Correspondences::kRegions * (share * std::log(if_true / if_not) +
+                                      (1 - share) * std::log((1 - if_true) / (1 - if_not)));
+}
+
+int Correspondences::RegionOf(const StereoCamera& camera, double u, double v) {
+  const auto part = [](double place, double size, int num) {
+    return std::clamp(static_cast<int>(place * num / size), 0, num - 1);
+  };
+  return part(v, camera.height, kRegionsDown) * kRegionsAcross +
+         part(u, camera.width, kRegionsAcross);
 }
 
 void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& correction,
@@ -94,18 +101,14 @@ double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::v
   struct Region {
     int num = 0, num_explained = 0, num_agreeing = 0;
     double log_odds = 0;
-  } regions[kRegionsDown][kRegionsAcross];
+  } regions[kRegions];
   for (size_t i = 0; i < landmarks.size(); ++i) {
     const double ground = is_ground[i];
     const bool agrees = flags[i] == flag;
     const double if_ground = ground * agreeing + (1 - ground) * kByChance;
     const double if_not = (1 - ground) * agreeing + ground * kByChance;
     // (A correction may place what the border shows beyond it.)
-    const auto part = [](double place, double size, int num) {
-      return std::clamp(static_cast<int>(place * num / size), 0, num - 1);
-    };
-    Region& region = regions[part(points[i].pixels.y(), camera.height, kRegionsDown)]
-                            [part(points[i].pixels.x(), camera.width, kRegionsAcross)];
+    Region& region = regions[RegionOf(camera, points[i].pixels.x(), points[i].pixels.y())];
     ++region.num;
     region.num_explained += flags[i] != 0;
     region.num_agreeing += agrees;
@@ -113,15 +116,13 @@ double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::v
         agrees ? std::log(if_ground / if_not) : std::log((1 - if_ground) / (1 - if_not));
   }
   double log_odds = 0, share = 0, weights = 0;
-  for (const auto& row : regions) {
-    for (const Region& region : row) {
-      if (region.num == 0) continue;
-      const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
-      log_odds += weight * region.log_odds / region.num;
-      if (region.num_explained == 0) continue;
-      share += weight * region.num_agreeing / region.num_explained;
-      weights += weight;
-    }
+  for (const Region& region : regions) {
+    if (region.num == 0) continue;
+    const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
+    log_odds += weight * region.log_odds / region.num;
+    if (region.num_explained == 0) continue;
+    share += weight * region.num_agreeing / region.num_explained;
+    weights += weight;
   }
   // Of two groups the larger one is likelier to be the ground.
   const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;

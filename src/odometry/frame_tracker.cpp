@@ -99,30 +99,30 @@ TrackedFrame FrameTracker::Localise(Correspondences correspondences,
   const auto is_at_rest = [&](const Rigid3& pose) {
     return IsAtRest(camera_, correspondences, pose, newest);
   };
-  const auto log_odds = [&](const Rigid3& pose, char flag) {
+  const auto log_odds = [&](const Rigid3& pose, char flag, bool rests) {
     return correspondences.LogOddsOfGround(camera_, agrees, flag) +
-           (predicted ? predicted->LogOdds(pose) : 0) + (is_at_rest(pose) ? rest_log_ratio : 0);
+           (predicted ? predicted->LogOdds(pose) : 0) + (rests ? rest_log_ratio : 0);
   };
   const auto estimate = [&](const PoseEstimatorOptions& options) {
     tracked.pose = EstimatePose(camera_, correspondences.points, predicted, options, &agrees);
-    tracked.log_odds = tracked.pose.HasPose() ? log_odds(tracked.pose.camera_from_world, 1) : 0;
+    if (!tracked.pose.HasPose()) return;
+    const bool rests = is_at_rest(tracked.pose.camera_from_world);
+    tracked.is_odd_rest = rests && rest_log_ratio <= 0;
+    tracked.log_odds = log_odds(tracked.pose.camera_from_world, 1, rests);
   };
   estimate(is_wary ? options_.pose.Wary() : options_.pose);
-  const auto is_odd_rest = [&] {
-    return rest_log_ratio <= 0 && is_at_rest(tracked.pose.camera_from_world);
-  };
-  if (!is_wary && (tracked.log_odds < kSure || is_odd_rest())) estimate(options_.pose.Wary());
+  if (!is_wary && (tracked.log_odds < kSure || tracked.is_odd_rest)) {
+    estimate(options_.pose.Wary());
+  }
   if (!tracked.pose.HasPose()) return tracked;
-  if (tracked.pose.rival) {
-    tracked.log_odds_of_rival = log_odds(*tracked.pose.rival, kAgreesWithRival);
-    if (is_odd_rest()) {
-      tracked.log_odds_of_rival += kFixedNotPassing;
-    }
+  if (const auto& rival = tracked.pose.rival) {
+    tracked.log_odds_of_rival = log_odds(*rival, kAgreesWithRival, is_at_rest(*rival)) +
+                                (tracked.is_odd_rest ? kFixedNotPassing : 0);
     if (tracked.log_odds_of_rival > tracked.log_odds) {
       PreferRival(correspondences, agrees, tracked);
+      tracked.is_odd_rest = rest_log_ratio <= 0 && is_at_rest(tracked.pose.camera_from_world);
     }
   }
-  tracked.is_odd_rest = is_odd_rest();
   tracked.observations = correspondences.Select(agrees, 1);
   for (const auto& observation : tracked.observations) {
     tracked.expected.push_back(observation.landmark);

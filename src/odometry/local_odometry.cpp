@@ -1,5 +1,7 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
+#include <algorithm>
+
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/mapping/map_update.h"
@@ -13,6 +15,7 @@
 #include "window_adjustment.h"
 
 namespace arfm_vo {
+
 void LocalOdometryOptions::Check() const {
   tracker.Check();
   keyframes.Check();
@@ -158,19 +161,16 @@ class LocalOdometry::Implementation {
   /// Takes away what stands still in the picture though the camera has moved, where that is too
   /// much to be chance.
   void RemoveFixed(const Rigid3& camera_from_world, StereoFrame& frame) {
-    const bool is_new_map = map_.keyframes().empty();
-    const FixedPoints fixed =
-        FindFixed(camera_, frame,
-                  is_new_map ? std::nullopt
-                             : std::optional(map_.keyframes().back().camera_from_world *
-                                             camera_from_world.Inverse()));
-    if (!is_new_map && fixed.share) verdict_.CountFixed(*fixed.share);
+    std::optional<Rigid3> before_from_now;
+    if (!map_.keyframes().empty()) {
+      before_from_now = map_.keyframes().back().camera_from_world * camera_from_world.Inverse();
+    }
+    const FixedPoints fixed = FindFixed(camera_, frame, before_from_now);
+    if (before_from_now && fixed.share) verdict_.CountFixed(*fixed.share);
     if (!verdict_.IsSomethingFixed()) return;
-    const auto hides = [&](const StereoPoint& point) {
-      return fixed.is_fixed[point.keypoint] != 0;
-    };
-    frame.points.erase(std::remove_if(frame.points.begin(), frame.points.end(), hides),
-                       frame.points.end());
+    auto& points = frame.points;
+    const auto hides = [&](const auto& point) { return fixed.is_fixed[point.keypoint] != 0; };
+    points.erase(std::remove_if(points.begin(), points.end(), hides), points.end());
   }
 
   /// New points without a right image.

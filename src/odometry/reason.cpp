@@ -22,7 +22,7 @@ const std::vector<ReasonRow>& ListReasons() {
       {Reason::kFixed,
        "something that is fixed before the camera hides the ground (a part of the rover, or a "
        "projector's dots?)",
-       kLost},
+       "degraded: the pose may be at rest by what is fixed; no measurement where that is likelier"},
       {Reason::kFarPoints, "most points are too far to tell how long the path is",
        "degraded: the length of the path counts as unknown"},
       {Reason::kSkewed, "the right picture is taken far from the left one's time",

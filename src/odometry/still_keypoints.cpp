@@ -5,12 +5,14 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 
+#include "arfm_vo/matching/keypoint_grid.h"
 #include "arfm_vo/odometry/correspondences.h"
 
 namespace arfm_vo {
 namespace {
 
-constexpr int kCellPx = 8;
+/// Keypoints further apart are not compared.
+constexpr float kNear_px = 8;
 
 /// Of a region's keypoints: more are still at rest, fewer only where it has moved.
 constexpr double kMostStill = 0.5, kFewStill = 0.3;
@@ -19,6 +21,9 @@ constexpr int kEnough = 5;
 constexpr double kCovered = 0.3, kAnotherPasses = 0.05;
 /// Least cosine between descriptors of one and the same thing.
 constexpr float kAlike = 0.8F;
+
+/// Keypoints of one and the same place are no further from one another than this, px.
+double StillReach(const Keypoint& keypoint) { return 3 * kKeypointSigma * keypoint.scale; }
 
 /// How far a point has moved in the picture since `before`, even if it is as far as it may be; px.
 double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
@@ -40,50 +45,34 @@ bool IsSame(const Features& before, int i, const Features& now, int k) {
   return std::inner_product(of_a, of_a + 64, of_b, 0.F) > kAlike;
 }
 
-}  // namespace
-
-std::vector<char> FindStill(const Features& before, const Features& now, int width, int height) {
-  const int columns = width / kCellPx + 1, rows = height / kCellPx + 1;
-  const auto column = [&](float x) {
-    return std::clamp(static_cast<int>(x) / kCellPx, 0, columns - 1);
-  };
-  const auto row = [&](float y) { return std::clamp(static_cast<int>(y) / kCellPx, 0, rows - 1); };
-  std::vector<std::vector<int>> cells(static_cast<size_t>(columns) * rows);
-  for (int i = 0; i < before.size(); ++i) {
-    const Keypoint& keypoint = before.keypoints[i];
-    cells[row(keypoint.y) * columns + column(keypoint.x)].push_back(i);
-  }
+/// [now] which keypoints look as one of `before` at the same place of the picture, within what
+/// keypoints err.
+std::vector<char> FindStill(const Features& before, const Features& now) {
+  const KeypointGrid grid(before.keypoints, kNear_px, kNear_px);
   std::vector<char> is_still(now.keypoints.size());
   for (int k = 0; k < now.size(); ++k) {
     const Keypoint& keypoint = now.keypoints[k];
-    const int c = column(keypoint.x), r = row(keypoint.y);
-    for (int y = std::max(0, r - 1); y <= std::min(rows - 1, r + 1) && !is_still[k]; ++y) {
-      for (int x = std::max(0, c - 1); x <= std::min(columns - 1, c + 1) && !is_still[k]; ++x) {
-        const auto& near = cells[y * columns + x];
-        is_still[k] =
-            std::any_of(near.begin(), near.end(), [&](int i) { return IsSame(before, i, now, k); });
-      }
-    }
+    grid.VisitCells(keypoint.x - kNear_px, keypoint.x + kNear_px, keypoint.y - kNear_px,
+                    keypoint.y + kNear_px,
+                    [&](int i) { is_still[k] = is_still[k] || IsSame(before, i, now, k); });
   }
   return is_still;
 }
 
-double RestLogRatio(const Features& now, const std::vector<char>& is_still, int width, int height) {
+double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame) {
   // A region that is still may be covered; one where most has moved tells against rest.
   const double if_still = std::log(1 / kCovered),
                if_moved = std::log(kAnotherPasses / (1 - kCovered));
-  constexpr int kAcross = Correspondences::kRegionsAcross, kDown = Correspondences::kRegionsDown;
-  int num[kAcross * kDown] = {}, num_still[kAcross * kDown] = {};
-  for (int i = 0; i < now.size(); ++i) {
-    const int column =
-        std::clamp(static_cast<int>(now.keypoints[i].x * kAcross / width), 0, kAcross - 1);
-    const int row = std::clamp(static_cast<int>(now.keypoints[i].y * kDown / height), 0, kDown - 1);
-    ++num[row * kAcross + column];
-    num_still[row * kAcross + column] += is_still[i];
+  int num[Correspondences::kRegions] = {}, num_still[Correspondences::kRegions] = {};
+  for (int i = 0; i < frame.features.size(); ++i) {
+    const Keypoint& keypoint = frame.features.keypoints[i];
+    const int region = Correspondences::RegionOf(camera, keypoint.x, keypoint.y);
+    ++num[region];
+    num_still[region] += frame.is_still[i];
   }
   double log_ratio = 0;
-  if (std::count(is_still.begin(), is_still.end(), 1) == 0) return log_ratio;
-  for (int i = 0; i < kAcross * kDown; ++i) {
+  if (std::count(frame.is_still.begin(), frame.is_still.end(), 1) == 0) return log_ratio;
+  for (int i = 0; i < Correspondences::kRegions; ++i) {
     if (num[i] < kEnough) continue;
     const double share = static_cast<double>(num_still[i]) / num[i];
     log_ratio += share > kMostStill ? if_still : share < kFewStill ? if_moved : 0;
@@ -91,9 +80,11 @@ double RestLogRatio(const Features& now, const std::vector<char>& is_still, int 
   return log_ratio;
 }
 
+}  // namespace
+
 void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame) {
-  frame.is_still = FindStill(before, frame.features, camera.width, camera.height);
-  frame.rest_log_ratio = RestLogRatio(frame.features, frame.is_still, camera.width, camera.height);
+  frame.is_still = FindStill(before, frame.features);
+  frame.rest_log_ratio = RestLogRatio(camera, frame);
 }
 
 FixedPoints FindFixed(const StereoCamera& camera, const StereoFrame& frame,

@@ -9,19 +9,9 @@
 
 namespace arfm_vo {
 
-/// Keypoints of one and the same place are no further from one another than this, px.
-inline double StillReach(const Keypoint& keypoint) { return 3 * kKeypointSigma * keypoint.scale; }
-
-/// [now] which keypoints look as one of `before` at the same place of the picture, within what
-/// keypoints err: what is fixed to the camera, or all that a resting camera sees.
-std::vector<char> FindStill(const Features& before, const Features& now, int width, int height);
-
-/// How much likelier it is by these flags that the camera rests than that it has moved, while
-/// something fixed before it may cover a part of the picture; in logarithms. Each of 4 x 3 regions
-/// counts once. Without keypoints of before (all flags 0) it is as likely.
-double RestLogRatio(const Features& now, const std::vector<char>& is_still, int width, int height);
-
-/// Sets StereoFrame::is_still and rest_log_ratio by the features of the newest keyframe.
+/// Sets StereoFrame::is_still and rest_log_ratio by the features of the newest keyframe: still is
+/// what is fixed to the camera, or all that a resting camera sees. Something fixed may cover a part
+/// of the picture, so each of its 4 x 3 regions counts once.
 void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame);
 
 struct FixedPoints {

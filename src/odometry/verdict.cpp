@@ -16,6 +16,10 @@ constexpr double kRightFails_s = 60;
 /// Until it is again.
 constexpr double kRightRecovers_s = 1;
 
+/// Share of what both images see that lies on its rows, and of what the left image sees of the map
+/// that the right one shows as well: of pictures that belong together, and of others.
+constexpr double kTogether = 0.75, kApart = 0.25;
+
 /// Of points that have moved so many are seen where others were: where something is fixed before
 /// the camera, and by chance.
 constexpr double kStill = 0.2, kStillByChance = 0.05;
@@ -47,7 +51,7 @@ void Verdict::Look(const StereoFrame& frame) {
   stamp_s_ = frame.stamp_s;
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {
-    right_belongs_.Add(LogRatioOfShare(frame.row_agreement));
+    right_belongs_.Add(LogRatioOfShare(frame.row_agreement, kTogether, kApart));
   }
   right_fault_ = left_fault_ == Reason::kNone ? FaultOfRight(frame) : left_fault_;
 }
@@ -67,9 +71,7 @@ Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
 }
 
 void Verdict::CountFixed(double share) {
-  fixed_.Add(Correspondences::kRegions *
-             (share * std::log(kStill / kStillByChance) +
-              (1 - share) * std::log((1 - kStill) / (1 - kStillByChance))));
+  fixed_.Add(LogRatioOfShare(share, kStill, kStillByChance));
 }
 
 void Verdict::Reset(bool was_lost) {
@@ -109,8 +111,9 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
     const auto& seen = tracked.observations;
     const auto num_right =
         std::count_if(seen.begin(), seen.end(), [](const auto& one) { return one.has_right; });
-    right_belongs_.Add(LogRatioOfShare(static_cast<double>(num_right) /
-                                       std::max<double>(1, static_cast<double>(seen.size()))));
+    const double share =
+        static_cast<double>(num_right) / std::max<double>(1, static_cast<double>(seen.size()));
+    right_belongs_.Add(LogRatioOfShare(share, kTogether, kApart));
   }
   if (probability < 0.9) update.Degrade(Reason::kGroupsDiffer);
   if (tracked.is_odd_rest) update.Degrade(Reason::kFixed);

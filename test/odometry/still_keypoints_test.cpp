@@ -2,37 +2,26 @@
 
 #include <gtest/gtest.h>
 
+#include "mapping/stereo_frames.h"
+
 namespace arfm_vo {
 namespace {
 
-const StereoCamera kCamera{700, 700, 320, 240, 0.5, 640, 480};
-constexpr int kStep_px = 40;
-
 /// A frame with a point every 40 px, `disparity_px` from the right one's; those left of
 /// `covered_px` stand where they always are, the others are moved to the right.
-StereoFrame MakeFrame(double covered_px, double moved_px, double disparity_px = 35) {
-  StereoFrame frame;
+StereoFrame MakeGrid(double covered_px, double moved_px, double disparity_px = 35) {
+  constexpr int kStep_px = 40;
+  std::vector<Eigen::Vector3d> points;
   for (int v = kStep_px; v < kCamera.height; v += kStep_px) {
     for (int u = kStep_px; u + 20 < kCamera.width; u += kStep_px) {
-      Keypoint keypoint;
-      keypoint.x = static_cast<float>(u + (u < covered_px ? 0 : moved_px));
-      keypoint.y = static_cast<float>(v);
-      keypoint.scale = 2;
-      StereoPoint point;
-      point.keypoint = frame.features.size();
-      point.observation << keypoint.x, v, keypoint.x - disparity_px;
-      point.sigma_px = 0.5;
-      point.x_in_camera = kCamera.Triangulate(keypoint.x, v, disparity_px);
-      frame.features.keypoints.push_back(keypoint);
-      frame.points.push_back(point);
+      points.emplace_back(u + (u < covered_px ? 0 : moved_px), v, disparity_px);
     }
   }
-  frame.features.descriptors = cv::Mat(frame.features.size(), 64, CV_32F, cv::Scalar(0.125));
-  return frame;
+  return MakeFrame(points);
 }
 
 StereoFrame Flagged(StereoFrame frame) {
-  FlagStill(kCamera, MakeFrame(0, 0).features, frame);
+  FlagStill(kCamera, MakeGrid(0, 0).features, frame);
   return frame;
 }
 
@@ -41,25 +30,25 @@ int NumStill(const StereoFrame& frame) {
 }
 
 TEST(StillKeypoints, ARestingCameraSeesAllWhereTheyWere) {
-  const StereoFrame frame = Flagged(MakeFrame(0, 0));
+  const StereoFrame frame = Flagged(MakeGrid(0, 0));
   EXPECT_EQ(NumStill(frame), frame.features.size());
   EXPECT_GT(frame.rest_log_ratio, 5);
 }
 
 TEST(StillKeypoints, AMovingOneSeesNone) {
-  const StereoFrame frame = Flagged(MakeFrame(0, 15));
+  const StereoFrame frame = Flagged(MakeGrid(0, 15));
   EXPECT_EQ(NumStill(frame), 0);
   EXPECT_EQ(frame.rest_log_ratio, 0);  // they may as well be others
 }
 
 TEST(StillKeypoints, WhatCoversAThirdDoesNotMakeItRest) {
-  const StereoFrame frame = Flagged(MakeFrame(kCamera.width / 3., 15));
+  const StereoFrame frame = Flagged(MakeGrid(kCamera.width / 3., 15));
   EXPECT_GT(NumStill(frame), 0.25 * frame.features.size());
   EXPECT_LT(frame.rest_log_ratio, -5);
 }
 
 TEST(StillKeypoints, AnotherDescriptorIsAnotherThing) {
-  StereoFrame frame = MakeFrame(0, 0);
+  StereoFrame frame = MakeGrid(0, 0);
   frame.features.descriptors.colRange(0, 32) = -0.125;
   EXPECT_EQ(NumStill(Flagged(frame)), 0);
 }
@@ -67,13 +56,13 @@ TEST(StillKeypoints, AnotherDescriptorIsAnotherThing) {
 TEST(StillKeypoints, FixedIsWhatTheMotionShouldHaveMoved) {
   const Rigid3 before_from_now(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.5, 0, 0));
   const double covered_px = kCamera.width / 3.;
-  const auto fixed = FindFixed(kCamera, Flagged(MakeFrame(covered_px, 15)), before_from_now);
+  const auto fixed = FindFixed(kCamera, Flagged(MakeGrid(covered_px, 15)), before_from_now);
   ASSERT_TRUE(fixed.share);
   EXPECT_NEAR(*fixed.share, 1 / 3., 0.07);
-  const auto at_rest = FindFixed(kCamera, Flagged(MakeFrame(covered_px, 15)), Rigid3());
+  const auto at_rest = FindFixed(kCamera, Flagged(MakeGrid(covered_px, 15)), Rigid3());
   EXPECT_FALSE(at_rest.share);
   // So far away nothing moves in the picture: it is not fixed to the camera.
-  const auto far = FindFixed(kCamera, Flagged(MakeFrame(0, 0, 1)), before_from_now);
+  const auto far = FindFixed(kCamera, Flagged(MakeGrid(0, 0, 1)), before_from_now);
   EXPECT_FALSE(far.share);
 }
 

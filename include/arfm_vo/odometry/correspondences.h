@@ -9,16 +9,17 @@
 
 namespace arfm_vo {
 
-/// How much likelier it is by this share of the image's points that they belong together (three of
-/// four do then) than that they do not (one of four does), in logarithms: by as many independent
-/// observations as Correspondences::kRegions.
-double LogRatioOfShare(double share);
+/// How much likelier this share of the image's points is where `if_true` is expected than where
+/// `if_not` is, in logarithms: by as many independent observations as Correspondences::kRegions.
+double LogRatioOfShare(double share, double if_true, double if_not);
 
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
   /// Landmarks near one another err, and move, together: an image counts as so many observations.
   static constexpr int kRegionsAcross = 4, kRegionsDown = 3;
   static constexpr int kRegions = kRegionsAcross * kRegionsDown;
+  /// The region of a pixel, 0 .. kRegions - 1; of one beyond the border the nearest.
+  static int RegionOf(const StereoCamera& camera, double u, double v);
 
   std::vector<const Landmark*> landmarks;     ///< [N] not owned
   std::vector<LandmarkObservation> observed;  ///< [N]

@@ -36,8 +36,6 @@ class Verdict {
   bool IsSomethingFixed() const { return fixed_.Probability() > 0.5; }
   /// A new map begins; `was_lost`: it may begin on what hid the ground.
   void Reset(bool was_lost);
-  /// That the poses up to here are the ground's, not those of something that moves on its own.
-  double ProbabilityOfGround() const { return ground_.Probability(); }
 
  private:
   static constexpr double kLikely = 0.1;
