@@ -21,4 +21,5 @@ ARFM_VO_PAIR=$left:$folder/image_1/$(basename "$left") "$programs/features_bench
 "$programs/kitti_odometry" "$folder" --output "$work/run" > "$work/lines" 2> "$work/errors" ||
   { cat "$work/errors" >&2; exit 1; }
 test/benchmark/benchmark_table.py "$work/features.json" "$work/lines" "$work/run/timing.csv" \
-  "$(basename "$folder")" docs/benchmark.md
+  "$(basename "$folder")" | tee "$work/section"
+test/readme_section.py docs/benchmark.md benchmark < "$work/section"

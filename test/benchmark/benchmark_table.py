@@ -1,15 +1,13 @@
 #!/usr/bin/python3
-"""Prints the table of scripts/measure.sh benchmark and writes it between the marks of docs/benchmark.md.
+"""Prints the table of scripts/measure.sh benchmark.
 
-Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE PAGE
+Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE
 """
 import csv
 import json
 import os
 import statistics
 import sys
-
-from readme_section import replace_section
 
 SUFFIX = "/process_time/real_time"
 SURF = "SurfWhole/oriented/{}/{}/{}"  # points, threads, per cent of the image's side
@@ -82,7 +80,7 @@ def main():
     if {"--help", "-h"} & set(sys.argv):
         print(__doc__)
         return
-    features, lines, timing, sequence, readme = sys.argv[1:6]
+    features, lines, timing, sequence = sys.argv[1:5]
     all_of = read_medians(features)
     dlib = all_of["DlibSurf"]["cpu_time"] / all_of[SURF.format(1000, 1, 100)]["cpu_time"]
     flann = all_of[FLANN.format(1000)]["cpu_time"]
@@ -96,7 +94,6 @@ def main():
          f"{flann / all_of[EXACT.format(1000)]['cpu_time']:.0f} of FLANN's (among points of the same sign of the Laplacian).", "",
          f"Whole pair on {sequence}, in process: {list_pair(lines, timing)}."])
     print(text)
-    replace_section(readme, "benchmark", text)
 
 
 if __name__ == "__main__":
