@@ -42,6 +42,7 @@ SessionUpdate VisualOdometry::Process(const StereoImages& images) {
 }
 
 SessionUpdate VisualOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
+  if (added_.valid()) TakeAdded();
   if (adjustment_.valid() && session_.num_frames() >= adjusted_at_) TakeAdjustment();
   SessionUpdate pose = session_.Process(frame, camera_, images, Rigid3());
   if (pose.keyframe && options_.adjust_globally) Add(*pose.keyframe);
@@ -53,11 +54,18 @@ void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
     waiting_.push_back(keyframe);
     return;
   }
-  map_.Add(keyframe);
+  added_ = std::async(std::launch::async, [this, keyframe] {
+    map_.Add(keyframe);
+    return keyframe.keyframe.id;
+  });
+}
+
+void VisualOdometry::TakeAdded() {
+  const KeyframeId id = added_.get();
   if (!map_.IsAdjustmentDue()) return;
   MapUpdate newest;
   newest.num_keyframes = map_.num_adjusted();
-  newest.keyframes.push_back({keyframe.keyframe.id, {}});
+  newest.keyframes.push_back({id, {}});
   adjusted_at_ = session_.TakeoverFrame(newest);
   adjustment_ = std::async(std::launch::async, [this] { return map_.Adjust(); });
 }
@@ -65,10 +73,14 @@ void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
 void VisualOdometry::TakeAdjustment() {
   if (auto update = adjustment_.get()) session_.Offer(std::move(*update), map_.epoch());
   ReturnFreeMemory();
-  for (const PlacedKeyframe& keyframe : std::exchange(waiting_, {})) Add(keyframe);
+  for (const PlacedKeyframe& keyframe : std::exchange(waiting_, {})) {
+    Add(keyframe);
+    if (added_.valid()) TakeAdded();
+  }
 }
 
 Trajectory VisualOdometry::Finish() {
+  if (added_.valid()) TakeAdded();
   while (adjustment_.valid()) TakeAdjustment();
   if (options_.adjust_globally) {
     if (auto update = map_.Adjust()) session_.Offer(std::move(*update), map_.epoch());

@@ -53,6 +53,8 @@ class VisualOdometry {
 
  private:
   void Add(const PlacedKeyframe& keyframe);
+  /// Begins an adjustment where the keyframe that was added calls for one.
+  void TakeAdded();
   void TakeAdjustment();
 
   StereoCamera camera_;
@@ -61,7 +63,9 @@ class VisualOdometry {
   Session session_;
   PlacedMap map_;
   std::vector<PlacedKeyframe> waiting_;  ///< for the end of the adjustment, to join the map
-  std::future<std::optional<MapUpdate>> adjustment_;  ///< of map_; what else uses it must wait
+  /// On a thread of their own, each of map_; what else uses it must wait.
+  std::future<KeyframeId> added_;  ///< the next pair's images are looked at meanwhile
+  std::future<std::optional<MapUpdate>> adjustment_;
   size_t adjusted_at_ = 0;  ///< the frame before which the adjustment is taken over
 };
 
