@@ -20,6 +20,6 @@ awk 'FNR == NR {truth[$1] = $2; next}
     limit = is_center ? 1 : truth[$1] / 1000
     bad = bad || size > limit
     printf "%-12s truth %-10.6g found %-10.6g error %s%s\n", $1, truth[$1], $2,
-      is_center ? sprintf("%.4f px", error) : sprintf("%.4f %%", 100 * error / truth[$1]), size > limit ? "  TOO LARGE" : ""
+      is_center ? sprintf("%.4f px", error) : sprintf("%.4f %%", 100 * error / truth[$1]), (size > limit ? "  TOO LARGE" : "")
   }
   END {exit bad}' "$work/set/truth.yaml" "$work/found"
