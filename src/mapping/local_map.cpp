@@ -68,6 +68,7 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
   const MovingCells moving(camera_, landmarks_, keyframe,
                            keyframes_.empty() ? nullptr : &keyframes_.back(), contradicting,
                            cell_px);
+  arrived_ = 1 - (1 - arrived_) * (1 - moving.arrived());
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);
   std::stable_sort(candidates.begin(), candidates.end(), [&](const auto* a, const auto* b) {
@@ -86,15 +87,17 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
         continue;
       }
       grid.Add(u, v);
-      AddLandmark(frame, *point, moving.NumContradicted(u, v), keyframe);
+      Landmark& landmark = AddLandmark(frame, *point, keyframe);
+      landmark.num_contradicted = moving.NumContradicted(u, v);
+      landmark.doubt = moving.Doubt(u, v);
       --room;
     }
     candidates = std::move(later);
   }
 }
 
-void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point,
-                           double num_contradicted, Keyframe& keyframe) {
+Landmark& LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point,
+                                Keyframe& keyframe) {
   const Rigid3 world_from_camera = keyframe.camera_from_world.Inverse();
   const Eigen::Matrix3d rotation = world_from_camera.RotationMatrix();
   Landmark landmark;
@@ -109,7 +112,6 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point,
   std::copy_n(frame.features.descriptors.ptr<float>(point.keypoint), 64,
               landmark.descriptor.begin());
   landmark.num_keyframes = 1;
-  landmark.num_contradicted = num_contradicted;
 
   LandmarkObservation observation;
   observation.landmark = landmark.id;
@@ -118,7 +120,7 @@ void LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& point,
   observation.has_right = point.has_right;
   observation.sigma_px = point.sigma_px;
   keyframe.observations.push_back(observation);
-  landmarks_.emplace_hint(landmarks_.end(), landmark.id, landmark);
+  return landmarks_.emplace_hint(landmarks_.end(), landmark.id, landmark)->second;
 }
 
 void LocalMap::RemoveOldestKeyframe() {
@@ -261,6 +263,7 @@ void LocalMap::Transform(const Rigid3& new_from_old) {
 void LocalMap::Clear() {
   keyframes_.clear();
   landmarks_.clear();
+  arrived_ = 0;
 }
 
 }  // namespace arfm_vo

@@ -9,8 +9,8 @@
 namespace arfm_vo {
 namespace {
 
-/// What a new point that moves begins with.
-constexpr double kContradicted = 2;
+/// What a new point begins with that moves, and at most one that may have come with something.
+constexpr double kContradicted = 2, kMostDoubt = 3;
 /// Cells in which points are hidden together, in the width of the image.
 constexpr int kCellsAcross = 12;
 /// Of points that something hides so many are found all the same.
@@ -37,7 +37,11 @@ MovingCells::MovingCells(const StereoCamera& camera, const Landmarks& landmarks,
   std::vector<Eigen::Vector2d> seen;
   for (const LandmarkObservation& observation : before->observations) {
     const auto landmark = landmarks.find(observation.landmark);
-    if (landmark == landmarks.end()) continue;
+    // What was found elsewhere has not vanished, and what moves on its own tells nothing.
+    if (landmark == landmarks.end() || FindObservation(contradicting, observation.landmark) ||
+        landmark->second.LogOddsOfGround() < 0) {
+      continue;
+    }
     const Eigen::Vector3d x = frame.camera_from_world * landmark->second.x_in_world;
     if (x.z() <= camera.baseline_m) continue;
     const Eigen::Vector2d uv = camera.Project(x);
@@ -73,12 +77,16 @@ void MovingCells::FindHidden(const StereoCamera& camera) {
       ++num;
     }
   }
-  hides_ = Logistic(kComes + kIndependent * sum / std::max(1., num));
+  arrived_ = Logistic(kComes + kIndependent * sum / std::max(1., num));
 }
 
 double MovingCells::NumContradicted(double u, double v) const {
   const bool is_contradicted = contradicting_.Count(u, v) > std::max(1, agreeing_.Count(u, v));
-  return kContradicted * (is_contradicted ? 1 : hides_ * Logistic(LogRatioOfHidden(u, v)));
+  return is_contradicted ? kContradicted : 0;
+}
+
+double MovingCells::Doubt(double u, double v) const {
+  return arrived_ * std::clamp(LogRatioOfHidden(u, v), 0., kMostDoubt);
 }
 
 }  // namespace arfm_vo

@@ -16,8 +16,11 @@ class MovingCells {
   MovingCells(const StereoCamera& camera, const Landmarks& landmarks, const Keyframe& frame,
               const Keyframe* before, const LandmarkObservations& contradicting, int cell_px);
 
-  /// What a new point at this pixel begins with as `num_contradicted`.
+  /// What a new point at this pixel begins with as `num_contradicted`, and as `doubt`.
   double NumContradicted(double u, double v) const;
+  double Doubt(double u, double v) const;
+  /// The probability that something has come before the scene since the keyframe before.
+  double arrived() const { return arrived_; }
 
  private:
   /// How much likelier it is that something hides the cell of this pixel, in logarithms.
@@ -27,7 +30,7 @@ class MovingCells {
   OccupancyGrid agreeing_, contradicting_;
   OccupancyGrid seen_, vanished_;  ///< of the points of the keyframe before
   double usually_seen_ = 0.9;      ///< share of them that is seen where any is
-  double hides_ = 0;               ///< probability that something has come before the scene
+  double arrived_ = 0;
 };
 
 }  // namespace arfm_vo

@@ -11,9 +11,9 @@ namespace {
 
 /// What a landmark counts where poses compete: little where nothing is known of it, or where it
 /// moved on its own.
-double Votes(const Landmark& landmark) {
+double Votes(const Landmark& landmark, double arrived) {
   constexpr double kNew = 0.25, kLeast = 0.05;
-  return std::max(kLeast, kNew + landmark.LogOddsOfGround());
+  return std::max(kLeast, kNew + landmark.LogOddsOfGround(arrived));
 }
 
 /// How often a landmark agrees with a pose that it does not move with.
@@ -27,6 +27,88 @@ constexpr double kByChanceAgree = 15;
 constexpr int kEnoughInRegion = 5;
 
 constexpr int kCellsAcross = 12, kFewInCell = 3;
+
+/// log(exp(a) + exp(b)), where a and b may be minus infinity.
+double LogSum(double a, double b) {
+  const double larger = std::max(a, b), smaller = std::min(a, b);
+  return std::isinf(smaller) ? larger : larger + std::log1p(std::exp(smaller - larger));
+}
+
+struct LogLikelihoods {
+  double if_ground = 0, if_not = 0;
+};
+
+/// Which landmarks agree with a pose.
+struct Agreement {
+  std::vector<int> regions;        ///< [N] of Correspondences
+  std::vector<char> agrees;        ///< [N]
+  std::vector<char> is_explained;  ///< [N] by this pose or by another one
+
+  /// What was seen, if the pose is the ground's and if it is not, where something has come
+  /// (`arrived` 1) or nothing has (0).
+  LogLikelihoods Weigh(const std::vector<const Landmark*>& landmarks, double arrived) const {
+    std::vector<double> is_ground;  // [N] its probability
+    for (const Landmark* landmark : landmarks) {
+      is_ground.push_back(Logistic(landmark->LogOddsOfGround(arrived)));
+    }
+    const double agreeing = ShareAgreeing(is_ground);
+    LogLikelihoods of_region[Correspondences::kRegions];
+    int num[Correspondences::kRegions] = {};
+    for (size_t i = 0; i < is_ground.size(); ++i) {
+      const double ground = is_ground[i];
+      const double if_ground = ground * agreeing + (1 - ground) * kByChance;
+      const double if_not = (1 - ground) * agreeing + ground * kByChance;
+      LogLikelihoods& region = of_region[regions[i]];
+      region.if_ground += std::log(agrees[i] ? if_ground : 1 - if_ground);
+      region.if_not += std::log(agrees[i] ? if_not : 1 - if_not);
+      ++num[regions[i]];
+    }
+    LogLikelihoods sum;
+    for (int i = 0; i < Correspondences::kRegions; ++i) {
+      const double weight = 1. / std::max(num[i], kEnoughInRegion);
+      sum.if_ground += weight * of_region[i].if_ground;
+      sum.if_not += weight * of_region[i].if_not;
+    }
+    return sum;
+  }
+
+  /// Of two groups the larger one is likelier to be the ground, and few agree by chance.
+  double LogRatioOfSize() const {
+    struct Region {
+      int num = 0, num_explained = 0, num_agreeing = 0;
+    } of_region[Correspondences::kRegions];
+    for (size_t i = 0; i < agrees.size(); ++i) {
+      Region& region = of_region[regions[i]];
+      ++region.num;
+      region.num_explained += is_explained[i];
+      region.num_agreeing += agrees[i];
+    }
+    double share = 0, weights = 0, num_agreeing = 0;
+    for (const Region& region : of_region) {
+      num_agreeing += region.num_agreeing;
+      if (region.num_explained == 0) continue;
+      const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
+      share += weight * region.num_agreeing / region.num_explained;
+      weights += weight;
+    }
+    const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
+    return -std::log1p(std::exp(-larger)) - std::max(0., kByChanceAgree - num_agreeing);
+  }
+
+ private:
+  /// Those of which little is known tell how often matches are right; where they are few, all do.
+  double ShareAgreeing(const std::vector<double>& is_ground) const {
+    double sum = 0, sum_agreeing = 0;
+    for (size_t i = 0; i < is_ground.size(); ++i) {
+      const double unknown = 1 - std::abs(2 * is_ground[i] - 1);
+      sum += unknown;
+      sum_agreeing += unknown * agrees[i];
+    }
+    const auto num_agreeing = static_cast<double>(std::count(agrees.begin(), agrees.end(), 1));
+    const double of_all = num_agreeing / std::max<double>(1, static_cast<double>(agrees.size()));
+    return std::clamp((kFew * of_all + sum_agreeing) / (kFew + sum), kLeastAgreeing, kMostAgreeing);
+  }
+};
 
 }  // namespace
 
@@ -45,7 +127,7 @@ int Correspondences::RegionOf(const StereoCamera& camera, double u, double v) {
 
 void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& correction,
                           const Landmark& landmark, const LandmarkObservation& observation,
-                          bool still) {
+                          bool still, double arrived) {
   landmarks.push_back(&landmark);
   is_still.push_back(still);
   observed.push_back(observation);
@@ -55,7 +137,7 @@ void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& co
   point.pixels = NominalPixels(camera, correction, observation.pixels);
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
-  point.votes = Votes(landmark);
+  point.votes = Votes(landmark, arrived);
   point.is_proven = landmark.LogOddsOfGround() > 0;
   points.push_back(point);
 }
@@ -83,51 +165,30 @@ LandmarkObservations Correspondences::Select(const std::vector<char>& flags, cha
   return selected;
 }
 
-double Correspondences::LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
-                                        char flag) const {
-  // Those of which little is known tell how often matches are right; where they are few, all do.
-  std::vector<double> is_ground;  // [N] its probability
-  double sum = 0, sum_agreeing = 0, num_agreeing = 0;
+GroundBelief Correspondences::Weigh(const StereoCamera& camera, const std::vector<char>& flags,
+                                    char flag, const GroundBelief& before,
+                                    double other_log_ratio) const {
+  Agreement agreement;
+  // (A correction may place what the border shows beyond it.)
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    is_ground.push_back(Logistic(landmarks[i]->LogOddsOfGround()));
-    const double unknown = 1 - std::abs(2 * is_ground[i] - 1);
-    sum += unknown;
-    sum_agreeing += unknown * (flags[i] == flag);
-    num_agreeing += flags[i] == flag;
+    agreement.regions.push_back(RegionOf(camera, points[i].pixels.x(), points[i].pixels.y()));
+    agreement.agrees.push_back(flags[i] == flag);
+    agreement.is_explained.push_back(flags[i] != 0);
   }
-  const double of_all = num_agreeing / std::max<double>(1, static_cast<double>(landmarks.size()));
-  const double agreeing =
-      std::clamp((kFew * of_all + sum_agreeing) / (kFew + sum), kLeastAgreeing, kMostAgreeing);
-  struct Region {
-    int num = 0, num_explained = 0, num_agreeing = 0;
-    double log_odds = 0;
-  } regions[kRegions];
-  for (size_t i = 0; i < landmarks.size(); ++i) {
-    const double ground = is_ground[i];
-    const bool agrees = flags[i] == flag;
-    const double if_ground = ground * agreeing + (1 - ground) * kByChance;
-    const double if_not = (1 - ground) * agreeing + ground * kByChance;
-    // (A correction may place what the border shows beyond it.)
-    Region& region = regions[RegionOf(camera, points[i].pixels.x(), points[i].pixels.y())];
-    ++region.num;
-    region.num_explained += flags[i] != 0;
-    region.num_agreeing += agrees;
-    region.log_odds +=
-        agrees ? std::log(if_ground / if_not) : std::log((1 - if_ground) / (1 - if_not));
-  }
-  double log_odds = 0, share = 0, weights = 0;
-  for (const Region& region : regions) {
-    if (region.num == 0) continue;
-    const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
-    log_odds += weight * region.log_odds / region.num;
-    if (region.num_explained == 0) continue;
-    share += weight * region.num_agreeing / region.num_explained;
-    weights += weight;
-  }
-  // Of two groups the larger one is likelier to be the ground.
-  const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
-  const double too_few = std::max(0., kByChanceAgree - num_agreeing);
-  return log_odds - std::log1p(std::exp(-larger)) - too_few;
+  const double of_ground = other_log_ratio + agreement.LogRatioOfSize();
+  const LogLikelihoods none = agreement.Weigh(landmarks, 0), some = agreement.Weigh(landmarks, 1);
+  // Logarithms of the probabilities that nothing, or something, has come, and the pose is the
+  // ground's or is not.
+  const double log_none = std::log(1 - before.arrived), log_some = std::log(before.arrived);
+  const double log_ground = of_ground + before.log_odds;
+  const double none_ground = log_none + none.if_ground + log_ground;
+  const double none_not = log_none + none.if_not;
+  const double some_ground = log_some + some.if_ground + log_ground;
+  const double some_not = log_some + some.if_not;
+  GroundBelief after;
+  after.log_odds = LogSum(none_ground, some_ground) - LogSum(none_not, some_not);
+  after.arrived = Logistic(LogSum(some_ground, some_not) - LogSum(none_ground, none_not));
+  return after;
 }
 
 }  // namespace arfm_vo

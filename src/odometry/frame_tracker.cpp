@@ -66,60 +66,63 @@ void FrameTracker::SetCorrection(const StereoCorrection& correction) {
 }
 
 TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& images,
-                                 const LocalMap& map, const std::optional<PredictedPose>& predicted,
-                                 bool use_right, bool is_wary) const {
+                                 const LocalMap& map, const Expectation& expected) const {
   TrackedFrame tracked;
   if (frame.features.size() == 0) return tracked;
-  const Rigid3& newest = map.keyframes().back().camera_from_world;
   if (!options_.guided) {
-    tracked = Localise(matcher_.MatchAsImages(frame, map), predicted, newest, frame.rest_log_ratio,
-                       is_wary);
-  } else if (predicted) {
-    tracked = Localise(matcher_.MatchNear(frame, map, predicted->camera_from_world), predicted,
-                       newest, frame.rest_log_ratio, is_wary);
+    tracked = Localise(matcher_.MatchAsImages(frame, map), frame, map, expected);
+  } else if (expected.predicted) {
+    tracked = Localise(matcher_.MatchNear(frame, map, expected.predicted->camera_from_world), frame,
+                       map, expected);
   }
   if (!tracked.pose.HasPose() || tracked.pose.num_inliers < options_.min_guided_inliers) {
-    const TrackedFrame found =
-        Localise(matcher_.MatchAll(frame, map), predicted, newest, frame.rest_log_ratio, is_wary);
+    const TrackedFrame found = Localise(matcher_.MatchAll(frame, map), frame, map, expected);
     const bool is_better =
         found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
     if (is_better || !tracked.pose.HasPose()) tracked = found;
   }
   if (!tracked.pose.HasPose() || !options_.align_patches) return tracked;
-  return Align(images, map, tracked, use_right);
+  return Align(images, map, tracked, expected.use_right);
 }
 
-TrackedFrame FrameTracker::Localise(Correspondences correspondences,
-                                    const std::optional<PredictedPose>& predicted,
-                                    const Rigid3& newest, double rest_log_ratio,
-                                    bool is_wary) const {
+TrackedFrame FrameTracker::Localise(Correspondences correspondences, const StereoFrame& frame,
+                                    const LocalMap& map, const Expectation& expected) const {
+  const auto& predicted = expected.predicted;
+  const double rest_log_ratio = frame.rest_log_ratio;
   TrackedFrame tracked;
   std::vector<char> agrees;
   correspondences.ShareVotes(camera_.width);
   const auto is_at_rest = [&](const Rigid3& pose) {
-    return IsAtRest(camera_, correspondences, pose, newest);
+    return IsAtRest(camera_, correspondences, pose, map.keyframes().back().camera_from_world);
   };
-  const auto log_odds = [&](const Rigid3& pose, char flag, bool rests) {
-    return correspondences.LogOddsOfGround(camera_, agrees, flag) +
-           (predicted ? predicted->LogOdds(pose) : 0) + (rests ? rest_log_ratio : 0);
+  const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
+    const double by_motion =
+        (predicted ? predicted->LogOdds(pose) : 0) + (rests ? rest_log_ratio : 0);
+    GroundBelief ground =
+        correspondences.Weigh(camera_, agrees, flag, {expected.log_odds, map.arrived()}, by_motion);
+    ground.log_odds -= expected.log_odds;
+    return ground;
   };
   const auto estimate = [&](const PoseEstimatorOptions& options) {
     tracked.pose = EstimatePose(camera_, correspondences.points, predicted, options, &agrees);
     if (!tracked.pose.HasPose()) return;
     const bool rests = is_at_rest(tracked.pose.camera_from_world);
     tracked.is_odd_rest = rests && rest_log_ratio <= 0;
-    tracked.log_odds = log_odds(tracked.pose.camera_from_world, 1, rests);
+    const GroundBelief ground = weigh(tracked.pose.camera_from_world, 1, rests);
+    tracked.log_odds = ground.log_odds;
+    tracked.arrived = ground.arrived;
   };
-  estimate(is_wary ? options_.pose.Wary() : options_.pose);
-  if (!is_wary && (tracked.log_odds < kSure || tracked.is_odd_rest)) {
+  estimate(expected.is_wary ? options_.pose.Wary() : options_.pose);
+  if (!expected.is_wary && (tracked.log_odds < kSure || tracked.is_odd_rest)) {
     estimate(options_.pose.Wary());
   }
   if (!tracked.pose.HasPose()) return tracked;
   if (const auto& rival = tracked.pose.rival) {
-    tracked.log_odds_of_rival = log_odds(*rival, kAgreesWithRival, is_at_rest(*rival)) +
-                                (tracked.is_odd_rest ? kFixedNotPassing : 0);
+    const GroundBelief of_rival = weigh(*rival, kAgreesWithRival, is_at_rest(*rival));
+    tracked.log_odds_of_rival = of_rival.log_odds + (tracked.is_odd_rest ? kFixedNotPassing : 0);
     if (tracked.log_odds_of_rival > tracked.log_odds) {
       PreferRival(correspondences, agrees, tracked);
+      tracked.arrived = of_rival.arrived;
       tracked.is_odd_rest = rest_log_ratio <= 0 && is_at_rest(tracked.pose.camera_from_world);
     }
   }
@@ -177,7 +180,7 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   const Rigid3& coarse_pose = coarse.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {
-    return landmark->LogOddsOfGround() < kMoves &&
+    return landmark->LogOddsOfGround(map.arrived()) < kMoves &&
            FindObservation(coarse.observations, landmark->id) == nullptr;
   };
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());

@@ -55,7 +55,7 @@ Correspondences LandmarkMatcher::MatchNear(const StereoFrame& frame, const Local
   }
   const TwoWayNeighbours neighbours = FindPredictedNeighbours(
       predictions, StackDescriptors(landmarks), frame.features, options_.max_scale_ratio);
-  return Correspond(frame, landmarks,
+  return Correspond(frame, map.arrived(), landmarks,
                     SelectMatches(neighbours, options_.guided_ratio, MatchSelectionOptions{}));
 }
 
@@ -68,7 +68,7 @@ Correspondences LandmarkMatcher::MatchAll(const StereoFrame& frame, const LocalM
   }
   known.descriptors = StackDescriptors(landmarks);
   const TwoWayNeighbours neighbours = FindNeighboursExactly(known, frame.features);
-  return Correspond(frame, landmarks,
+  return Correspond(frame, map.arrived(), landmarks,
                     SelectMatches(neighbours, options_.unguided_ratio, MatchSelectionOptions{}));
 }
 
@@ -85,11 +85,11 @@ Correspondences LandmarkMatcher::MatchAsImages(const StereoFrame& frame,
     known.keypoints.back().y = uv.y();
   }
   known.descriptors = StackDescriptors(landmarks);
-  return Correspond(frame, landmarks,
+  return Correspond(frame, map.arrived(), landmarks,
                     image_matcher_.MatchFeatures(known, frame.features, frame.ratio_threshold));
 }
 
-Correspondences LandmarkMatcher::Correspond(const StereoFrame& frame,
+Correspondences LandmarkMatcher::Correspond(const StereoFrame& frame, double arrived,
                                             const std::vector<const Landmark*>& landmarks,
                                             const Matches& matches) const {
   const std::vector<const StereoPoint*> stereo = frame.PointsByKeypoint();
@@ -107,7 +107,7 @@ Correspondences LandmarkMatcher::Correspond(const StereoFrame& frame,
     }
     observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
     correspondences.Add(camera_, correction_, *landmarks[match.first], observation,
-                        !frame.is_still.empty() && frame.is_still[match.second]);
+                        !frame.is_still.empty() && frame.is_still[match.second], arrived);
   }
   return correspondences;
 }

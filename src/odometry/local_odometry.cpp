@@ -40,6 +40,7 @@ class LocalOdometry::Implementation {
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive),
+        verdict_(camera.baseline_m),
         skew_(camera) {
     options.Check();
     tracker_.SetCorrection(correction.mean);
@@ -59,8 +60,8 @@ class LocalOdometry::Implementation {
     if (!is_right_good) frame.points.clear();
     OdometryUpdate update;
     update.stamp_s = frame.stamp_s;
-    update.can_start =
-        is_left_good && static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
+    update.can_start = is_left_good && verdict_.right_fault() != Reason::kSwapped &&
+                       static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
     FlagStill(camera_, newest_features_, frame);
     FinishAdjustment();
@@ -73,6 +74,9 @@ class LocalOdometry::Implementation {
       Continue(frame, images, predicted, update);
     }
     if (!is_left_good) update.reason = verdict_.left_fault();
+    if (!update.pose.HasPose() && verdict_.right_fault() == Reason::kSwapped) {
+      update.reason = Reason::kSwapped;
+    }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
       if (!is_right_good) frame.points = PointsByMotion(frame, update);
@@ -126,8 +130,9 @@ class LocalOdometry::Implementation {
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
     TrackedFrame tracked =
-        tracker_.Track(frame, images, map_, predicted, verdict_.right_fault() == Reason::kNone,
-                       verdict_.IsUnsure());
+        tracker_.Track(frame, images, map_,
+                       {predicted, verdict_.log_odds_of_ground(),
+                        verdict_.right_fault() == Reason::kNone, verdict_.IsUnsure()});
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
@@ -135,6 +140,7 @@ class LocalOdometry::Implementation {
       Recover(frame, update);
       return;
     }
+    map_.SetArrived(tracked.arrived);
     if (!verdict_.Weigh(tracked, predicted, update)) return;
     const bool are_depths_known =
         AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);

@@ -57,14 +57,12 @@ void Verdict::Look(const StereoFrame& frame) {
 }
 
 Reason Verdict::FaultOfLeft(const StereoFrame& frame) const {
-  if (frame.left_is_repeated) return Reason::kLeftRepeated;
-  // In a turn pictures of two moments look like swapped ones.
-  if (frame.eyes_are_swapped && right_belongs_.Probability() > 0.5) return Reason::kSwapped;
-  return Reason::kNone;
+  return frame.left_is_repeated ? Reason::kLeftRepeated : Reason::kNone;
 }
 
 Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
   if (frame.right_is_repeated) return Reason::kRightRepeated;
+  if (frame.eyes_are_swapped) return Reason::kSwapped;
   if (frame.num_right_keypoints < kBlindShare * frame.features.size()) return Reason::kRightBlind;
   if (right_belongs_.Probability() < 0.5) return Reason::kRightOff;
   return Reason::kNone;
@@ -79,6 +77,24 @@ void Verdict::Reset(bool was_lost) {
   ground_ = Belief(was_lost ? 0.95 : 0.98);
 }
 
+bool Verdict::IsSwapped(const Rigid3& camera_from_world,
+                        const std::optional<PredictedPose>& predicted) const {
+  if (right_fault_ != Reason::kSwapped) return false;
+  // In a turn pictures of two moments look like swapped ones. Those show where the right camera is.
+  const Rigid3 left_from_right(Eigen::Quaterniond::Identity(), {baseline_m_, 0, 0});
+  return !predicted || predicted->LogOdds(left_from_right * camera_from_world) >=
+                           predicted->LogOdds(camera_from_world);
+}
+
+void Verdict::TellRightFault(OdometryUpdate& update) const {
+  const bool is_of_now = right_fault_ != Reason::kRightOff && right_fault_ != Reason::kSwapped;
+  if (is_of_now) {
+    update.Degrade(right_fault_);
+  } else {
+    update.reason = Reason::kRightOff;
+  }
+}
+
 bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPose>& predicted,
                     OdometryUpdate& update) {
   PoseEstimate& pose = update.pose;
@@ -89,6 +105,11 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   const double log_odds = ground_.log_odds() + tracked.log_odds - std::log(others);
   const double probability = Logistic(log_odds);
   update.log_odds = log_odds;
+  if (IsSwapped(pose.camera_from_world, predicted)) {
+    pose.status = PoseStatus::kNoConsensus;
+    update.reason = Reason::kSwapped;
+    return false;
+  }
   another_moves_.Add(pose.rival || !is_likeliest ? kRivalSeen : kNoRival);
   // The same points tell the same again in the next pair: this is not added up.
   ground_.Limit(std::log(kAnotherComes_s / kAnotherLeaves_s) + log_odds - ground_.log_odds());
@@ -106,7 +127,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
         (1 - probability) / others * SpreadTo(predicted->camera_from_world, pose.camera_from_world);
   }
   if (right_fault_ != Reason::kNone) {
-    update.Degrade(right_fault_);
+    TellRightFault(update);
   } else {
     const auto& seen = tracked.observations;
     const auto num_right =

@@ -94,10 +94,22 @@ TEST(LocalMap, DoubtsWhatAppearsWhereKnownPointsVanish) {
     map.AddKeyframe(MakeFrame({{100, 250, 70}, {600, 250, 70}}), kImage, Rigid3(), tracked);
     for (const Landmark& landmark : map.NewestLandmarks()) {
       const bool is_hidden = landmark.keypoint.x < hidden_px;
-      EXPECT_NEAR(landmark.num_contradicted, is_hidden ? 2 : 0, 0.1) << hidden_px;
+      EXPECT_NEAR(landmark.doubt, is_hidden ? 3 : 0, 0.1) << hidden_px;
     }
+    EXPECT_NEAR(map.arrived(), hidden_px > 0 ? 1 : 0, 0.01);
     EXPECT_EQ(map.NewestLandmarks().size(), 2u);
   }
+}
+
+TEST(LocalMap, WhatIsFoundElsewhereHasNotVanished) {
+  LocalMap map(kCamera, SmallMap());
+  const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});
+  LandmarkObservations tracked, elsewhere;
+  for (const auto& observation : first.observations) {
+    (observation.pixels.x() < 400 ? elsewhere : tracked).push_back(observation);
+  }
+  map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), tracked, elsewhere);
+  EXPECT_LT(map.arrived(), 0.01);
 }
 
 TEST(LocalMap, LooksNoMoreForLandmarksMissedInARow) {

@@ -80,7 +80,7 @@ class GroundTest : public CorrespondencesTest {
       flags_.push_back(is_left ? 1 : 2);
     }
   }
-  double LogOdds(char flag) const { return found_.LogOddsOfGround(camera_, flags_, flag); }
+  double LogOdds(char flag) const { return found_.Weigh(camera_, flags_, flag, {}).log_odds; }
 
   std::vector<char> flags_;
 };
@@ -100,6 +100,48 @@ TEST_F(GroundTest, ThoseThatWereContradictedAreNot) {
   AddGroups(0, 5);
   EXPECT_GT(LogOdds(1), 2);
   EXPECT_LT(LogOdds(2), -2);
+}
+
+/// A group that may have come with something large: the left half is the ground known before.
+class ArrivalTest : public GroundTest {
+ protected:
+  GroundBelief After(double num_agreed_left, bool left_agrees, bool right_agrees) {
+    AddGroups(static_cast<int>(num_agreed_left), 0);
+    for (size_t i = 0; i < landmarks_.size(); ++i) {
+      const bool is_left = i < 60;
+      if (!is_left) landmarks_[i].doubt = 3;
+      flags_[i] = is_left ? left_agrees : right_agrees;
+    }
+    return found_.Weigh(camera_, flags_, 1, {4, 0.9});
+  }
+};
+
+TEST_F(ArrivalTest, WhatMovesWithTheKnownGroundHasNotCome) {
+  const GroundBelief after = After(5, true, true);
+  EXPECT_LT(after.arrived, 0.1);
+  EXPECT_GT(after.log_odds, 4);
+}
+
+TEST_F(ArrivalTest, WhatMovesOtherwiseThanTheKnownGroundHas) {
+  const GroundBelief after = After(5, true, false);
+  EXPECT_GT(after.arrived, 0.99);
+  EXPECT_GT(after.log_odds, 4);
+}
+
+TEST_F(ArrivalTest, APoseOfWhatMayHaveComeIsNotTheKnownGrounds) {
+  const GroundBelief after = After(5, false, true);
+  EXPECT_GT(after.arrived, 0.99);
+  EXPECT_LT(after.log_odds, 0);
+}
+
+/// Where nothing else is seen it is as likely as before that something came.
+TEST_F(ArrivalTest, AloneItTellsNothing) {
+  AddGroups(0, 0);
+  for (Landmark& landmark : landmarks_) landmark.doubt = 3;
+  flags_.assign(landmarks_.size(), 1);
+  const GroundBelief after = found_.Weigh(camera_, flags_, 1, {0, 0.9});
+  EXPECT_NEAR(after.arrived, 0.9, 0.02);
+  EXPECT_NEAR(after.log_odds, std::log(0.1 / 0.9), 0.3);
 }
 
 /// Whatever the number of points, an image counts as a few observations.

@@ -19,7 +19,9 @@ class FrameTrackerTest : public ::testing::Test {
   TrackedFrame Track(const Rigid3& truth, const std::optional<Rigid3>& predicted,
                      const FrameTrackerOptions& options = {}) {
     const StereoImages images = wall_.Render(1, truth);
-    return FrameTracker(camera_, options).Track(frontend_.Process(images), images, map_, predicted);
+    return FrameTracker(camera_, options)
+        .Track(frontend_.Process(images), images, map_,
+               {predicted ? std::optional<PredictedPose>(*predicted) : std::nullopt});
   }
 
   static void ExpectNear(const Rigid3& pose, const Rigid3& truth, double metres) {
@@ -78,7 +80,8 @@ TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
     moved.left(rest).copyTo(images.left(rest));
     moved.right(rest).copyTo(images.right(rest));
     const auto track = [&](const StereoImages& images) {
-      return FrameTracker(camera_, {}).Track(frontend_.Process(images), images, map, truth_);
+      return FrameTracker(camera_, {})
+          .Track(frontend_.Process(images), images, map, {PredictedPose(truth_)});
     };
     const double undisturbed = track(moved).log_odds;
     const TrackedFrame tracked = track(images);
@@ -122,7 +125,8 @@ TEST_F(FrameTrackerTest, AFewPatchesAreNoBetterThanTheKeypointsThatAgreed) {
   StereoImages mostly_dark = wall_.RenderDark(1);
   images.left(corner).copyTo(mostly_dark.left(corner));
   images.right(corner).copyTo(mostly_dark.right(corner));
-  const TrackedFrame tracked = FrameTracker(camera_, {}).Track(frame, mostly_dark, map_, truth_);
+  const TrackedFrame tracked =
+      FrameTracker(camera_, {}).Track(frame, mostly_dark, map_, {PredictedPose(truth_)});
   ASSERT_TRUE(tracked.pose.IsTracked());
   ExpectNear(tracked.pose.camera_from_world, truth_, 0.05);
   EXPECT_GT(tracked.pose.num_inliers, 50) << "those of the keypoints";
@@ -131,10 +135,12 @@ TEST_F(FrameTrackerTest, AFewPatchesAreNoBetterThanTheKeypointsThatAgreed) {
 TEST_F(FrameTrackerTest, SaysThatItIsLostInTheDarkAndElsewhere) {
   const StereoImages dark = wall_.RenderDark(1);
   const FrameTracker tracker(camera_, {});
-  EXPECT_FALSE(tracker.Track(frontend_.Process(dark), dark, map_, Rigid3()).pose.IsTracked());
+  EXPECT_FALSE(tracker.Track(frontend_.Process(dark), dark, map_, {PredictedPose(Rigid3())})
+                   .pose.IsTracked());
   const StereoImages elsewhere = TexturedWall(2).Render(1, truth_.Inverse());
   EXPECT_FALSE(
-      tracker.Track(frontend_.Process(elsewhere), elsewhere, map_, Rigid3()).pose.IsTracked());
+      tracker.Track(frontend_.Process(elsewhere), elsewhere, map_, {PredictedPose(Rigid3())})
+          .pose.IsTracked());
 }
 
 TEST_F(FrameTrackerTest, ObservationsAreSortedAndOfKnownLandmarks) {

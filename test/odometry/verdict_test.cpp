@@ -35,7 +35,8 @@ class VerdictTest : public ::testing::Test {
 
   StereoFrame frame_;
   TrackedFrame tracked_;
-  Verdict verdict_;
+  static constexpr double kBaseline_m = 0.1;
+  Verdict verdict_{kBaseline_m};
   bool has_pose_ = false;
 };
 
@@ -128,10 +129,30 @@ TEST_F(VerdictTest, PicturesThatAreNotToBeUsedAreNamed) {
   frame_.num_right_keypoints = 300;
   frame_.eyes_are_swapped = true;
   Look(0.1);
-  EXPECT_EQ(verdict_.left_fault(), Reason::kSwapped);
+  EXPECT_EQ(verdict_.right_fault(), Reason::kSwapped);
   frame_.left_is_repeated = true;
   Look();
   EXPECT_EQ(verdict_.left_fault(), Reason::kLeftRepeated);
+}
+
+/// In a turn two pictures of different moments look as if left and right were exchanged.
+TEST_F(VerdictTest, SwappedIsTheLeftImageThatIsSeenFromTheRightCamera) {
+  PredictedPose predicted{Rigid3()};
+  predicted.sigma_shift_m = 0.01;
+  predicted.sigma_turn_rad = 0.01;
+  frame_.eyes_are_swapped = true;
+  for (const bool is_swapped : {false, true}) {
+    Look();
+    tracked_.pose.camera_from_world.translation.x() = is_swapped ? -kBaseline_m : 0;
+    OdometryUpdate update;
+    update.pose = tracked_.pose;
+    EXPECT_EQ(verdict_.Weigh(tracked_, predicted, update), !is_swapped);
+    EXPECT_EQ(update.reason, is_swapped ? Reason::kSwapped : Reason::kRightOff);
+    EXPECT_EQ(update.pose.IsTracked(), !is_swapped);
+  }
+  tracked_.pose.camera_from_world = Rigid3();
+  Weigh();
+  EXPECT_FALSE(has_pose_) << "without a prediction it may as well be";
 }
 
 TEST_F(VerdictTest, TheLeftImageAloneDegrades) {

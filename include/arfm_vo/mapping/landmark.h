@@ -31,9 +31,17 @@ struct Landmark {
   int num_missed = 0;           ///< frames in a row that should have seen it and did not
   double num_agreed = 0;        ///< frames whose pose it agreed with, those of late
   double num_contradicted = 0;  ///< the same of those whose pose others agreed with instead
+  /// Log odds that it belongs to what has come before the scene, if anything has; and that it does
+  /// not, if nothing has.
+  double doubt = 0;
 
-  /// That it belongs to the ground, not to what moves on its own; 0: it is not known.
+  /// That it belongs to the ground, not to what moves on its own; 0: it is not known. By what
+  /// poses have told of it alone.
   double LogOddsOfGround() const { return std::log((num_agreed + 0.3) / (num_contradicted + 0.3)); }
+  /// The same where something has come before the scene with the probability `arrived`.
+  double LogOddsOfGround(double arrived) const {
+    return LogOddsOfGround() + (1 - 2 * arrived) * doubt;
+  }
 };
 
 /// Where a frame saw a landmark.

@@ -57,6 +57,11 @@ class LocalMap {
                            const LandmarkObservations& of_rival,
                            const LandmarkObservations& tracked, double probability);
 
+  /// The probability that something large has come before the scene, to which new landmarks may
+  /// belong that stand where known ones vanished.
+  double arrived() const { return arrived_; }
+  void SetArrived(double probability) { arrived_ = probability; }
+
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
   const Landmarks& landmarks() const { return landmarks_; }
   const Keyframe* FindKeyframe(KeyframeId id) const;
@@ -78,8 +83,7 @@ class LocalMap {
  private:
   void AddNewLandmarks(const StereoFrame& frame, const LandmarkObservations& contradicting,
                        Keyframe& keyframe);
-  void AddLandmark(const StereoFrame& frame, const StereoPoint& point, double num_contradicted,
-                   Keyframe& keyframe);
+  Landmark& AddLandmark(const StereoFrame& frame, const StereoPoint& point, Keyframe& keyframe);
   void RemoveOldestKeyframe();
   void MoveReference(Landmark& landmark, const Rigid3& old_from_world) const;
 
@@ -87,6 +91,7 @@ class LocalMap {
   LocalMapOptions options_;
   std::deque<Keyframe> keyframes_;
   Landmarks landmarks_;
+  double arrived_ = 0;
   cv::Mat spare_image_;  ///< of a keyframe that left: fresh memory costs more than the copy
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;

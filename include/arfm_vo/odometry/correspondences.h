@@ -13,6 +13,12 @@ namespace arfm_vo {
 /// `if_not` is, in logarithms: by as many independent observations as Correspondences::kRegions.
 double LogRatioOfShare(double share, double if_true, double if_not);
 
+/// What is believed of a map: that its poses are the ground's and not those of what moves on its
+/// own (log odds), and the probability that something large has come before the scene.
+struct GroundBelief {
+  double log_odds = 0, arrived = 0;
+};
+
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
   /// Landmarks near one another err, and move, together: an image counts as so many observations.
@@ -26,17 +32,20 @@ struct Correspondences {
   std::vector<PointObservation> points;       ///< [N] the same for the pose
   std::vector<char> is_still;                 ///< [N] StereoFrame::is_still of the keypoint
 
+  /// `arrived`: see GroundBelief.
   void Add(const StereoCamera& camera, const StereoCorrection& correction, const Landmark& landmark,
-           const LandmarkObservation& observation, bool still = false);
+           const LandmarkObservation& observation, bool still = false, double arrived = 0);
   /// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
   void ShareVotes(int width_px);
   /// The observations whose flag in `flags` [N] is this one, sorted by landmark.
   LandmarkObservations Select(const std::vector<char>& flags, char flag) const;
-  /// That those whose flag is this one are the ground and not what moves on its own: by what poses
-  /// before have told of them and of those that do not agree, and by how much of the image they
-  /// fill; the mean of each of kRegions counts once.
-  double LogOddsOfGround(const StereoCamera& camera, const std::vector<char>& flags,
-                         char flag) const;
+  /// Whether those whose flag is this one are the ground and not what moves on its own: by what
+  /// poses before have told of them and of those that do not agree, and by how much of the image
+  /// they fill; the mean of each of kRegions counts once. Landmarks that came with something large
+  /// are all its own or, if nothing came, all the ground's: so both cases are weighed as a whole.
+  /// `before`: what is believed without this frame; `other_log_ratio`: what else tells for ground.
+  GroundBelief Weigh(const StereoCamera& camera, const std::vector<char>& flags, char flag,
+                     const GroundBelief& before, double other_log_ratio = 0) const;
 };
 
 }  // namespace arfm_vo

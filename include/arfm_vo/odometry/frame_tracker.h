@@ -43,9 +43,18 @@ struct TrackedFrame {
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
   LandmarkObservations of_rival;       ///< those of them that agree with the rival; sorted
-  bool is_odd_rest = false;  ///< the pose has not moved, most of the picture has
-  double log_odds = 0;  ///< that the pose is the ground's and not that of what moves on its own
+  bool is_odd_rest = false;            ///< the pose has not moved, most of the picture has
+  double log_odds = 0;  ///< by this frame, that the pose is the ground's, not what moves on its own
   double log_odds_of_rival = 0;
+  double arrived = 0;  ///< LocalMap::arrived, by this frame
+};
+
+/// What is known of a frame before it is tracked.
+struct Expectation {
+  std::optional<PredictedPose> predicted;
+  double log_odds = 0;    ///< that the map's poses are the ground's
+  bool use_right = true;  ///< whether the right image is worth looking at
+  bool is_wary = false;   ///< whether to look for a rival even where most points agree
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
@@ -55,11 +64,8 @@ class FrameTracker {
  public:
   FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
 
-  /// `use_right`: whether the right image is worth looking at. `is_wary`: whether to look for a
-  /// rival even where most points agree with the pose.
   TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
-                     const std::optional<PredictedPose>& predicted, bool use_right = true,
-                     bool is_wary = false) const;
+                     const Expectation& expected) const;
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
   /// See LandmarkAligner.
@@ -68,9 +74,8 @@ class FrameTracker {
   }
 
  private:
-  TrackedFrame Localise(Correspondences correspondences,
-                        const std::optional<PredictedPose>& predicted, const Rigid3& newest,
-                        double rest_log_ratio, bool is_wary) const;
+  TrackedFrame Localise(Correspondences correspondences, const StereoFrame& frame,
+                        const LocalMap& map, const Expectation& expected) const;
   /// The rival is likelier: it becomes the pose, and the pose its rival.
   void PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
                    TrackedFrame& tracked) const;

@@ -47,7 +47,7 @@ class LandmarkMatcher {
   Correspondences MatchAsImages(const StereoFrame& frame, const LocalMap& map) const;
 
  private:
-  Correspondences Correspond(const StereoFrame& frame,
+  Correspondences Correspond(const StereoFrame& frame, double arrived,
                              const std::vector<const Landmark*>& landmarks,
                              const Matches& matches) const;
 

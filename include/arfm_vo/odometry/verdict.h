@@ -17,6 +17,8 @@ namespace arfm_vo {
 /// (Correspondences::kRegions), however many points are seen.
 class Verdict {
  public:
+  explicit Verdict(double baseline_m) : baseline_m_(baseline_m) {}
+
   /// Takes the next pair's pictures.
   void Look(const StereoFrame& frame);
   /// Why the left picture is not to be used, or the right one; kNone where it is.
@@ -24,6 +26,8 @@ class Verdict {
   Reason right_fault() const { return right_fault_; }
   /// Whether to look for a rival even where most points agree.
   bool IsUnsure() const { return another_moves_.Probability() > kLikely; }
+  /// That the poses up to here are the ground's and not of what moves on its own.
+  double log_odds_of_ground() const { return ground_.log_odds(); }
 
   /// Judges the pair's pose: sets status, reason, odds and covariance of `update.pose`, which is
   /// the likelier of the two where there is a rival. Returns whether there is one.
@@ -42,7 +46,13 @@ class Verdict {
 
   Reason FaultOfLeft(const StereoFrame& frame) const;
   Reason FaultOfRight(const StereoFrame& frame) const;
+  /// Whether the left image is that of the right camera.
+  bool IsSwapped(const Rigid3& camera_from_world,
+                 const std::optional<PredictedPose>& predicted) const;
+  /// The left image alone tells. Where the right camera is dead that is worth a warning.
+  void TellRightFault(OdometryUpdate& update) const;
 
+  double baseline_m_;
   double stamp_s_ = 0;
   Belief right_belongs_{0.95};  ///< the right picture is of this moment and rig
   Belief fixed_{0.01};          ///< something is fixed before the camera: so it is on few rigs
