@@ -107,6 +107,14 @@ CorrectionBelief::Turns CorrectionBelief::ByTurn(const StereoCamera& camera) {
   return CoefficientsByErrors(camera).leftCols<3>();
 }
 
+CorrectionBelief CorrectionBelief::After(const RightTurn& turn, const StereoCamera& camera) const {
+  const Turns by_turn = ByTurn(camera);
+  CorrectionBelief after = *this;
+  after.mean.coefficients_px += by_turn * turn.turn_rad;
+  after.covariance += by_turn * turn.covariance * by_turn.transpose();
+  return after;
+}
+
 CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
 
 CorrectionBelief::Estimate CorrectionBelief::LargestRadial() const {

@@ -240,6 +240,13 @@ void LocalMap::RemoveObservation(KeyframeId keyframe_id, LandmarkId landmark_id)
   }
 }
 
+void LocalMap::Turn(const RightTurn& turn) {
+  std::optional<RightTurn>& sum = keyframes_.back().right_turn;
+  if (!sum) sum = RightTurn{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  sum->turn_rad += turn.turn_rad;
+  sum->covariance += turn.covariance;
+}
+
 void LocalMap::ForgetRight(KeyframeId before) {
   for (Keyframe& keyframe : keyframes_) {
     if (keyframe.id >= before) break;

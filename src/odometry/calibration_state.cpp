@@ -117,6 +117,18 @@ std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes)
   return OpenToATurn();
 }
 
+void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
+  if (!may_learn_) return;
+  windows_.clear();
+  learnt_.mean.coefficients_px += by_turn_ * turn.turn_rad;
+  turn_covariance_ += turn.covariance;
+  first_telling_ = keyframe;
+  is_open_ = false;
+  Tell();
+  prior_ = OpenToATurn();
+  prior_.covariance += correction_.covariance;
+}
+
 CorrectionBelief CalibrationState::OpenToATurn() const {
   CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
   open.mean = correction_.mean;

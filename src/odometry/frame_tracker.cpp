@@ -6,6 +6,7 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/base/pixel_scale.h"
+#include "right_turn.h"
 
 namespace arfm_vo {
 
@@ -13,6 +14,9 @@ namespace {
 
 /// Log odds of a landmark of the ground below which it is not looked for where its match disagrees.
 constexpr double kMoves = -1.5;
+
+/// How far a keypoint may be from its patch.
+constexpr double kMaxSigmas = 3;
 
 /// Log odds that a pose is the ground's from which no rival is looked for.
 constexpr double kSure = 2;
@@ -81,70 +85,78 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
         found.pose.HasPose() && (!tracked.pose.HasPose() || found.pose.votes > tracked.pose.votes);
     if (is_better || !tracked.pose.HasPose()) tracked = found;
   }
-  if (!tracked.pose.HasPose() || !options_.align_patches) return tracked;
-  return Align(images, map, tracked, expected.use_right);
+  if (!tracked.pose.HasPose()) return tracked;
+  if (options_.align_patches) Align(images, map, expected.use_right, tracked);
+  Weigh(frame, map, expected, tracked);
+  Sort(tracked);
+  return tracked;
 }
 
-TrackedFrame FrameTracker::Localise(Correspondences correspondences, const StereoFrame& frame,
+TrackedFrame FrameTracker::Localise(Correspondences matches, const StereoFrame& frame,
                                     const LocalMap& map, const Expectation& expected) const {
-  const auto& predicted = expected.predicted;
-  const double rest_log_ratio = frame.rest_log_ratio;
   TrackedFrame tracked;
-  std::vector<char> agrees;
-  correspondences.ShareVotes(camera_.width);
-  const auto is_at_rest = [&](const Rigid3& pose) {
-    return IsAtRest(camera_, correspondences, pose, map.keyframes().back().camera_from_world);
-  };
-  const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
-    const double by_motion =
-        (predicted ? predicted->LogOdds(pose) : 0) + (rests ? rest_log_ratio : 0);
-    GroundBelief ground =
-        correspondences.Weigh(camera_, agrees, flag, {expected.log_odds, map.arrived()}, by_motion);
-    ground.log_odds -= expected.log_odds;
-    return ground;
-  };
+  tracked.matches = std::move(matches);
+  tracked.matches.ShareVotes(camera_.width);
   const auto estimate = [&](const PoseEstimatorOptions& options) {
-    tracked.pose = EstimatePose(camera_, correspondences.points, predicted, options, &agrees);
-    if (!tracked.pose.HasPose()) return;
-    const bool rests = is_at_rest(tracked.pose.camera_from_world);
-    tracked.is_odd_rest = rests && rest_log_ratio <= 0;
-    const GroundBelief ground = weigh(tracked.pose.camera_from_world, 1, rests);
-    tracked.log_odds = ground.log_odds;
-    tracked.arrived = ground.arrived;
+    tracked.pose =
+        EstimatePose(camera_, tracked.matches.points, expected.predicted, options, &tracked.agrees);
+    if (tracked.pose.HasPose()) Weigh(frame, map, expected, tracked);
   };
   estimate(expected.is_wary ? options_.pose.Wary() : options_.pose);
   if (!expected.is_wary && (tracked.log_odds < kSure || tracked.is_odd_rest)) {
     estimate(options_.pose.Wary());
   }
   if (!tracked.pose.HasPose()) return tracked;
-  if (const auto& rival = tracked.pose.rival) {
-    const GroundBelief of_rival = weigh(*rival, kAgreesWithRival, is_at_rest(*rival));
-    tracked.log_odds_of_rival = of_rival.log_odds + (tracked.is_odd_rest ? kFixedNotPassing : 0);
-    if (tracked.log_odds_of_rival > tracked.log_odds) {
-      PreferRival(correspondences, agrees, tracked);
-      tracked.arrived = of_rival.arrived;
-      tracked.is_odd_rest = rest_log_ratio <= 0 && is_at_rest(tracked.pose.camera_from_world);
-    }
-  }
-  tracked.observations = correspondences.Select(agrees, 1);
+  if (tracked.pose.rival && tracked.log_odds_of_rival > tracked.log_odds) PreferRival(tracked);
+  tracked.observations = tracked.matches.Select(tracked.agrees, 1);
   for (const auto& observation : tracked.observations) {
     tracked.expected.push_back(observation.landmark);
   }
-  // What stands still in the picture though the camera moves has a motion of its own too.
-  for (size_t i = 0; i < agrees.size(); ++i) {
-    if (agrees[i] == 0 && correspondences.is_still[i]) agrees[i] = kAgreesWithRival;
-  }
-  tracked.of_rival = correspondences.Select(agrees, kAgreesWithRival);
-  for (char& flag : agrees) flag = flag == 1;
-  tracked.contradicting = correspondences.Select(agrees, 0);
   return tracked;
 }
 
-void FrameTracker::PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
-                               TrackedFrame& tracked) const {
+void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
+                         TrackedFrame& tracked) const {
+  const double rest = frame.rest_log_ratio;
+  const auto is_at_rest = [&](const Rigid3& pose) {
+    return IsAtRest(camera_, tracked.matches, pose, map.keyframes().back().camera_from_world);
+  };
+  const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
+    const double by_motion =
+        (expected.predicted ? expected.predicted->LogOdds(pose) : 0) + (rests ? rest : 0);
+    GroundBelief ground = tracked.matches.Weigh(camera_, tracked.agrees, flag,
+                                                {expected.log_odds, map.arrived()}, by_motion);
+    ground.log_odds -= expected.log_odds;
+    return ground;
+  };
+  const Rigid3& pose = tracked.pose.camera_from_world;
+  const bool rests = is_at_rest(pose);
+  tracked.is_odd_rest = rests && rest <= 0;
+  const GroundBelief ground = weigh(pose, 1, rests);
+  tracked.log_odds = ground.log_odds;
+  tracked.arrived = ground.arrived;
+  if (!tracked.pose.rival) return;
+  const Rigid3& rival = *tracked.pose.rival;
+  tracked.log_odds_of_rival = weigh(rival, kAgreesWithRival, is_at_rest(rival)).log_odds +
+                              (tracked.is_odd_rest ? kFixedNotPassing : 0);
+}
+
+void FrameTracker::Sort(TrackedFrame& tracked) {
+  std::vector<char> agrees = tracked.agrees;
+  // What stands still in the picture though the camera moves has a motion of its own too.
+  for (size_t i = 0; i < agrees.size(); ++i) {
+    if (agrees[i] == 0 && tracked.matches.is_still[i]) agrees[i] = kAgreesWithRival;
+  }
+  tracked.of_rival = tracked.matches.Select(agrees, kAgreesWithRival);
+  for (char& flag : agrees) flag = flag == 1;
+  tracked.contradicting = tracked.matches.Select(agrees, 0);
+}
+
+void FrameTracker::PreferRival(TrackedFrame& tracked) const {
+  std::vector<char>& agrees = tracked.agrees;
   std::vector<char> of_rival(agrees.size());
   for (size_t i = 0; i < agrees.size(); ++i) of_rival[i] = agrees[i] == kAgreesWithRival;
-  const PoseRefinement refined = RefinePose(camera_, correspondences.points, *tracked.pose.rival,
+  const PoseRefinement refined = RefinePose(camera_, tracked.matches.points, *tracked.pose.rival,
                                             options_.refinement, of_rival);
   if (refined.status != RefinementStatus::kConverged) return;
   for (size_t i = 0; i < agrees.size(); ++i) {
@@ -174,32 +186,50 @@ std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
   return observations;
 }
 
-TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map,
-                                 const TrackedFrame& coarse, bool use_right) const {
-  TrackedFrame tracked = coarse;
-  const Rigid3& coarse_pose = coarse.pose.camera_from_world;
+Correspondences FrameTracker::Correspond(
+    const std::vector<const Landmark*>& landmarks,
+    const std::vector<std::optional<LandmarkObservation>>& observations,
+    const StereoCorrection& correction) const {
+  Correspondences correspondences;
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    if (observations[i]) {
+      correspondences.Add(camera_, correction, *landmarks[i], *observations[i]);
+    }
+  }
+  return correspondences;
+}
+
+void FrameTracker::Align(const StereoImages& images, const LocalMap& map, bool use_right,
+                         TrackedFrame& tracked) const {
+  const Rigid3 coarse_pose = tracked.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {
     return landmark->LogOddsOfGround(map.arrived()) < kMoves &&
-           FindObservation(coarse.observations, landmark->id) == nullptr;
+           FindObservation(tracked.observations, landmark->id) == nullptr;
   };
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
   tracked.expected = Ids(landmarks);
   const std::vector<std::optional<LandmarkObservation>> observations =
       Measure(images, map, landmarks, coarse_pose, use_right);
-  Correspondences correspondences;
-  for (size_t i = 0; i < landmarks.size(); ++i) {
-    if (observations[i]) {
-      correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
-    }
-  }
-  const PoseRefinement refined =
+  StereoCorrection correction = correction_;
+  Correspondences correspondences = Correspond(landmarks, observations, correction);
+  PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
+  if (use_right && refined.status == RefinementStatus::kConverged) {
+    tracked.right_turn = FindRightTurn(camera_, correction, correspondences.landmarks,
+                                       correspondences.observed, refined.camera_from_world);
+  }
+  if (tracked.right_turn) {
+    correction = CorrectionBelief{correction}.After(*tracked.right_turn, camera_).mean;
+    correspondences = Correspond(landmarks, observations, correction);
+    refined = RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
+  }
   const double enough = std::max<double>(
       options_.pose.min_inliers,
       options_.pose.min_inlier_share * static_cast<double>(correspondences.points.size()));
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
-    return coarse;  // too few patches are no better than the keypoints that agreed
+    tracked.right_turn.reset();
+    return;  // too few patches are no better than the keypoints that agreed
   }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
@@ -207,7 +237,14 @@ TrackedFrame FrameTracker::Align(const StereoImages& images, const LocalMap& map
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;
   tracked.observations = correspondences.Select(refined.is_inlier, 1);
-  return tracked;
+  // Keypoints whose patches agree do too, unless the texture repeats and they are elsewhere.
+  for (size_t i = 0; i < tracked.agrees.size(); ++i) {
+    const LandmarkObservation& match = tracked.matches.observed[i];
+    const auto* seen = FindObservation(tracked.observations, match.landmark);
+    if (seen == nullptr) continue;
+    const double off_px = (seen->pixels - match.pixels).head<2>().norm();
+    if (off_px < kMaxSigmas * match.sigma_px) tracked.agrees[i] = 1;
+  }
 }
 
 }  // namespace arfm_vo

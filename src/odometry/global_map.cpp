@@ -56,6 +56,7 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
     const Rigid3& before = store_.keyframes.back().camera_from_world;
     calibration_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
   }
+  if (kept.right_turn) calibration_.Turn(*kept.right_turn, newest);
   store_.keyframes.push_back(std::move(kept));
   for (const Landmark& landmark : landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];

@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
@@ -53,6 +54,7 @@ class LocalOdometry::Implementation {
     skew_.Advance(measured.stamp_s,
                   predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
     tracker_.SetMotionBetweenEyes(skew_.later_from_now());
+    const StereoCorrection before = correction_.mean;
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, skew_.later_from_now());
     verdict_.Look(frame);
     const bool is_left_good = verdict_.left_fault() == Reason::kNone;
@@ -79,6 +81,10 @@ class LocalOdometry::Implementation {
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
+      if (before.coefficients_px != correction_.mean.coefficients_px) {
+        frame.points =
+            Corrected(measured, camera_, correction_.mean, skew_.later_from_now()).points;
+      }
       if (!is_right_good) frame.points = PointsByMotion(frame, update);
       RemoveFixed(update.pose.camera_from_world, frame);
       AddKeyframe(frame, images, update);
@@ -95,6 +101,9 @@ class LocalOdometry::Implementation {
                         correction_.covariance != learnt.covariance;
     if (is_new) covariance_.SetCorrection(learnt);
     correction_ = update.correction;
+    const auto is_told = [&](const Turned& one) { return one.from <= update.keyframes.back().id; };
+    turned_.erase(std::remove_if(turned_.begin(), turned_.end(), is_told), turned_.end());
+    for (const Turned& one : turned_) correction_ = correction_.After(one.turn, camera_);
     tracker_.SetCorrection(correction_.mean);
     ApplyMapUpdate(update, map_);
   }
@@ -112,6 +121,12 @@ class LocalOdometry::Implementation {
   const LocalMap& map() const { return map_; }
 
  private:
+  /// The right camera has turned, from this keyframe on.
+  struct Turned {
+    KeyframeId from;
+    RightTurn turn;
+  };
+
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
     if (!update.can_start) {
@@ -141,6 +156,7 @@ class LocalOdometry::Implementation {
       return;
     }
     map_.SetArrived(tracked.arrived);
+    if (tracked.right_turn) TakeTurn(*tracked.right_turn);
     if (!verdict_.Weigh(tracked, predicted, update)) return;
     const bool are_depths_known =
         AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);
@@ -162,6 +178,15 @@ class LocalOdometry::Implementation {
     contradicting_ = std::move(tracked.contradicting);
     covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
     FindCovariance(update);
+  }
+
+  void TakeTurn(const RightTurn& turn) {
+    correction_ = correction_.After(turn, camera_);
+    tracker_.SetCorrection(correction_.mean);
+    covariance_.SetCorrection(correction_);
+    const KeyframeId next = map_.keyframes().back().id + 1;
+    map_.ForgetRight(next);
+    turned_.push_back({next, turn});
   }
 
   /// Takes away what stands still in the picture though the camera has moved, where that is too
@@ -211,6 +236,9 @@ class LocalOdometry::Implementation {
     if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
                                                 update.observations, contradicting_);
+    for (const Turned& one : turned_) {
+      if (one.from == keyframe.id) map_.Turn(one.turn);
+    }
     covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
@@ -248,6 +276,7 @@ class LocalOdometry::Implementation {
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;
+  std::vector<Turned> turned_;  ///< of which no adjustment knows yet
   SkewCompensation skew_;
   WindowAdjustment adjustment_;  ///< the map stays as it is while one runs
 };

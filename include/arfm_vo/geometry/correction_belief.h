@@ -4,6 +4,12 @@
 
 namespace arfm_vo {
 
+/// How the right camera has turned against the left one.
+struct RightTurn {
+  Eigen::Vector3d turn_rad;
+  Eigen::Matrix3d covariance;  ///< rad^2
+};
+
 /// What is known of a StereoCorrection: a normal distribution of its coefficients.
 struct CorrectionBelief {
   using Matrix = Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>;
@@ -32,6 +38,9 @@ struct CorrectionBelief {
   using Turns = Eigen::Matrix<double, StereoCorrection::kSize, 3>;
   /// Coefficients by a turn of the right camera about its axes, px/rad.
   static Turns ByTurn(const StereoCamera& camera);
+
+  /// This belief after a turn.
+  CorrectionBelief After(const RightTurn& turn, const StereoCamera& camera) const;
 
   Matrix Information() const;
   using Placing =

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
+#include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/mapping/landmark.h"
 
@@ -14,6 +16,9 @@ struct Keyframe {
   Rigid3 camera_from_world;
   LandmarkObservations observations;  ///< sorted by landmark
   LandmarkId first_landmark = 0;  ///< those that it saw first have this id and those that follow
+  /// The right camera has turned since the keyframe before, and older ones tell nothing of its
+  /// calibration.
+  std::optional<RightTurn> right_turn;
   cv::Mat left;                   ///< grey, for templates of patches; the local map's alone have it
 };
 

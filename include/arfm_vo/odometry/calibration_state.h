@@ -28,6 +28,8 @@ class CalibrationState {
   /// Whether the newest keyframe tells of a turn of the right camera, which is followed.
   bool IsTurning() const { return is_turning_; }
 
+  /// The right camera has turned, as the pair of this keyframe has told.
+  void Turn(const RightTurn& turn, int keyframe);
   /// The rover has turned by so much more, which tells of the lenses.
   void AddTurn(double turn_rad);
 

@@ -39,6 +39,8 @@ struct FrameTrackerOptions {
 /// A frame found again in the map.
 struct TrackedFrame {
   PoseEstimate pose;
+  Correspondences matches;             ///< of keypoints
+  std::vector<char> agrees;            ///< [matches] 1: with the pose, kAgreesWithRival: with that
   LandmarkObservations observations;   ///< those that agree with the pose, sorted by landmark
   std::vector<LandmarkId> expected;    ///< landmarks that should have been seen
   LandmarkObservations contradicting;  ///< found where the pose does not have them; sorted
@@ -47,6 +49,8 @@ struct TrackedFrame {
   double log_odds = 0;  ///< by this frame, that the pose is the ground's, not what moves on its own
   double log_odds_of_rival = 0;
   double arrived = 0;  ///< LocalMap::arrived, by this frame
+  /// The right camera has turned since the frame before.
+  std::optional<RightTurn> right_turn;
 };
 
 /// What is known of a frame before it is tracked.
@@ -74,18 +78,26 @@ class FrameTracker {
   }
 
  private:
-  TrackedFrame Localise(Correspondences correspondences, const StereoFrame& frame,
-                        const LocalMap& map, const Expectation& expected) const;
+  TrackedFrame Localise(Correspondences matches, const StereoFrame& frame, const LocalMap& map,
+                        const Expectation& expected) const;
+  /// How likely its pose and the rival are the ground's.
+  void Weigh(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
+             TrackedFrame& tracked) const;
   /// The rival is likelier: it becomes the pose, and the pose its rival.
-  void PreferRival(const Correspondences& correspondences, std::vector<char>& agrees,
-                   TrackedFrame& tracked) const;
+  void PreferRival(TrackedFrame& tracked) const;
+  /// Tells which matches agree with neither pose, and which with the rival.
+  static void Sort(TrackedFrame& tracked);
   /// [landmarks] where each is seen, by its patch; in parallel.
   std::vector<std::optional<LandmarkObservation>> Measure(
       const StereoImages& images, const LocalMap& map,
       const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world,
       bool use_right) const;
-  TrackedFrame Align(const StereoImages& images, const LocalMap& map, const TrackedFrame& coarse,
-                     bool use_right) const;
+  /// Those of the landmarks that are seen.
+  Correspondences Correspond(const std::vector<const Landmark*>& landmarks,
+                             const std::vector<std::optional<LandmarkObservation>>& observations,
+                             const StereoCorrection& correction) const;
+  void Align(const StereoImages& images, const LocalMap& map, bool use_right,
+             TrackedFrame& tracked) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;

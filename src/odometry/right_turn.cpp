@@ -1,0 +1,140 @@
+#include "right_turn.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/base/median.h"
+#include "arfm_vo/geometry/right_shift.h"
+#include "arfm_vo/pose/reprojection.h"
+
+namespace arfm_vo {
+namespace {
+
+/// How far a knock turns a camera, about each axis; and its log odds for one pair: a knock in
+/// hours.
+constexpr double kTurnSigma_rad = 2e-3, kKnocked = -11;
+/// A pair errs as a whole by so much.
+constexpr double kCommonSigma_px = 0.1;
+/// Observations that are looked at, at most, and those that suffice.
+constexpr size_t kMost = 200, kLeast = 20;
+constexpr int kIterations = 4;
+
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using RightByTurn = Eigen::Matrix<double, 2, 3>;
+
+/// Of the right image's pixel by the turn, px/rad.
+RightByTurn ByTurn(const StereoCamera& camera, const CorrectionBelief::Turns& by_turn,
+                   const Eigen::Vector2d& right) {
+  constexpr int kNum = StereoCorrection::kNumField;
+  const ImageBasis basis(camera, right);
+  RightByTurn derivative;
+  derivative.row(0) = basis.values.transpose() * by_turn.topRows<kNum>();
+  derivative.row(1) = basis.values.transpose() * by_turn.bottomRows<kNum>();
+  return derivative;
+}
+
+/// A pose and a turn that explain what was seen.
+class Solver {
+ public:
+  Solver(const StereoCamera& camera, const StereoCorrection& correction,
+         const Rigid3& camera_from_world)
+      : camera_(camera),
+        correction_(correction),
+        by_turn_(CorrectionBelief::ByTurn(camera)),
+        camera_from_world_(camera_from_world) {}
+
+  void Add(const Landmark& landmark, const LandmarkObservation& observation) {
+    const Eigen::Vector3d x = camera_from_world_ * landmark.x_in_world;
+    if (!(x.z() > kMinDepth)) return;
+    const Eigen::Vector4d seen = ProjectStereo4(camera_, correction_, x);
+    const RightByTurn of_right = ByTurn(camera_, by_turn_, seen.tail<2>());
+    const Eigen::Matrix3d by_point = ProjectionJacobian(camera_, x);
+    Eigen::Matrix<double, 4, 3> projection;
+    projection << by_point, by_point.row(1);
+    Eigen::Matrix<double, 3, 6> moved;  // of BoxPlus: rotation about the camera, then translation
+    moved << 0, x.z(), -x.y(), 1, 0, 0, -x.z(), 0, x.x(), 0, 1, 0, x.y(), -x.x(), 0, 0, 0, 1;
+    Eigen::Matrix<double, 4, 9> jacobian = Eigen::Matrix<double, 4, 9>::Zero();
+    jacobian.leftCols<6>() = projection * moved;
+    jacobian.bottomRightCorner<2, 3>() = of_right;
+    Eigen::Vector4d error = observation.pixels - seen;
+    error.tail<2>() -= of_right * turn_;
+    const Eigen::Matrix<double, 4, 3> by_world = projection * camera_from_world_.RotationMatrix();
+    Eigen::Matrix4d covariance = by_world * landmark.covariance * by_world.transpose();
+    covariance.diagonal().array() += observation.sigma_px * observation.sigma_px;
+    const Eigen::LLT<Eigen::Matrix4d> factor(covariance);
+    const double squared = error.dot(factor.solve(error));
+    const double weight = 1 / (1 + squared / 4);
+    squared_ += weight * squared;
+    num_coordinates_ += 4 * weight;
+    const Eigen::Matrix<double, 9, 4> weighted = weight * factor.solve(jacobian).transpose();
+    information_ += weighted * jacobian;
+    gradient_ += weighted * error;
+  }
+
+  void Step() {
+    const Vector9 step = information_.ldlt().solve(gradient_);
+    camera_from_world_ = Rigid3(ExpSO3(step.head<3>()), step.segment<3>(3)) * camera_from_world_;
+    turn_ += step.tail<3>();
+    last_information_ = information_ / std::max(1., squared_ / std::max(1., num_coordinates_));
+    squared_ = num_coordinates_ = 0;
+    information_.setZero();
+    gradient_.setZero();
+  }
+
+  RightTurn Result() const {
+    const Eigen::Matrix3d common =
+        kCommonSigma_px * kCommonSigma_px * (by_turn_.transpose() * by_turn_).inverse();
+    return {turn_, last_information_.inverse().bottomRightCorner<3, 3>() + common};
+  }
+
+ private:
+  StereoCamera camera_;
+  StereoCorrection correction_;
+  CorrectionBelief::Turns by_turn_;
+  Rigid3 camera_from_world_;
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
+  Matrix9 information_ = Matrix9::Zero(), last_information_ = Matrix9::Zero();
+  Vector9 gradient_ = Vector9::Zero();
+  double squared_ = 0, num_coordinates_ = 0;  ///< errors in units of what is expected
+};
+
+/// Log odds of a turn against none.
+double LogOdds(const RightTurn& found) {
+  const Eigen::Matrix3d prior =
+      kTurnSigma_rad * kTurnSigma_rad * Eigen::Matrix3d::Identity() + found.covariance;
+  const double if_none = found.turn_rad.dot(found.covariance.ldlt().solve(found.turn_rad));
+  const double if_turned = found.turn_rad.dot(prior.ldlt().solve(found.turn_rad));
+  const double occam = std::log(prior.determinant() / found.covariance.determinant());
+  return kKnocked + (if_none - if_turned - occam) / 2;
+}
+
+}  // namespace
+
+std::optional<RightTurn> FindRightTurn(const StereoCamera& camera,
+                                       const StereoCorrection& correction,
+                                       const std::vector<const Landmark*>& landmarks,
+                                       const LandmarkObservations& observations,
+                                       const Rigid3& camera_from_world) {
+  std::vector<size_t> seen;
+  for (size_t i = 0; i < observations.size(); ++i) {
+    if (observations[i].has_right) seen.push_back(i);
+  }
+  if (seen.size() < kLeast) return std::nullopt;
+  const size_t every = 1 + seen.size() / kMost;
+  Solver solver(camera, correction, camera_from_world);
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (size_t k = 0; k < seen.size(); k += every) {
+      solver.Add(*landmarks[seen[k]], observations[seen[k]]);
+    }
+    solver.Step();
+  }
+  const RightTurn found = solver.Result();
+  const bool is_told = found.turn_rad.allFinite() && found.covariance.allFinite();
+  if (!is_told || LogOdds(found) < 0) return std::nullopt;
+  return found;
+}
+
+}  // namespace arfm_vo
