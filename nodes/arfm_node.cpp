@@ -1,7 +1,6 @@
 #include "arfm_vo/ros/odometry/arfm_node.h"
 
 #include "arfm_vo/ros/node/node_main.h"
-#include "arfm_vo/ros/odometry/arfm_node_options.h"
 
 int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::ArfmNode, arfm_vo::ArfmNodeOptions>(

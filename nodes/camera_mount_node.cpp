@@ -6,7 +6,7 @@
 
 #include "arfm_vo/ros/input/stereo_input.h"
 #include "arfm_vo/ros/input/transform_input.h"
-#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/node_main.h"
 #include "arfm_vo/ros/node/parameters.h"
 
@@ -77,19 +77,14 @@ class CameraMountNode {
   }
 
   void Publish() {
-    geometry_msgs::TransformStamped mount;
-    mount.header.stamp = ros::Time::now();
-    mount.header.frame_id = options_.base_frame;
-    mount.child_frame_id = camera_frame_;
-    mount.transform = ToTransformMessage(options_.ParseMount());
-    broadcaster_.sendTransform(mount);
+    broadcaster_.sendTransform(
+        MakeTransform(ros::Time::now(), options_.base_frame, camera_frame_, options_.ParseMount()));
     const std::string what = "tf " + options_.base_frame + " <- " + camera_frame_ +
                              ", x y z yaw pitch roll: " + options_.base_from_camera;
     if (options_.is_default)
       ROS_WARN(
           "tf does not tell where the camera is on the rover; assumed is %s. Where that is wrong, "
-          "give "
-          "base_from_camera:=",
+          "give base_from_camera:=",
           what.c_str());
     else
       ROS_INFO("%s, as given", what.c_str());

@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"
@@ -61,16 +61,6 @@ void PrintRow(int seed, const Drive& drive) {
   std::fflush(stdout);
 }
 
-void SavePicture(const Request& request, const GoalScene& scene, const Drive& drive, int seed) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "drive_%02d.png", seed);
-  const auto path = std::filesystem::path(request.output) / name;
-  const std::string temporary = path.string() + ".new.png";
-  Require(cv::imwrite(temporary, DrawDrive(scene.terrain(), scene.start(), drive)),
-          temporary + ": cannot be written");
-  std::filesystem::rename(temporary, path);
-}
-
 void PrintSummary(const Summary& summary, int num_goals, double wall_s) {
   std::cout << "goals: " << num_goals << "\nreached: " << summary.num_arrived
             << "\nwithin_allowed_error: " << summary.num_good
@@ -104,7 +94,10 @@ void DriveGoals(Request request) {
     const Drive drive = Rehearse(scene, options);
     summary.Add(drive);
     PrintRow(request.scene.seed, drive);
-    if (!request.output.empty()) SavePicture(request, scene, drive, request.scene.seed);
+    if (request.output.empty()) continue;
+    const auto path =
+        std::filesystem::path(request.output) / Format("drive_%02d.png", request.scene.seed);
+    SaveDrive(path, scene.terrain(), scene.start(), drive);
   }
   PrintSummary(summary, request.num_goals, stopwatch.LapMs() / 1000);
   Require(summary.num_good == request.num_goals,

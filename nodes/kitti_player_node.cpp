@@ -43,8 +43,10 @@ struct PlayerOptions {
 /// Publishes a KITTI folder below its namespace, with the recording's time on /clock.
 class KittiPlayer {
  public:
-  explicit KittiPlayer(const PlayerOptions& options)
-      : options_(options), sequence_(options.sequence, {options.stride, options.pairs}) {}
+  KittiPlayer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+      : options_(ReadParameters<PlayerOptions>(private_node)),
+        sequence_(options_.sequence, {options_.stride, options_.pairs}),
+        node_(node) {}
 
   void Play() {
     auto pair = sequence_.Next();
@@ -112,19 +114,10 @@ class KittiPlayer {
 
 int main(int argc, char** argv) {
   using namespace arfm_vo;
-  if (TellHelp<PlayerOptions>(
-          argc, argv, "kitti_player_node",
-          R"(Publishes a KITTI folder in its namespace, with the recording's time.
+  return RunNode<KittiPlayer, PlayerOptions>(
+      argc, argv, "kitti_player_node",
+      R"(Publishes a KITTI folder in its namespace, with the recording's time.
 
-out   /clock, left|right/image_rect, left|right/camera_info, ground_truth (geometry_msgs/PoseStamped))"))
-    return 0;
-  ros::init(argc, argv, "kitti_player_node");
-  const ros::NodeHandle node("~");  // outlives what throws: without one nothing is logged
-  try {
-    KittiPlayer(ReadParameters<PlayerOptions>(node)).Play();
-    return 0;
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+out   /clock, left|right/image_rect, left|right/camera_info, ground_truth (geometry_msgs/PoseStamped))",
+      [](KittiPlayer& player) { player.Play(); });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/make_shared.hpp>
+#include <memory>
 #include <string>
 
 #include "arfm_vo/datasets/stamp_pairing.h"
@@ -41,18 +42,17 @@ class StereoSyncNode {
         node_(node),
         private_node_(private_node),
         topics_(ResolveStereoTopics(node)),
-        pairing_(options_.max_skew_s),
-        transport_(node) {
+        pairing_(options_.max_skew_s) {
     left_out_ = Advertise<sensor_msgs::Image>("left/image_rect");
     right_out_ = Advertise<sensor_msgs::Image>("right/image_rect");
     left_info_out_ = Advertise<sensor_msgs::CameraInfo>("left/camera_info");
     right_info_out_ = Advertise<sensor_msgs::CameraInfo>("right/camera_info");
     timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
-      if (is_listening_) watch_.Tell(counts_, topics_);
+      if (input_) watch_.Tell(input_->counts, topics_);
     });
   }
   ~StereoSyncNode() {
-    TellAtEnd("stereo_sync_node: " + std::to_string(counts_.pairs) + " pairs, " +
+    TellAtEnd("stereo_sync_node: " + std::to_string(num_pairs_) + " pairs, " +
               std::to_string(pairing_.CountUnpaired()) + " images without partner");
   }
 
@@ -72,64 +72,46 @@ class StereoSyncNode {
       return out->getNumSubscribers() > 0;
     };
     const std::array outputs{&left_out_, &right_out_, &left_info_out_, &right_info_out_};
-    if (!is_listening_ && std::all_of(outputs.begin(), outputs.end(), has_subscribers)) Listen();
-    if (is_listening_ && std::none_of(outputs.begin(), outputs.end(), has_subscribers)) Stop();
+    if (!input_ && std::all_of(outputs.begin(), outputs.end(), has_subscribers)) Listen();
+    if (input_ && std::none_of(outputs.begin(), outputs.end(), has_subscribers)) Stop();
   }
   void Listen() {
-    is_listening_ = true;
-    const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
-                                                private_node_);
-    left_info_ = node_.subscribe<sensor_msgs::CameraInfo>(
-        topics_.left_info, kQueueSize,
-        [this](const Info& info) { TakeInfo(info, newest_left_info_, counts_.left_info); });
-    right_info_ = node_.subscribe<sensor_msgs::CameraInfo>(
-        topics_.right_info, kQueueSize,
-        [this](const Info& info) { TakeInfo(info, newest_right_info_, counts_.right_info); });
-    left_ = transport_.subscribe(
-        topics_.left_image, kQueueSize, [this](const Image& image) { TakeLeft(image); }, {}, hints);
-    right_ = transport_.subscribe(
-        topics_.right_image, kQueueSize, [this](const Image& image) { TakeRight(image); }, {},
-        hints);
+    StereoCallbacks take;
+    take.left_info = [this](const Info& info) { TakeInfo(info, newest_left_info_); };
+    take.right_info = [this](const Info& info) { TakeInfo(info, newest_right_info_); };
+    take.left = [this](const Image& image) {
+      StartAnewAfterJump(image->header.stamp, left_stamp_);
+      pairing_.AddLeft(image->header.stamp.toSec(), image);
+      PublishPairs();
+    };
+    take.right = [this](const Image& image) {
+      StartAnewAfterJump(image->header.stamp, right_stamp_);
+      pairing_.AddRight(image->header.stamp.toSec(), image);
+      PublishPairs();
+    };
+    input_ = std::make_unique<StereoInput>(node_, private_node_, take);
   }
   void Stop() {
-    is_listening_ = false;
-    left_info_.shutdown();
-    right_info_.shutdown();
-    left_.shutdown();
-    right_.shutdown();
+    input_.reset();
     pairing_ = StampPairing<Image>(options_.max_skew_s);
     left_stamp_ = right_stamp_ = {};
     watch_.Reset();
   }
 
-  void TakeInfo(const Info& info, Info& newest, uint32_t& count) {
+  void TakeInfo(const Info& info, Info& newest) {
     newest = info;
-    ++count;
     PublishPairs();
   }
-  void TakeLeft(const Image& image) {
-    StartAnewAfterJump(image->header.stamp, left_stamp_);
-    ++counts_.left;
-    pairing_.AddLeft(image->header.stamp.toSec(), image);
-    PublishPairs();
-  }
-  void TakeRight(const Image& image) {
-    StartAnewAfterJump(image->header.stamp, right_stamp_);
-    ++counts_.right;
-    pairing_.AddRight(image->header.stamp.toSec(), image);
-    PublishPairs();
-  }
-
   void StartAnewAfterJump(const ros::Time& stamp, ros::Time& stamp_before) {
     if (stamp < stamp_before) pairing_ = StampPairing<Image>(options_.max_skew_s);
     stamp_before = stamp;
-    counts_.stamp_difference_s = left_stamp_.toSec() - right_stamp_.toSec();
   }
 
   void PublishPairs() {
     if (!newest_left_info_ || !newest_right_info_) return;
     while (const auto pair = pairing_.Take()) {
-      if (counts_.pairs++ % options_.every_nth_pair != 0) continue;
+      ++input_->counts.pairs;
+      if (num_pairs_++ % options_.every_nth_pair != 0) continue;
       const ros::Time stamp = pair->first->header.stamp;
       left_info_out_.publish(WithStamp(*newest_left_info_, stamp));
       right_info_out_.publish(WithStamp(*newest_right_info_, stamp));
@@ -148,16 +130,13 @@ class StereoSyncNode {
   const StereoSyncOptions options_;
   ros::NodeHandle node_, private_node_;
   const StereoTopics topics_;
-  bool is_listening_ = false;
   StampPairing<Image> pairing_;
-  StereoInputCounts counts_;
+  uint32_t num_pairs_ = 0;
   StereoInputWatch watch_;
   ros::Time left_stamp_, right_stamp_;
   Info newest_left_info_, newest_right_info_;
-  image_transport::ImageTransport transport_;
   ros::Publisher left_out_, right_out_, left_info_out_, right_info_out_;
-  ros::Subscriber left_info_, right_info_;
-  image_transport::Subscriber left_, right_;
+  std::unique_ptr<StereoInput> input_;
   ros::WallTimer timer_;
 };
 

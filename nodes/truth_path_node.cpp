@@ -4,14 +4,13 @@
 #include <deque>
 #include <optional>
 
-#include "arfm_vo/ros/display/bounded_path.h"
 #include "arfm_vo/ros/input/stereo_input.h"
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/messages/pose_message.h"
+#include "arfm_vo/ros/messages/display_messages.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/node_main.h"
 #include "arfm_vo/ros/node/parameters.h"
-#include "arfm_vo/ros/replay/truth_path.h"
 
 namespace arfm_vo {
 namespace {
@@ -54,14 +53,15 @@ class TruthPathNode {
 
  private:
   void SetCameraFrame(const std::string& frame) {
-    alignment_.emplace(buffer_, options_.reference_frame, options_.base_frame, frame);
+    alignment_.emplace(
+        TruthAlignment{buffer_, options_.reference_frame, options_.base_frame, frame});
   }
 
   void Take(const geometry_msgs::PoseStamped& truth) {
     if (truth.header.stamp < newest_) {  // time jumped back
       waiting_.clear();
       path_.Clear();
-      if (alignment_) alignment_->Reset();
+      if (alignment_) alignment_->reference_from_truth.reset();
     }
     newest_ = truth.header.stamp;
     waiting_.push_back(truth);

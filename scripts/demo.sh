@@ -46,8 +46,14 @@ replay() {
   step 4 "comparing with the ground truth"
   time_ms=$(sed -n 's/.*_node: .*; median \([0-9.]*\) ms a pair.*/\1/p' "$log" | awk '{ sum += $1 } END { printf "%.1f", sum }')
   echo
-  if nodes/pair_with_truth.py "$output/trajectory.tum" "$input" "$output" > "$output/error.txt"; then
-    "$programs/evaluate_trajectory" "$output/estimate.txt" "$output/truth.txt" --plot "$output/trajectory.png" >> "$output/error.txt"
+  python3 - "$input" > "$output/truth.tum" << 'PYTHON'
+import sys, rosbag
+for _, truth, _ in rosbag.Bag(sys.argv[1]).read_messages(topics=["/stereo/ground_truth"]):
+    p, q = truth.pose.position, truth.pose.orientation
+    print(truth.header.stamp.to_sec(), p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+PYTHON
+  if [ -s "$output/truth.tum" ]; then
+    "$programs/evaluate_trajectory" "$output/trajectory.tum" "$output/truth.tum" --plot "$output/trajectory.png" > "$output/error.txt"
     awk -F': ' '{ value[$1] = $2 } END {
       printf "Error:   %.3f m (ATE) over %s pairs; at the end %.2f %% of the distance.\n",
         value["ate_rmse_m"], value["frames"], value["end_error_percent"] }' "$output/error.txt"

@@ -9,6 +9,7 @@ replayed with rectify:=true.
 import os
 import sys
 
+import cv2
 import numpy as np
 import rosbag
 import yaml
@@ -31,54 +32,15 @@ class Eye:
         if values.get("distortion_model") != "radial-tangential" or len(self.distortion) != 4:
             sys.exit(f"ERROR: {path}: distortion_model must be radial-tangential with 4 coefficients")
 
-    def undistort(self, pixels):
-        """The rays (x, y, 1) of pixels."""
-        k1, k2, p1, p2 = self.distortion
-        seen = (pixels - [self.cx, self.cy]) / [self.fx, self.fy]
-        x, y = seen.T
-        for _ in range(20):
-            r2 = x * x + y * y
-            x, y = ((seen[:, 0] - 2 * p1 * x * y - p2 * (r2 + 2 * x * x)) / (1 + k1 * r2 + k2 * r2 * r2),
-                    (seen[:, 1] - p1 * (r2 + 2 * y * y) - 2 * p2 * x * y) / (1 + k1 * r2 + k2 * r2 * r2))
-        return np.column_stack([x, y, np.ones_like(x)])
-
-
-def rotate(vector):
-    """The rotation matrix of a rotation vector."""
-    angle = np.linalg.norm(vector)
-    if angle < 1e-12:
-        return np.eye(3)
-    x, y, z = vector / angle
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-
-
-def find_rotation_vector(matrix):
-    """That of a rotation below 180 degrees."""
-    axis = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]) / 2
-    sine = np.linalg.norm(axis)
-    return axis if sine < 1e-12 else axis / sine * np.arctan2(sine, (np.trace(matrix) - 1) / 2)
-
 
 def rectify(left, right):
-    """The rotations of both eyes, each by half of what is between them, and P of both."""
+    """The rotations of both eyes, and P of both."""
     right_from_left = np.linalg.inv(right.body_from_eye) @ left.body_from_eye
-    half = rotate(find_rotation_vector(right_from_left[:3, :3]) / 2)
-    way = half.T @ right_from_left[:3, 3]  # from the right eye to the left one, seen half way
-    x = -way / np.linalg.norm(way)
-    y = np.cross([0, 0, 1], x)
-    y /= np.linalg.norm(y)
-    level = np.array([x, y, np.cross(x, y)])
-    rotations = [level @ half, level @ half.T]
-    focal = min(left.fy, right.fy)
-    last = np.array(left.size) - 1.0
-    corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * last
-    rays = np.vstack([eye.undistort(corners) @ rotation.T for eye, rotation in zip((left, right), rotations)])
-    centre = last / 2 - focal * (rays[:, :2] / rays[:, 2:]).mean(axis=0)
-    projections = []
-    for shift in 0, -focal * np.linalg.norm(way):
-        projections.append(np.array([[focal, 0, centre[0], shift], [0, focal, centre[1], 0], [0, 0, 1, 0]]))
-    return rotations, projections
+    matrices = [np.array([[eye.fx, 0, eye.cx], [0, eye.fy, eye.cy], [0, 0, 1]]) for eye in (left, right)]
+    rotations_and_projections = cv2.stereoRectify(
+        matrices[0], np.array(left.distortion), matrices[1], np.array(right.distortion), tuple(left.size),
+        right_from_left[:3, :3], right_from_left[:3, 3], flags=cv2.CALIB_ZERO_DISPARITY, alpha=-1)[:4]
+    return rotations_and_projections[:2], rotations_and_projections[2:]
 
 
 def make_infos(left, right):

@@ -23,7 +23,7 @@ libraries=(libopencv-dev libceres-dev libeigen3-dev libyaml-cpp-dev libpng-dev l
 tests=(librostest-dev libgtest-dev libgmock-dev libbenchmark-dev libdlib-dev)
 runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice python3-rostopic rosbash libnodeletlib-tools tf2-tools
          python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
-         python3-diagnostic-msgs python3-cv-bridge rviz ros-image-view
+         python3-diagnostic-msgs python3-cv-bridge python3-opencv rviz ros-image-view
          ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher
          ros-camera-calibration python3-image-geometry
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)

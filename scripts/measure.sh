@@ -7,22 +7,17 @@ cd "$(dirname "$0")/.."
 # KITTI: the clips of ../shared/data/kitti, or KITTI folders as arguments. quiet: a machine that does nothing else.
 # sanitizers, coverage, fuzz and mutants build a tree of their own first, which takes 15 minutes more.
 table='
-ablation             test/experiments/ablation.sh            10_min  KITTI         what each part of the odometry brings
 api_page             test/static_checks/api_page.py          1_s     _b            docs/api.md from the code; --check only compares
 benchmark            test/benchmark/benchmark.sh             5_min   KITTI,quiet   time of SURF, matching and a pair
-benchmark_memory     test/benchmark/benchmark_memory.sh      5_min   KITTI         memory over 2,000 pairs
 benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet     latency and drops of the nodes
-bundle_table         test/benchmark/bundle_table.sh          10_min  quiet         time and memory of the global adjustment
-calibration_figures  test/calibration/calibration_figures.sh 3_min   _b            the calibration against rendered truth
 closed_loop          test/rehearsal/closed_loop.sh           60_min  -             24 simulated drives to a goal
 coverage             test/static_checks/coverage.sh          25_min  gcovr         lines and branches that the tests reach
-experiments          test/experiments/experiments.sh         10_min  KITTI         section 4 of the paper
+experiments          test/experiments/experiments.sh         10_min  KITTI,pandas  section 4 of the paper
 fault_campaign       test/faults/fault_campaign.sh           15_min  quiet         faults in the running nodes, time to stop
 fault_table          test/faults/fault_table.sh              10_s    -             faults in process, time to stop
 fuzz                 test/fuzz/fuzz.sh                       15_min  clang         readers of bytes from outside
 malformed_input      test/fuzz/malformed_input.sh            15_min  -             malformed messages, with sanitizers
 mutants              test/mutation/mutants.sh                3_h     -             changes of the code that the tests notice
-nodes_against_runner test/nodes/nodes_against_runner.sh      5_min   KITTI,quiet   the nodes against the program on bags
 recordings           test/recordings/recordings.sh           60_min  KITTI         recordings made by seeds, with faults
 results              test/experiments/results.sh             2_min   KITTI,_b      the tables of accuracy
 simulated_kitti      test/synthetic/simulated_kitti.sh       15_min  KITTI,quiet   KITTI sequences 00 to 10, simulated

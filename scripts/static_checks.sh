@@ -13,7 +13,7 @@ for tool in shellcheck pyflakes3 cppcheck; do
 done
 
 mapfile -t shell_scripts < <(find scripts test rosbag_fixtures .ci -name '*.sh' -o -path .ci/run | sort)
-mapfile -t python_scripts < <(find launch nodes scripts test -name '*.py' | sort)
+mapfile -t python_scripts < <(find launch scripts test -name '*.py' | sort)
 # (SC1091: devel/setup.sh is made by the build.)
 shellcheck -e SC1091 "${shell_scripts[@]}"
 echo "shellcheck: ${#shell_scripts[@]} scripts, no finding"

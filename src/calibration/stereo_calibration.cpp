@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/calib3d.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/calibration/pair_consistency.h"
 
@@ -17,12 +17,6 @@ namespace {
 constexpr double kGrossFactor = 5, kGrossFloorPx = 2;
 /// Above this the eyes have no common relative pose; a good rig is at a few px.
 constexpr double kNoCommonPosePx = 15;
-
-std::string Format(const char* format, double a, double b = 0) {
-  char text[160];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
 
 std::vector<BoardCorners> LeftViews(const std::vector<CornerPair>& pairs) {
   std::vector<BoardCorners> views;

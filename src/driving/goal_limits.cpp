@@ -1,9 +1,9 @@
 #include "arfm_vo/driving/goal_limits.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -66,12 +66,9 @@ std::string GoalLimits::FindFlaw(const Route& route, const RoverPose& start) con
   for (size_t i = 0; i < route.size(); ++i) {
     const Corner to{route[i].x_m, route[i].y_m};
     const double distance_m = std::hypot(to.x_m - start.x_m, to.y_m - start.y_m);
-    if (!(distance_m <= options_.max_distance_m)) {
-      char text[96];
-      std::snprintf(text, sizeof(text), " is %.1f m away, farther than %.1f m", distance_m,
-                    options_.max_distance_m);
-      return NameOf(i, route.size()) + text;
-    }
+    if (!(distance_m <= options_.max_distance_m))
+      return NameOf(i, route.size()) +
+             Format(" is %.1f m away, farther than %.1f m", distance_m, options_.max_distance_m);
     if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";
     if (CrossesFence(from, to))
       return "the way to " + NameOf(i, route.size()) + " leaves the fence";

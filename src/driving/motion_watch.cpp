@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/range_check.h"
 
 namespace arfm_vo {
@@ -11,12 +11,6 @@ namespace {
 
 /// Shorter commanded ways are not judged: the odometer counts millimetres.
 constexpr double kMinCommandedWay_m = 0.03;
-
-std::string Format(const char* format, double a, double b) {
-  char text[96];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
 
 /// By how much `value` is outside what `low` and `high` span.
 double Outside(double value, double low, double high) {

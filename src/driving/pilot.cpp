@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -127,10 +128,8 @@ Reply Pilot::SetDatum() {
     return {false, "datum refused: the rover drives"};
   const auto pose = pose_.SetDatum();
   if (!pose) return {false, "datum refused: the rover has no pose"};
-  char text[96];
-  std::snprintf(text, sizeof(text), "the rover stands at x %.2f m, y %.2f m, heading %.0f deg",
-                pose->x_m, pose->y_m, pose->heading_rad * 180 / M_PI);
-  return {true, text};
+  return {true, Format("the rover stands at x %.2f m, y %.2f m, heading %.0f deg", pose->x_m,
+                       pose->y_m, pose->heading_rad * 180 / M_PI)};
 }
 
 void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/range_check.h"
 
 namespace arfm_vo {
@@ -38,12 +38,9 @@ void PoseConsistencyOptions::Check() const {
 }
 
 std::string PoseDifference::ToString() const {
-  char text[160];
-  std::snprintf(text, sizeof(text),
-                "%.2f m (allowed %.2f m), sideways %.2f m (%.2f m), %.0f deg (%.0f deg)",
+  return Format("%.2f m (allowed %.2f m), sideways %.2f m (%.2f m), %.0f deg (%.0f deg)",
                 distance_m, max_distance_m, sideways_m, max_sideways_m, turn_rad * 180 / M_PI,
                 max_turn_rad * 180 / M_PI);
-  return text;
 }
 
 PoseConsistency::PoseConsistency(const PoseConsistencyOptions& options,

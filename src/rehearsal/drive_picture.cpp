@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <vector>
+
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -28,12 +32,6 @@ RoverPose ToWorld(const RoverPose& start, const RoverPose& in_map) {
 
 double Distance(const RoverPose& a, const RoverPose& b) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
-
-std::string Format(const char* format, double a, double b = 0, double c = 0) {
-  char text[160];
-  std::snprintf(text, sizeof(text), format, a, b, c);
-  return text;
 }
 
 class Canvas {
@@ -179,6 +177,14 @@ cv::Mat DrawDrive(const Terrain& terrain, const RoverPose& start, const Drive& d
   canvas.Write("goal", {240, kSide_px + 72}, {0, 150, 200});
   canvas.DrawErrorChart(drive);
   return canvas.picture();
+}
+
+void SaveDrive(const std::string& path, const Terrain& terrain, const RoverPose& start,
+               const Drive& drive) {
+  const std::string temporary = path + ".new.png";
+  if (!cv::imwrite(temporary, DrawDrive(terrain, start, drive)))
+    throw std::runtime_error(temporary + ": cannot be written");
+  std::filesystem::rename(temporary, path);
 }
 
 }  // namespace arfm_vo

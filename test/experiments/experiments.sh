@@ -3,6 +3,7 @@
 # Usage: scripts/measure.sh experiments [KITTI_FOLDER ...]      default: those of ../shared/data that are there
 # ARFM_VO_SHARED: the folder that holds data/matching, data/kitti and data/calibration.
 set -euo pipefail
+python3 -c 'import pandas' || { echo "experiments: pandas is missing (apt-get install python3-pandas)" >&2; exit 2; }
 readonly MAX_PAIRS=100  # of a sequence, as in the paper
 readonly RENDERED_PAIRS=6
 data=${ARFM_VO_SHARED:-../shared}/data

@@ -12,7 +12,7 @@
 #include "arfm_vo/odometry/trajectory_files.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/replay/bag_sequence.h"
-#include "arfm_vo/ros/rover/chassis_node_options.h"
+#include "arfm_vo/ros/rover/chassis_node.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/promise.h"

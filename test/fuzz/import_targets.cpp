@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "arfm_vo/driving/pilot.h"
+#include "arfm_vo/driving/scale_check.h"
 #include "arfm_vo/odometry/placed_map.h"
-#include "arfm_vo/ros/messages/add_transform.h"
-#include "arfm_vo/ros/odometry/map_shift.h"
-#include "arfm_vo/ros/odometry/scale_check.h"
+#include "arfm_vo/ros/messages/transforms.h"
+#include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
-#include "arfm_vo/ros/rover/rover_sight.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/message_editor.h"
 #include "fuzz/promise.h"
@@ -67,7 +66,7 @@ void ImportSight(const std::string& input) {
   console_bridge::noOutputHandler();  // tf2 tells of each
   ByteSource bytes(input);
   tf2::BufferCore buffer;
-  const RoverSight sight(buffer, "map", "odom", "base_link");
+  const RoverSight sight{buffer, "map", "odom", "base_link"};
   Pilot pilot{PilotOptions()};
   ScaleCheck scale;
   for (double now_s = 100; !bytes.IsEmpty(); now_s += 0.1) {

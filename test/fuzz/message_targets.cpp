@@ -2,9 +2,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "arfm_vo/ros/messages/image_conversion.h"
-#include "arfm_vo/ros/messages/stereo_camera_model.h"
-#include "arfm_vo/ros/rover/goal_reader.h"
+#include "arfm_vo/ros/messages/stereo_messages.h"
+#include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "fuzz/byte_source.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/promise.h"
@@ -98,7 +97,7 @@ void ReadGoal(const std::string& input) {
   transform.transform.translation.y = pose.position.y;
   transform.transform.rotation = pose.orientation;
   buffer.setTransform(transform, "fuzz", false);
-  const GoalReader reader(buffer, "map", 5);
+  const GoalReader reader{buffer, "map", 5};
   nav_msgs::Path path;
   path.header.frame_id = "odom";
   for (int i = bytes.Byte() % 4; i > 0; --i) path.poses.push_back(TakePose(bytes));

@@ -108,10 +108,10 @@ class BaNodeTest(unittest.TestCase):
         rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: adjustments.extend(
             int(value.value) for status in message.status if "global adjustment" in status.name
             for value in status.values if value.key == "adjustments"))
-        rospy.Subscriber("map_update", MapUpdateStamped, updates.append)
+        listener = rospy.Subscriber("map_update", MapUpdateStamped, updates.append)
         keyframes = rospy.Publisher("keyframe", KeyframeStamped, queue_size=10)
         end = time.monotonic() + 60
-        while (keyframes.get_num_connections() == 0 or not adjustments) and time.monotonic() < end:
+        while time.monotonic() < end and not (keyframes.get_num_connections() and listener.get_num_connections() and adjustments):
             time.sleep(0.05)
         for number, num_updates in enumerate((0, 1, 2, 3, 3)):  # adjustments are due at 2, 3, 4 and 6 keyframes
             keyframes.publish(make_keyframe(number))

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <map>
 
-#include "arfm_vo/ros/messages/stereo_camera_model.h"
 #include "arfm_vo/ros/messages/stereo_messages.h"
 #include "datasets/sequence_folder.h"
 #include "nodes/inbox.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/base/rate_meter.h"
 #include "arfm_vo/hardware/backoff.h"
 #include "arfm_vo/hardware/frame_pairer.h"
-#include "arfm_vo/hardware/rate_meter.h"
 #include "arfm_vo/hardware/video_device.h"
 #include "arfm_vo/hardware/video_options.h"
 

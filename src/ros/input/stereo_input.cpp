@@ -2,7 +2,9 @@
 
 #include <ros/names.h>
 
-#include <utility>
+#include <memory>
+
+#include "arfm_vo/datasets/exact_pairing.h"
 
 namespace arfm_vo {
 namespace {
@@ -36,51 +38,47 @@ void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
       });
 }
 
+StereoCallbacks PairExactly(std::function<void(const StereoMessagePair&)> take) {
+  using Image = sensor_msgs::Image;
+  using Info = sensor_msgs::CameraInfo;
+  const auto pairing = std::make_shared<ExactPairing<Image, Image, Info, Info>>(
+      kImageQueueSize, [take](const auto&... messages) { take({messages...}); });
+  return {[pairing](const auto& left) { pairing->template Add<0>(left); },
+          [pairing](const auto& right) { pairing->template Add<1>(right); },
+          [pairing](const auto& left_info) { pairing->template Add<2>(left_info); },
+          [pairing](const auto& right_info) { pairing->template Add<3>(right_info); }};
+}
+
 StereoInput::StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
-                         Callback callback)
-    : topics_(ResolveStereoTopics(node)),
-      transport_(node),
-      pairing_(kImageQueueSize, [this, callback = std::move(callback)](
-                                    const auto& left, const auto& right, const auto& left_info,
-                                    const auto& right_info) {
-        ++counts_.pairs;
-        callback({left, right, left_info, right_info});
-      }) {
-  const auto note_image = [this](const Image& image, uint32_t& count, ros::Time& stamp) {
-    ++count;
-    stamp = image.header.stamp;
-    counts_.stamp_difference_s = left_stamp_.toSec() - right_stamp_.toSec();
-  };
+                         const StereoCallbacks& take) {
+  const StereoTopics topics = ResolveStereoTopics(node);
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
-  left_ = transport_.subscribe(
-      topics_.left_image, kImageQueueSize,
-      [this, note_image](const sensor_msgs::ImageConstPtr& image) {
-        note_image(*image, counts_.left, left_stamp_);
-        pairing_.Add<0>(image);
-      },
-      {}, hints);
-  right_ = transport_.subscribe(
-      topics_.right_image, kImageQueueSize,
-      [this, note_image](const sensor_msgs::ImageConstPtr& image) {
-        note_image(*image, counts_.right, right_stamp_);
-        pairing_.Add<1>(image);
-      },
-      {}, hints);
-  left_info_ = node.subscribe<Info>(
-      topics_.left_info, kImageQueueSize,
-      [this](const sensor_msgs::CameraInfoConstPtr& info) {
-        ++counts_.left_info;
-        pairing_.Add<2>(info);
-      },
-      {}, no_delay);
-  right_info_ = node.subscribe<Info>(
-      topics_.right_info, kImageQueueSize,
-      [this](const sensor_msgs::CameraInfoConstPtr& info) {
-        ++counts_.right_info;
-        pairing_.Add<3>(info);
-      },
-      {}, no_delay);
+  image_transport::ImageTransport transport(node);
+  const auto subscribe_image = [&](const std::string& topic, uint32_t& count, ros::Time& stamp,
+                                   const auto& take_image) {
+    const auto take_counted = [this, &count, &stamp,
+                               take_image](const sensor_msgs::ImageConstPtr& image) {
+      ++count;
+      stamp = image->header.stamp;
+      counts.stamp_difference_s = left_stamp_.toSec() - right_stamp_.toSec();
+      take_image(image);
+    };
+    return transport.subscribe(topic, kImageQueueSize, take_counted, {}, hints);
+  };
+  const auto subscribe_info = [&](const std::string& topic, uint32_t& count,
+                                  const auto& take_info) {
+    const auto take_counted = [&count, take_info](const sensor_msgs::CameraInfoConstPtr& info) {
+      ++count;
+      take_info(info);
+    };
+    return node.subscribe<sensor_msgs::CameraInfo>(topic, kImageQueueSize, take_counted, {},
+                                                   no_delay);
+  };
+  left_ = subscribe_image(topics.left_image, counts.left, left_stamp_, take.left);
+  right_ = subscribe_image(topics.right_image, counts.right, right_stamp_, take.right);
+  left_info_ = subscribe_info(topics.left_info, counts.left_info, take.left_info);
+  right_info_ = subscribe_info(topics.right_info, counts.right_info, take.right_info);
 }
 
 }  // namespace arfm_vo

@@ -1,9 +1,10 @@
 #include <ros/master.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/ros/input/stereo_input.h"
 
 namespace arfm_vo {
@@ -22,21 +23,6 @@ std::vector<std::string> FindSilent(const StereoInputCounts& now, const StereoIn
   return silent;
 }
 
-std::string JoinNames(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-bool IsImage(const std::string& topic, const StereoTopics& topics) {
-  return topic == topics.left_image || topic == topics.right_image;
-}
-
-/// `topic` with another last name.
-std::string Sibling(const std::string& topic, const std::string& name) {
-  return topic.substr(0, topic.rfind('/') + 1) + name;
-}
-
 /// The published topics that look as if they were meant.
 std::vector<std::string> FindSimilar(bool is_image, const std::set<std::string>& published) {
   std::vector<std::string> similar;
@@ -53,25 +39,24 @@ std::vector<std::string> FindSimilar(bool is_image, const std::set<std::string>&
 /// What to do about a topic that nobody publishes.
 std::string FindWayTo(const std::string& topic, bool is_image,
                       const std::set<std::string>& published) {
-  const std::string raw = Sibling(topic, "image_raw");
+  const std::string raw = topic.substr(0, topic.rfind('/') + 1) + "image_raw";
+  const std::string missing = "nobody publishes " + topic;
   if (is_image && raw != topic && published.count(raw))
-    return "nobody publishes " + topic + ", but " + raw +
+    return missing + ", but " + raw +
            " is there: run stereo_image_proc, or give odometry.launch rectify:=true";
   if (is_image && published.count(topic + "/compressed"))
-    return "nobody publishes " + topic + ", but " + topic +
+    return missing + ", but " + topic +
            "/compressed is there: run image_transport republish compressed raw (this needs the "
            "plugin compressed_image_transport)";
+  const std::string kind = is_image ? "image" : "camera_info", name = is_image ? "image" : "info";
   const std::vector<std::string> similar = FindSimilar(is_image, published);
-  const std::string names = is_image ? "left_image:=, right_image:=" : "left_info:=, right_info:=";
-  return "nobody publishes " + topic + "; " +
-         (similar.empty() ? std::string(is_image ? "no image" : "no camera_info") +
-                                " is published at all: start the camera or the bag"
-                          : "published are " + JoinNames(similar) +
-                                ": give odometry.launch stereo:=, " + names + " as they are");
+  if (similar.empty())
+    return missing + "; no " + kind + " is published at all: start the camera or the bag";
+  return missing + "; published are " + boost::join(similar, ", ") +
+         ": give odometry.launch stereo:=, left_" + name + ":=, right_" + name + ":= as they are";
 }
 
-}  // namespace
-
+/// The names of all topics that somebody publishes, by the master; empty where it does not answer.
 std::set<std::string> ListPublishedTopics() {
   ros::master::V_TopicInfo topics;
   ros::master::getTopics(topics);
@@ -80,40 +65,43 @@ std::set<std::string> ListPublishedTopics() {
   return names;
 }
 
+}  // namespace
+
 std::string StereoInputCounts::Explain(const StereoInputCounts& before,
                                        const StereoTopics& topics) const {
   if (pairs > before.pairs) return "";
   const std::vector<std::string> silent = FindSilent(*this, before, topics);
-  if (!silent.empty()) return "no messages on " + JoinNames(silent);
+  if (!silent.empty()) return "no messages on " + boost::join(silent, ", ");
   if (stamp_difference_s == 0) return "images and camera_info have different stamps";
-  char difference[64];
-  std::snprintf(difference, sizeof difference, "%.3f ms", std::abs(stamp_difference_s) * 1e3);
-  return topics.left_image + " and " + topics.right_image + " have different stamps (" +
-         difference + " apart)";
+  return topics.left_image + " and " + topics.right_image +
+         Format(" have different stamps (%.3f ms apart)", std::abs(stamp_difference_s) * 1e3);
 }
 
 std::string StereoInputCounts::Remedy(const StereoInputCounts& before, const StereoTopics& topics,
                                       const std::set<std::string>& published) const {
   if (pairs > before.pairs) return "";
   const std::vector<std::string> silent = FindSilent(*this, before, topics);
-  for (const std::string& topic : silent)
-    if (!published.count(topic)) return FindWayTo(topic, IsImage(topic, topics), published);
+  for (const std::string& topic : silent) {
+    const bool is_image = topic == topics.left_image || topic == topics.right_image;
+    if (!published.count(topic)) return FindWayTo(topic, is_image, published);
+  }
   if (!silent.empty())
     return silent.front() + " has a publisher that sends nothing (or a bag that is paused)";
   return "both cameras must be triggered together; where that cannot be, give odometry.launch "
          "approx_sync:=true and max_skew_s:=, at least that difference";
 }
 
-void StereoInputWatch::Tell(const StereoInputCounts& counts, const StereoTopics& topics) {
+std::string StereoInputWatch::Tell(const StereoInputCounts& counts, const StereoTopics& topics) {
   const ros::Time time = ros::Time::now();
   // At the end of a recording the clock stands still, and that nothing comes is no problem.
   const bool has_ended = ros::Time::isSimTime() && counts.pairs > 0 && time == time_before_;
-  const std::string problem = has_ended ? "" : counts.Explain(before_, topics);
-  if (watch_.IsDue(problem, ros::WallTime::now().toSec()))
+  const std::string problem = counts.Explain(before_, topics);
+  if (watch_.IsDue(has_ended ? "" : problem, ros::SteadyTime::now().toSec()))
     ROS_WARN("no stereo pairs: %s. %s", problem.c_str(),
              counts.Remedy(before_, topics, ListPublishedTopics()).c_str());
   before_ = counts;
   time_before_ = time;
+  return problem;
 }
 
 }  // namespace arfm_vo

@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-#include "arfm_vo/ros/messages/add_transform.h"
+#include "arfm_vo/ros/messages/transforms.h"
 
 namespace arfm_vo {
 namespace {

@@ -1,10 +1,13 @@
 #include "arfm_vo/ros/messages/conversions.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <cmath>
 #include <cstring>
 
+#include "arfm_vo/base/array_checks.h"
 #include "arfm_vo/driving/range_check.h"
-#include "arfm_vo/ros/messages/message_checks.h"
+#include "arfm_vo/driving/route.h"
 
 namespace arfm_vo {
 namespace {
@@ -33,19 +36,13 @@ void ExportKeypoints(const Features& features, StereoFrameStamped& message) {
 Features ImportFeatures(const StereoFrameStamped& message) {
   const std::string name = "StereoFrameStamped: ";
   const size_t size = message.keypoint_x.size();
-  RequireSize(message.keypoint_y, size, name + "keypoint_y");
-  RequireSize(message.keypoint_scale, size, name + "keypoint_scale");
-  RequireSize(message.keypoint_angle, size, name + "keypoint_angle");
-  RequireSize(message.keypoint_response, size, name + "keypoint_response");
+  RequireNumbers(message.keypoint_x, size, name + "keypoint_x");
+  RequireNumbers(message.keypoint_y, size, name + "keypoint_y");
+  RequireNumbers(message.keypoint_scale, size, name + "keypoint_scale");
+  RequireNumbers(message.keypoint_angle, size, name + "keypoint_angle");
+  RequireNumbers(message.keypoint_response, size, name + "keypoint_response");
   RequireSize(message.keypoint_laplacian_sign, size, name + "keypoint_laplacian_sign");
-  RequireSize(message.descriptors, size * kDescriptorLength, name + "descriptors");
-  RequireFinite(message.keypoint_x, name + "keypoint_x");
-  RequireFinite(message.keypoint_y, name + "keypoint_y");
-  RequireFinite(message.keypoint_scale, name + "keypoint_scale");
-  RequireFinite(message.keypoint_angle, name + "keypoint_angle");
-  RequireFinite(message.keypoint_response, name + "keypoint_response");
-  RequireFinite(message.descriptors, name + "descriptors");
-
+  RequireNumbers(message.descriptors, size * kDescriptorLength, name + "descriptors");
   const std::string keypoint_x = name + "keypoint_x", keypoint_y = name + "keypoint_y",
                     keypoint_scale = name + "keypoint_scale";
   for (size_t i = 0; i < size; ++i) {
@@ -73,16 +70,11 @@ Features ImportFeatures(const StereoFrameStamped& message) {
 StereoPoints ImportPoints(const StereoFrameStamped& message) {
   const std::string name = "StereoFrameStamped: ";
   const size_t size = message.point_keypoint.size();
-  RequireSize(message.point_observation, 3 * size, name + "point_observation");
-  RequireSize(message.point_row_residual, size, name + "point_row_residual");
-  RequireSize(message.point_sigma, size, name + "point_sigma");
-  RequireSize(message.point_position, 3 * size, name + "point_position");
-  RequireSize(message.point_disparity_gradient, 2 * size, name + "point_disparity_gradient");
-  RequireFinite(message.point_disparity_gradient, name + "point_disparity_gradient");
-  RequireFinite(message.point_observation, name + "point_observation");
-  RequireFinite(message.point_row_residual, name + "point_row_residual");
-  RequireFinite(message.point_sigma, name + "point_sigma");
-  RequireFinite(message.point_position, name + "point_position");
+  RequireNumbers(message.point_observation, 3 * size, name + "point_observation");
+  RequireNumbers(message.point_row_residual, size, name + "point_row_residual");
+  RequireNumbers(message.point_sigma, size, name + "point_sigma");
+  RequireNumbers(message.point_position, 3 * size, name + "point_position");
+  RequireNumbers(message.point_disparity_gradient, 2 * size, name + "point_disparity_gradient");
   const std::string point_keypoint = name + "point_keypoint", point_sigma = name + "point_sigma",
                     point_position = name + "point_position",
                     point_row_residual = name + "point_row_residual",
@@ -99,11 +91,12 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
     RequireElement(message.point_sigma[i] > 0, point_sigma, i, "is not positive");
     RequireElement(std::abs(row_residual_px) < height, point_row_residual, i,
                    "is larger than the image");
-    const double* seen = &message.point_observation[3 * i];
+    const Eigen::Vector3d seen =
+        Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
     RequireInImage(seen[0], seen[1], width, height, point_observation, 3 * i);
     RequireInImage(seen[2], seen[1] + row_residual_px, width, height, point_observation, 3 * i + 2);
     points[i].keypoint = keypoint;
-    points[i].observation = Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
+    points[i].observation = seen;
     points[i].row_residual_px = row_residual_px;
     points[i].sigma_px = message.point_sigma[i];
     points[i].x_in_camera = Eigen::Map<const Eigen::Vector3d>(&message.point_position[3 * i]);
@@ -131,37 +124,55 @@ void RequireSummary(const StereoFrameStamped& message) {
 
 geometry_msgs::Transform ToTransformMessage(const Rigid3& b_from_a) {
   geometry_msgs::Transform message;
-  message.translation.x = b_from_a.translation.x();
-  message.translation.y = b_from_a.translation.y();
-  message.translation.z = b_from_a.translation.z();
-  message.rotation.x = b_from_a.rotation.x();
-  message.rotation.y = b_from_a.rotation.y();
-  message.rotation.z = b_from_a.rotation.z();
-  message.rotation.w = b_from_a.rotation.w();
+  tf2::toMsg(b_from_a.translation, message.translation);
+  message.rotation = tf2::toMsg(b_from_a.rotation);
   return message;
 }
 
 geometry_msgs::Pose ToPoseMessage(const Rigid3& b_from_a) {
-  const geometry_msgs::Transform transform = ToTransformMessage(b_from_a);
   geometry_msgs::Pose message;
-  message.position.x = transform.translation.x;
-  message.position.y = transform.translation.y;
-  message.position.z = transform.translation.z;
-  message.orientation = transform.rotation;
+  message.position = tf2::toMsg(b_from_a.translation);
+  message.orientation = tf2::toMsg(b_from_a.rotation);
   return message;
 }
 
 Rigid3 FromMessage(const geometry_msgs::Transform& message, const std::string& name) {
-  const auto& [x, y, z] =
-      std::tie(message.translation.x, message.translation.y, message.translation.z);
-  const Eigen::Quaterniond rotation(message.rotation.w, message.rotation.x, message.rotation.y,
-                                    message.rotation.z);
-  const Rigid3 b_from_a(rotation, Eigen::Vector3d(x, y, z));
+  geometry_msgs::Pose pose;
+  pose.position.x = message.translation.x;
+  pose.position.y = message.translation.y;
+  pose.position.z = message.translation.z;
+  pose.orientation = message.rotation;
+  return FromMessage(pose, name);
+}
+
+Rigid3 FromMessage(const geometry_msgs::Pose& message, const std::string& name) {
+  const Rigid3 b_from_a = ToRigid3(message);
   Require(b_from_a.IsFinite(), name + " is not finite");
-  Require(std::abs(rotation.norm() - 1) < 1e-3,
-          name + ": the rotation is no unit quaternion, its norm is " +
-              std::to_string(rotation.norm()));
+  const double norm = b_from_a.rotation.norm();
+  Require(std::abs(norm - 1) < 1e-3,
+          name + ": the rotation is no unit quaternion, its norm is " + std::to_string(norm));
   return b_from_a;
+}
+
+Rigid3 ToRigid3(const geometry_msgs::Pose& pose) {
+  Rigid3 b_from_a;
+  tf2::fromMsg(pose.position, b_from_a.translation);
+  tf2::fromMsg(pose.orientation, b_from_a.rotation);
+  return b_from_a;
+}
+
+Rigid3 ReadPose(const geometry_msgs::Pose& pose, const std::string& prefix) {
+  Rigid3 stated = ToRigid3(pose);
+  const std::string flaw = FindGoalFlaw(stated);
+  Require(flaw.empty(), prefix + flaw);
+  stated.rotation.normalize();
+  return stated;
+}
+
+boost::array<double, 36> ToCovarianceMessage(const Eigen::Matrix<double, 6, 6>& covariance) {
+  boost::array<double, 36> message;
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
+  return message;
 }
 
 RectifiedStereo ToMessage(const StereoCamera& camera) {

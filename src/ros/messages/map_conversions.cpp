@@ -1,5 +1,5 @@
+#include "arfm_vo/base/array_checks.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/messages/message_checks.h"
 
 namespace arfm_vo {
 namespace {
@@ -9,13 +9,11 @@ constexpr int kDescriptorLength = 64;
 LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   const std::string name = "KeyframeStamped: ";
   const size_t size = message.observation_landmark.size();
-  RequireSize(message.observation_pixels, 4 * size, name + "observation_pixels");
-  RequireSize(message.observation_has_right, size, name + "observation_has_right");
-  RequireSize(message.observation_sigma, size, name + "observation_sigma");
-  RequireFinite(message.observation_pixels, name + "observation_pixels");
-  RequireFinite(message.observation_sigma, name + "observation_sigma");
-  RequireAscending(message.observation_landmark, name + "observation_landmark");
   const std::string pixels = name + "observation_pixels", sigma = name + "observation_sigma";
+  RequireNumbers(message.observation_pixels, 4 * size, pixels);
+  RequireNumbers(message.observation_sigma, size, sigma);
+  RequireSize(message.observation_has_right, size, name + "observation_has_right");
+  RequireAscending(message.observation_landmark, name + "observation_landmark");
   const auto [width, height] = std::pair(message.camera.width, message.camera.height);
   LandmarkObservations observations(size);
   for (size_t i = 0; i < size; ++i) {
@@ -35,12 +33,10 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
 std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
   const std::string name = "KeyframeStamped: ";
   const size_t size = message.landmark_id.size();
-  RequireSize(message.landmark_position, 3 * size, name + "landmark_position");
+  RequireNumbers(message.landmark_position, 3 * size, name + "landmark_position");
+  RequireNumbers(message.landmark_descriptors, kDescriptorLength * size,
+                 name + "landmark_descriptors");
   RequireSize(message.landmark_laplacian_sign, size, name + "landmark_laplacian_sign");
-  RequireSize(message.landmark_descriptors, kDescriptorLength * size,
-              name + "landmark_descriptors");
-  RequireFinite(message.landmark_position, name + "landmark_position");
-  RequireFinite(message.landmark_descriptors, name + "landmark_descriptors");
   std::vector<Landmark> landmarks(size);
   for (size_t i = 0; i < size; ++i) {
     landmarks[i].id = message.landmark_id[i];
@@ -55,10 +51,8 @@ std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
 CorrectionBelief ImportCorrection(const MapUpdateStamped& message) {
   const std::string name = "MapUpdateStamped: ";
   constexpr size_t kSize = StereoCorrection::kSize;
-  RequireSize(message.correction_px, kSize, name + "correction_px");
-  RequireFinite(message.correction_px, name + "correction_px");
-  RequireSize(message.correction_covariance, kSize * kSize, name + "correction_covariance");
-  RequireFinite(message.correction_covariance, name + "correction_covariance");
+  RequireNumbers(message.correction_px, kSize, name + "correction_px");
+  RequireNumbers(message.correction_covariance, kSize * kSize, name + "correction_covariance");
   CorrectionBelief correction;
   correction.mean.coefficients_px =
       Eigen::Map<const StereoCorrection::Coefficients>(message.correction_px.data());
@@ -137,9 +131,8 @@ MapUpdateStamped ToMessage(const MapUpdate& update) {
 MapUpdate FromMessage(const MapUpdateStamped& message) {
   const std::string name = "MapUpdateStamped: ";
   RequireSize(message.camera_from_world, message.keyframe_id.size(), name + "camera_from_world");
-  RequireSize(message.landmark_position, 3 * message.landmark_id.size(),
-              name + "landmark_position");
-  RequireFinite(message.landmark_position, name + "landmark_position");
+  RequireNumbers(message.landmark_position, 3 * message.landmark_id.size(),
+                 name + "landmark_position");
   RequireAscending(message.keyframe_id, name + "keyframe_id");
   RequireAscending(message.landmark_id, name + "landmark_id");
   MapUpdate update;

@@ -1,68 +1,70 @@
 #include "arfm_vo/ros/messages/transforms.h"
 
-#include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>
 
-#include <chrono>
-#include <cmath>
-#include <thread>
-
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/ros/messages/conversions.h"
 
 namespace arfm_vo {
 
-void CameraMountOptions::Check() const {
-  Require(!base_frame.empty(), "base_frame must not be empty");
-  Require(tf_timeout_s >= 0, "tf_timeout_s must not be negative");
-  Require(max_slew_dps >= 0, "max_slew_dps must not be negative");
-  Require(slew_window_s > 0, "slew_window_s must be positive");
+geometry_msgs::TransformStamped MakeTransform(const ros::Time& stamp, const std::string& parent,
+                                              const std::string& child,
+                                              const Rigid3& parent_from_child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = ToTransformMessage(parent_from_child);
+  return message;
 }
 
-CameraMount::CameraMount(const tf2::BufferCore& buffer, const CameraMountOptions& options)
-    : buffer_(buffer), options_(options) {
-  options.Check();
-}
-
-const std::string& CameraMount::CameraFrame(const std::string& image_frame) const {
-  return options_.camera_frame.empty() ? image_frame : options_.camera_frame;
-}
-
-std::optional<Rigid3> CameraMount::LookUp(const std::string& camera_frame,
-                                          const ros::Time& stamp) const {
-  const std::string name = "tf " + options_.base_frame + " <- " + camera_frame;
+StampedTransform LookUpTransform(const tf2::BufferCore& buffer, const std::string& target,
+                                 const std::string& source, const ros::Time& stamp) {
+  const std::string name = "tf " + target + " <- " + source;
   try {
-    const geometry_msgs::TransformStamped transform =
-        buffer_.lookupTransform(options_.base_frame, camera_frame, stamp);
-    return FromMessage(transform.transform, name);
+    const auto message = buffer.lookupTransform(target, source, stamp);
+    return {message.header.stamp, FromMessage(message.transform, name)};
   } catch (const tf2::TransformException& error) {
-    error_ = name + ": " + error.what();
-  } catch (const std::invalid_argument& error) {
-    error_ = error.what();
-  }
-  return std::nullopt;
-}
-
-std::optional<Rigid3> CameraMount::BaseFromCamera(const std::string& image_frame,
-                                                  const ros::Time& stamp) const {
-  using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(options_.tf_timeout_s);
-  while (true) {
-    if (const auto base_from_camera = LookUp(CameraFrame(image_frame), stamp))
-      return base_from_camera;
-    if (Clock::now() >= deadline) return std::nullopt;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    throw std::invalid_argument(name + ": " + error.what());
   }
 }
 
-bool CameraMount::IsSlewing(const std::string& image_frame, const ros::Time& stamp,
-                            const Rigid3& base_from_camera) const {
-  if (options_.max_slew_dps == 0 || stamp.toSec() < options_.slew_window_s) return false;
-  const auto base_from_before =
-      LookUp(CameraFrame(image_frame), stamp - ros::Duration(options_.slew_window_s));
-  if (!base_from_before) return false;
-  const double turn_deg = (base_from_before->Inverse() * base_from_camera).Angle() * 180 / M_PI;
-  return turn_deg > options_.max_slew_dps * options_.slew_window_s;
+bool AddTransform(geometry_msgs::TransformStamped transform, bool is_static, const ros::Time& now,
+                  const std::string& source, tf2::BufferCore& buffer) {
+  constexpr double kMaxFromFuture_s = 1;
+  // Where the frame was told as moving before, tf2 keeps it so and does reckon with the stamp.
+  if (is_static) transform.header.stamp = now;
+  if (transform.header.stamp.toSec() > now.toSec() + kMaxFromFuture_s) return false;
+  buffer.setTransform(transform, source, is_static);
+  return true;
+}
+
+std::optional<Rigid3> TruthAlignment::Align(const ros::Time& stamp,
+                                            const Rigid3& truth_from_camera) {
+  const auto target_from_camera = [&](const std::string& target) {
+    return LookUpTransform(buffer, target, camera_frame, stamp).target_from_source;
+  };
+  try {
+    const Rigid3 base_from_camera = target_from_camera(base_frame);
+    if (!reference_from_truth)
+      reference_from_truth = target_from_camera(reference_frame) * truth_from_camera.Inverse();
+    return *reference_from_truth * truth_from_camera * base_from_camera.Inverse();
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+Rigid3 FindMapShift(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                    const std::string& map_frame, const Rigid3& map_from_base) {
+  Require(stated.header.frame_id == map_frame, "initialpose: must be in the frame " + map_frame +
+                                                   ", is in '" + stated.header.frame_id + "'");
+  const RoverPose from = ProjectToPlane(map_from_base);
+  const RoverPose to = ProjectToPlane(ReadPose(stated.pose.pose, "initialpose: "));
+  Rigid3 shift(ExpSO3({0, 0, to.heading_rad - from.heading_rad}), Eigen::Vector3d::Zero());
+  shift.translation =
+      Eigen::Vector3d(to.x_m, to.y_m, 0) - shift.rotation * Eigen::Vector3d(from.x_m, from.y_m, 0);
+  return shift;
 }
 
 }  // namespace arfm_vo

@@ -1,161 +1,114 @@
 #include "arfm_vo/ros/odometry/arfm_node.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/ros.h>
-
-#include <string>
+#include <algorithm>
+#include <boost/make_shared.hpp>
 
 #include "arfm_vo/base/stopwatch.h"
-#include "arfm_vo/ros/input/stamp_order.h"
-#include "arfm_vo/ros/node/console_watch.h"
-#include "arfm_vo/ros/node/wall_rate.h"
-#include "arfm_vo/ros/node/worker.h"
-#include "arfm_vo/ros/odometry/frontend_pipeline.h"
-#include "arfm_vo/ros/odometry/running_median.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/node/parameters.h"
 
 namespace arfm_vo {
 
-using diagnostic_msgs::DiagnosticStatus;
-
-class ArfmNode::Impl {
- public:
-  Impl(ros::NodeHandle node, ros::NodeHandle private_node);
-  ~Impl();
-
- private:
-  /// How the pairs since the start fared.
-  struct Figures {
-    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
-    std::string refusal;  ///< why the newest pair was refused; empty where it was not
-    int num_left = 0, num_right = 0, num_points = 0;
-    double ms = 0;
-    RunningMedian times_ms{kTimedPairs};
-    WallRate rate;
-    bool is_idle = true;  ///< nobody subscribes to features
-    StereoInputCounts input, input_before;
-  };
-
-  void Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  void Disconnect();
-  void ReportFigures();
-  void TellDrops(uint32_t num_pairs);
-  // On the worker's thread:
-  void Process(const StereoMessagePair& pair);
-  /// Says whether the pair is to be worked on; begins anew where time has jumped.
-  bool AcceptStamp(const ros::Time& stamp);
-  void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
-
-  const StereoTopics topics_;
-  // Of the thread that calls back:
-  StereoInputWatch input_watch_;
-  ConsoleWatch drop_watch_;
-  uint32_t num_dropped_before_ = 0;
-  // Of the worker's thread:
-  const std::unique_ptr<FrontendPipeline> pipeline_;
-  StampOrder stamps_;
-  Figures figures_;
-  diagnostic_updater::Updater diagnostics_;
-  Worker worker_;
-  std::unique_ptr<StereoInput> input_;
-  ros::Publisher features_;
-  ros::WallTimer timer_;
-};
-
 ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : impl_(std::make_unique<Impl>(node, private_node)) {}
-
-ArfmNode::~ArfmNode() = default;
-
-ArfmNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
-    : topics_(ResolveStereoTopics(node)),
-      pipeline_(MakeFrontendPipeline(private_node, topics_)),
+    : node_(node),
+      private_node_(private_node),
+      options_(ReadParameters<ArfmNodeOptions>(private_node)),
+      topics_(ResolveStereoTopics(node)),
+      learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(pipeline_->max_waiting_pairs(), [this](const std::exception& error) {
+      worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
         ++figures_.num_refused;
         figures_.refusal = error.what();
         ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("stereo pairs", this, &Impl::Report);
+  diagnostics_.add("stereo pairs", this, &ArfmNode::Report);
   features_ = node.advertise<StereoFrameStamped>(
-      "features", 2,
-      [this, node, private_node](const ros::SingleSubscriberPublisher&) {
-        Connect(node, private_node);
-      },
-      [this](const ros::SingleSubscriberPublisher&) { Disconnect(); });
-  timer_ = node.createWallTimer(ros::WallDuration(1),
-                                [this, node, private_node](const ros::WallTimerEvent&) {
-                                  // A nodelet's queue takes nothing while the node is made, also
-                                  // not that who waited for features is connected.
-                                  if (features_.getNumSubscribers() > 0)
-                                    Connect(node, private_node);
-                                  ReportFigures();
-                                });
+      "features", 2, [this](const ros::SingleSubscriberPublisher&) { Connect(); },
+      [this](const ros::SingleSubscriberPublisher&) {
+        if (features_.getNumSubscribers() == 0) input_.reset();
+      });
+  timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
+    // A nodelet's queue takes nothing while the node is made, also not that who waited for features
+    // is connected.
+    if (features_.getNumSubscribers() > 0) Connect();
+    ReportFigures();
+  });
 }
 
-ArfmNode::Impl::~Impl() {
+ArfmNode::~ArfmNode() {
   worker_.RunAndWait([this] {
     TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
               std::to_string(worker_.num_dropped()) + " dropped, " +
-              std::to_string(figures_.num_refused) + " refused" + TellTime(figures_.times_ms));
+              std::to_string(figures_.num_refused) + " refused" + figures_.times.Total());
   });
 }
 
-void ArfmNode::Impl::Connect(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+void ArfmNode::Connect() {
   if (input_) return;
-  input_ = std::make_unique<StereoInput>(node, private_node, [this](const StereoMessagePair& pair) {
-    worker_.PostLossy([this, pair] { Process(pair); });
-  });
+  input_ = std::make_unique<StereoInput>(node_, private_node_,
+                                         PairExactly([this](const StereoMessagePair& pair) {
+                                           ++input_->counts.pairs;
+                                           worker_.PostLossy([this, pair] { Process(pair); });
+                                         }));
 }
 
-void ArfmNode::Impl::Disconnect() {
-  if (features_.getNumSubscribers() == 0) input_.reset();
-}
-
-void ArfmNode::Impl::ReportFigures() {
-  const bool is_idle = !input_;
-  if (is_idle) {
-    input_watch_.Reset();
+void ArfmNode::ReportFigures() {
+  const StereoInputCounts counts = input_ ? input_->counts : StereoInputCounts();
+  std::string obstacle;
+  if (input_) {
+    obstacle = input_watch_.Tell(counts, topics_);
+    TellDrops();
   } else {
-    input_watch_.Tell(input_->counts(), topics_);
-    TellDrops(input_->counts().pairs);
+    input_watch_.Reset();
   }
-  worker_.Post([this, is_idle, counts = is_idle ? StereoInputCounts() : input_->counts()] {
+  worker_.Post([this, is_idle = !input_, counts, obstacle] {
     figures_.is_idle = is_idle;
     figures_.input = counts;
+    figures_.input_obstacle = obstacle;
     diagnostics_.force_update();
-    figures_.input_before = counts;
   });
 }
 
-void ArfmNode::Impl::TellDrops(uint32_t num_pairs) {
+void ArfmNode::TellDrops() {
   const uint32_t num_dropped = worker_.num_dropped();
-  const bool has_dropped = num_dropped > num_dropped_before_;
-  if (drop_watch_.IsDue(has_dropped ? "drops" : "", ros::WallTime::now().toSec()))
+  const char* const problem = num_dropped > num_dropped_before_ ? "drops" : "";
+  if (drop_watch_.IsDue(problem, ros::SteadyTime::now().toSec()))
     ROS_WARN(
         "%u of %u pairs dropped so far: this computer is too slow for the rate and size of the "
         "images; lower them",
-        num_dropped, num_pairs);
+        num_dropped, input_->counts.pairs);
   num_dropped_before_ = num_dropped;
 }
 
-void ArfmNode::Impl::Process(const StereoMessagePair& pair) {
+void ArfmNode::Process(const StereoMessagePair& pair) {
   Stopwatch stopwatch;
   if (!AcceptStamp(pair.left->header.stamp)) return;
-  const StereoFrameStampedPtr frame = pipeline_->Process(pair);
-  frame->pair_number = ++figures_.num_published;
-  frame->num_dropped_pairs = worker_.num_dropped();
-  figures_.num_left = static_cast<int>(frame->keypoint_x.size());
-  figures_.num_right = frame->num_right_keypoints;
-  figures_.num_points = static_cast<int>(frame->point_keypoint.size());
-  features_.publish(frame);
+  PrepareFrontend(pair);
+  CheckSize(*pair.left, *pair.left_info, topics_.left_image);
+  CheckSize(*pair.right, *pair.right_info, topics_.right_image);
+  const StereoImages images{pair.left->header.stamp.toSec(),
+                            ToGrey(pair.left, topics_.left_image, window_),
+                            ToGrey(pair.right, topics_.right_image, window_)};
+  StageTimes stages;
+  const StereoFrame frame = frontend_->Process(images, &stages);
+  const auto message = boost::make_shared<StereoFrameStamped>(ToMessage(frame, camera_));
+  message->header = pair.left->header;
+  for (const auto& [name, ms] : stages) {
+    message->stage_names.push_back(name);
+    message->stage_ms.push_back(ms);
+  }
+  message->pair_number = ++figures_.num_published;
+  message->num_dropped_pairs = worker_.num_dropped();
+  features_.publish(message);
+  figures_.num_left = message->keypoint_x.size();
+  figures_.num_right = message->num_right_keypoints;
+  figures_.num_points = message->point_keypoint.size();
   figures_.refusal.clear();
-  figures_.ms = stopwatch.LapMs();
-  figures_.times_ms.Add(figures_.ms);
-  figures_.rate.Tick();
+  figures_.times.Add(stopwatch.LapMs());
 }
 
-bool ArfmNode::Impl::AcceptStamp(const ros::Time& stamp) {
+bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
   const StampVerdict verdict = stamps_.Judge(stamp);
   if (verdict == StampVerdict::kStray) {
     ++figures_.num_strays;
@@ -164,22 +117,39 @@ bool ArfmNode::Impl::AcceptStamp(const ros::Time& stamp) {
   }
   if (verdict == StampVerdict::kJumpBack) {
     ROS_WARN("time jumped back: starting anew");
-    pipeline_->Reset();
+    frontend_.reset();
   }
   return true;
 }
 
-void ArfmNode::Impl::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::string obstacle = figures_.input.Explain(figures_.input_before, topics_);
+void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
+  const StereoCamera camera = MakeStereoCamera(*pair.left_info, *pair.right_info);
+  if (frontend_ && camera == camera_) return;
+  frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
+  if (const auto known = learned_.ReadFor(camera)) frontend_->SetCorrection(*known);
+  camera_ = camera;
+  const auto& distortion = pair.left_info->D;
+  const bool is_distorted =
+      std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0; });
+  if (is_distorted && topics_.left_image.find("image_raw") != std::string::npos)
+    ROS_WARN(
+        "%s is raw by its name, and its camera_info has distortion: where it is not rectified, "
+        "give odometry.launch rectify:=true",
+        topics_.left_image.c_str());
+  ROS_INFO("stereo camera %dx%d, focal length %.1f px, baseline %.4f m", camera.width,
+           camera.height, camera.fx, camera.baseline_m);
+}
+
+void ArfmNode::Report(Diagnostics& status) {
   if (figures_.is_idle)
-    status.summary(DiagnosticStatus::OK, "idle: nobody subscribes to features");
+    status.summary(Diagnostics::OK, "idle: nobody subscribes to features");
   else if (!figures_.refusal.empty())
-    status.summary(DiagnosticStatus::ERROR, "pair refused: " + figures_.refusal);
-  else if (!obstacle.empty())
-    status.summary(DiagnosticStatus::WARN, "no pairs: " + obstacle);
+    status.summary(Diagnostics::ERROR, "pair refused: " + figures_.refusal);
+  else if (!figures_.input_obstacle.empty())
+    status.summary(Diagnostics::WARN, "no pairs: " + figures_.input_obstacle);
   else
-    status.summary(DiagnosticStatus::OK, "pairs come");
-  status.addf("pairs a second", "%.1f", figures_.rate.Get());
+    status.summary(Diagnostics::OK, "pairs come");
+  figures_.times.Report(status);
   status.add("pairs published", figures_.num_published);
   status.add("pairs dropped", worker_.num_dropped());
   status.add("pairs refused", figures_.num_refused);
@@ -189,7 +159,6 @@ void ArfmNode::Impl::Report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("left features", figures_.num_left);
   status.add("right features", figures_.num_right);
   status.add("stereo points", figures_.num_points);
-  status.addf("time of the last pair (ms)", "%.1f", figures_.ms);
 }
 
 }  // namespace arfm_vo

@@ -1,47 +1,62 @@
 #include "arfm_vo/ros/odometry/odometry_health.h"
 
-#include <ros/time.h>
+#include <ros/console.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
 
+std::string WhatToDoWithoutTransform(const std::string& text) {
+  if (text.find("extrapolation into the future") != std::string::npos)
+    return "this transform comes later than the images: raise tf_timeout_s";
+  return "publish it (robot_state_publisher or static_transform_publisher), or give "
+         "odometry.launch base_from_camera:=\"x y z yaw pitch roll\"";
+}
+
+/// What may be wrong with the images, by what was seen in them.
+std::string WhatToDoWhenLost(const StereoFrame& frame, const SessionUpdate& pose) {
+  const size_t num_features = frame.features.size(), num_points = frame.points.size();
+  const std::string counts = Format("%zu features, %zu stereo points, %d of the map found; ",
+                                    num_features, num_points, pose.update.pose.num_matches);
+  if (num_features < 100)
+    return counts + "is the image dark, blurred or without texture (light, exposure, lens cap)?";
+  if (num_points * 10 < num_features)
+    return counts +
+           "left and right do not fit: are the images rectified (rectify:=true), the eyes not "
+           "swapped, and taken at the same time?";
+  return counts + "is the motion too fast for the rate of the images?";
+}
+
+/// Why a pair has no good pose, and what to do about it.
+std::string FindProblem(const StereoFrame& frame, const SessionUpdate& pose) {
+  if (pose.HasPose()) return pose.text;
+  if (pose.update.pose.status == PoseStatus::kNoTransform)
+    return "no pose: " + pose.text + ": " + WhatToDoWithoutTransform(pose.text);
+  if (!pose.IsTried()) return "";  // the head slews, as it was told to
+  return "lost: " + pose.text + ": " + WhatToDoWhenLost(frame, pose);
+}
+
 /// Empty where there is none.
 std::string Describe(const std::optional<EyeSkew>& skew) {
   if (!skew) return "";
-  char text[100];
-  std::snprintf(text, sizeof text,
-                "the right picture is taken %.1f ms %s the left one (sigma %.1f)",
+  return Format("the right picture is taken %.1f ms %s the left one (sigma %.1f)",
                 1e3 * std::abs(skew->s), skew->s > 0 ? "after" : "before", 1e3 * skew->sigma_s);
-  return text;
 }
 
 }  // namespace
-
-using diagnostic_msgs::DiagnosticStatus;
-
-void OdometryHealthOptions::Check() const {
-  Require(row_residual_warn_px > 0 && row_residual_error_px >= row_residual_warn_px,
-          "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
-  Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
-  Require(scale_warn > 0 && scale_error >= scale_warn,
-          "health.scale_error must be at least scale_warn, both positive");
-}
 
 OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
     : options_(options), row_residual_px_(options.row_residual_pairs) {
   options.Check();
 }
 
-OdometryHealth::~OdometryHealth() {
-  TellAtEnd("pose_node: " + console_.Totals(num_dropped_, num_refused_) + TellTime(times_ms_));
-}
-
-void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, double ms) {
+std::optional<ConsoleLine> OdometryHealth::Count(const StereoFrame& frame,
+                                                 const SessionUpdate& pose, double ms,
+                                                 double now_s) {
   RunningMedian row_residual_px(frame.points.size());
   for (const StereoPoint& point : frame.points)
     row_residual_px.Add(std::abs(point.row_residual_px));
@@ -51,14 +66,30 @@ void OdometryHealth::Count(const StereoFrame& frame, const SessionUpdate& pose, 
   last_ = pose;
   is_new_ = true;
   refusal_.clear();
-  times_ms_.Add(ms);
-  ms_ = ms;
+  times_.Add(ms);
   ++num_pairs_;
-  if (!pose.HasPose()) ++num_lost_;
-  rate_.Tick();
-  const auto line = console_.Take(frame, pose, ros::WallTime::now().toSec());
-  if (line && line->is_warning) ROS_WARN("%s", line->text.c_str());
-  if (line && !line->is_warning) ROS_INFO("%s", line->text.c_str());
+  if (pose.IsTracked()) return TellTracked(now_s);
+  if (pose.HasPose())
+    ++num_degraded_;
+  else if (pose.IsTried())
+    ++num_lost_;
+  const std::string problem = FindProblem(frame, pose);
+  if (!watch_.IsDue(problem, now_s)) return std::nullopt;
+  is_problem_told_ = true;
+  return ConsoleLine{true, problem};
+}
+
+std::optional<ConsoleLine> OdometryHealth::TellTracked(double now_s) {
+  std::optional<ConsoleLine> line;
+  if (num_tracked_++ == 0)
+    line = ConsoleLine{false, Format("the first pose is there, at pair %u", num_pairs_)};
+  else if (is_problem_told_)
+    line = ConsoleLine{
+        false, Format("tracked again after %.1f s without a good pose", now_s - *last_tracked_s_)};
+  watch_.IsDue("", now_s);
+  is_problem_told_ = false;
+  last_tracked_s_ = now_s;
+  return line;
 }
 
 void OdometryHealth::CountRefused(const std::string& why) {
@@ -71,69 +102,72 @@ void OdometryHealth::Clear() {
   scale_.Clear();
 }
 
-void OdometryHealth::ReportOdometry(Status& status) {
+std::string OdometryHealth::Totals() const {
+  return Format(
+      "%u pairs: %u with a pose, %u lost, %u degraded, %u without tf or skipped while the head "
+      "turned; %u dropped, %u refused",
+      num_pairs_, num_tracked_, num_lost_, num_degraded_, NumWithoutPose() - num_lost_,
+      num_dropped_, num_refused_);
+}
+
+void OdometryHealth::ReportOdometry(Diagnostics& status) {
   if (!refusal_.empty())
-    status.summary(DiagnosticStatus::ERROR, "pair refused: " + refusal_);
+    status.summary(Diagnostics::ERROR, "pair refused: " + refusal_);
   else if (!is_new_)
-    status.summary(DiagnosticStatus::WARN, "no pairs come");
+    status.summary(Diagnostics::WARN, "no pairs come");
   else if (last_.IsTracked())
-    status.summary(DiagnosticStatus::OK, "tracked");
-  else if (last_.HasPose())
-    status.summary(DiagnosticStatus::WARN, last_.text);
-  else if (last_.IsTried())
-    status.summary(DiagnosticStatus::ERROR, "lost: " + last_.text);
+    status.summary(Diagnostics::OK, "tracked");
+  else if (last_.HasPose() || !last_.IsTried())
+    status.summary(Diagnostics::WARN, last_.text);
   else
-    status.summary(DiagnosticStatus::WARN, last_.text);
+    status.summary(Diagnostics::ERROR, "lost: " + last_.text);
   is_new_ = false;
-  status.addf("pairs a second", "%.1f", rate_.Get());
+  times_.Report(status);
   status.add("pairs", num_pairs_);
-  status.add("pairs without a pose", num_lost_);
+  status.add("pairs without a pose", NumWithoutPose());
   status.add("pairs dropped", num_dropped_);
   status.add("pairs refused", num_refused_);
   status.add("map epoch", last_.epoch);
   status.add("matches", last_.update.pose.num_matches);
   status.add("inliers", last_.update.pose.num_inliers);
   status.addf("reprojection error rms (px)", "%.2f", last_.update.pose.rms_px);
-  status.addf("time of the last pair (ms)", "%.1f", ms_);
 }
 
-void OdometryHealth::ReportCalibration(Status& status) {
-  const double residual_px = row_residual_px_.Median();
+void OdometryHealth::ReportCalibration(Diagnostics& status) {
+  const double residual_px = row_residual_px_.Median(), now_s = ros::SteadyTime::now().toSec();
   const bool is_wrong = residual_px >= options_.row_residual_error_px;
-  if (calibration_watch_.IsDue(is_wrong ? "rows" : "", ros::WallTime::now().toSec()))
+  const std::string skew = Describe(last_.update.skew);
+  if (calibration_watch_.IsDue(is_wrong ? "rows" : "", now_s))
     ROS_WARN(
         "the rows of left and right differ by %.2f px: the images are not rectified "
         "(rectify:=true), or the calibration is wrong (calibrate_stereo)",
         residual_px);
-  const std::string skew = Describe(last_.update.skew);
-  if (skew_watch_.IsDue(skew, ros::WallTime::now().toSec()))
+  if (skew_watch_.IsDue(skew, now_s))
     ROS_WARN("%s: made up for as far as can be; trigger both cameras together", skew.c_str());
   if (is_wrong)
-    status.summaryf(DiagnosticStatus::ERROR, "rows differ by %.2f px: calibrate the cameras",
+    status.summaryf(Diagnostics::ERROR, "rows differ by %.2f px: calibrate the cameras",
                     residual_px);
   else if (!skew.empty())
-    status.summary(DiagnosticStatus::WARN, skew);
+    status.summary(Diagnostics::WARN, skew);
   else if (residual_px >= options_.row_residual_warn_px)
-    status.summaryf(DiagnosticStatus::WARN, "rows differ by %.2f px", residual_px);
-  else if (row_residual_px_.size() == 0)
-    status.summary(DiagnosticStatus::OK, "nothing measured yet");
+    status.summaryf(Diagnostics::WARN, "rows differ by %.2f px", residual_px);
   else
-    status.summary(DiagnosticStatus::OK, "rows agree");
+    status.summary(Diagnostics::OK,
+                   row_residual_px_.size() == 0 ? "nothing measured yet" : "rows agree");
   status.addf("row residual, running median (px)", "%.3f", residual_px);
   status.addf("row residual of the last pair, signed (px)", "%.3f",
               last_.update.median_row_residual_px);
 }
 
-void OdometryHealth::ReportScale(Status& status) const {
+void OdometryHealth::ReportScale(Diagnostics& status) const {
   const std::optional<double> ratio = scale_.Ratio();
-  if (!ratio) return status.summary(DiagnosticStatus::OK, "not measured: no track odometry yet");
+  if (!ratio) return status.summary(Diagnostics::OK, "not measured: no track odometry yet");
   const double deviation = std::abs(*ratio - 1);
-  if (deviation >= options_.scale_error)
-    status.summaryf(DiagnosticStatus::ERROR, "visual way is %.2f of the tracks' way", *ratio);
-  else if (deviation >= options_.scale_warn)
-    status.summaryf(DiagnosticStatus::WARN, "visual way is %.2f of the tracks' way", *ratio);
+  if (deviation < options_.scale_warn)
+    status.summary(Diagnostics::OK, "scale agrees with the tracks");
   else
-    status.summary(DiagnosticStatus::OK, "scale agrees with the tracks");
+    status.summaryf(deviation < options_.scale_error ? Diagnostics::WARN : Diagnostics::ERROR,
+                    "visual way is %.2f of the tracks' way", *ratio);
   status.addf("visual to track way, running median", "%.3f", *ratio);
 }
 

@@ -1,17 +1,11 @@
 #include "arfm_vo/ros/odometry/pose_node.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <image_transport/image_transport.h>
-#include <ros/ros.h>
-#include <tf2/buffer_core.h>
-
-#include "arfm_vo/ros/input/exact_pairing.h"
+#include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/ros/input/stereo_input.h"
-#include "arfm_vo/ros/input/transform_input.h"
-#include "arfm_vo/ros/node/console_watch.h"
-#include "arfm_vo/ros/node/trigger_service.h"
-#include "arfm_vo/ros/node/worker.h"
-#include "arfm_vo/ros/odometry/pose_pipeline.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/stereo_messages.h"
+#include "arfm_vo/ros/node/parameters.h"
+#include "arfm_vo/ros/node/services.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,94 +15,71 @@ constexpr int kPairQueueSize = 10;
 
 }  // namespace
 
-class PoseNode::Impl {
- public:
-  Impl(ros::NodeHandle node, ros::NodeHandle private_node);
-  ~Impl();
-
- private:
-  using Frame = StereoFrameStamped;
-  using Image = sensor_msgs::Image;
-
-  void Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node);
-  void Offer(ros::NodeHandle node, ros::NodeHandle private_node);
-  std::string Save();
-
-  tf2::BufferCore buffer_;
-  const std::unique_ptr<PosePipeline> pipeline_;  // of the worker's thread
-  diagnostic_updater::Updater diagnostics_;
-  Worker worker_;
-  image_transport::ImageTransport transport_;
-  ExactPairing<Frame, Image, Image> pairing_;
-  std::unique_ptr<TransformInput> transforms_;  // of buffer_
-  image_transport::Subscriber left_, right_;
-  ros::Subscriber frames_, updates_, tracks_;
-  ros::ServiceServer reset_, save_;
-  ros::WallTimer timer_;
-};
-
 PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : impl_(std::make_unique<Impl>(node, private_node)) {}
-
-PoseNode::~PoseNode() = default;
-
-PoseNode::Impl::Impl(ros::NodeHandle node, ros::NodeHandle private_node)
-    : pipeline_(MakePosePipeline(node, private_node, buffer_)),
+    : options_(ReadParameters<PoseNodeOptions>(private_node)),
+      mount_(buffer_, options_.mount),
+      trajectory_output_(options_.trajectory, options_.mount.base_frame),
+      outputs_(node, options_.output, options_.mount.base_frame),
+      session_(std::make_unique<Session>(options_.algorithm.odometry)),
+      health_(options_.health),
+      learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(pipeline_->max_waiting_pairs(),
+      worker_(options_.max_waiting_pairs,
               [this](const std::exception& error) {
-                pipeline_->CountRefused(error);
+                health_.CountRefused(error.what());
                 ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
               }),
-      transport_(node),
       pairing_(kPairQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
-        worker_.PostLossy([this, frame, left, right] {
-          if (pipeline_->Process(*frame, left, right)) worker_.Release();
-        });
+        worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
       }) {
-  if (pipeline_->max_held_pairs() > 0) worker_.Hold(pipeline_->max_held_pairs());
+  if (options_.max_held_pairs > 0) worker_.Hold(options_.max_held_pairs);
   Offer(node, private_node);
   Subscribe(node, private_node);
 }
 
-PoseNode::Impl::~Impl() {
-  if (pipeline_->saves_at_end()) TellSavedAtEnd("the trajectory is", [this] { return Save(); });
+PoseNode::~PoseNode() {
+  if (trajectory_output_.is_enabled())
+    TellSavedAtEnd("the trajectory is", [this] { return Save(); });
 }
 
-void PoseNode::Impl::Offer(ros::NodeHandle node, ros::NodeHandle private_node) {
+void PoseNode::Offer(ros::NodeHandle& node, ros::NodeHandle& private_node) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("odometry", pipeline_.get(), &PosePipeline::ReportOdometry);
-  diagnostics_.add("calibration", [this](auto& status) { pipeline_->ReportCalibration(status); });
-  diagnostics_.add("scale", [this](auto& status) { pipeline_->ReportScale(status); });
+  diagnostics_.add("odometry", &health_, &OdometryHealth::ReportOdometry);
+  diagnostics_.add("calibration", &health_, &OdometryHealth::ReportCalibration);
+  diagnostics_.add("scale", [this](Diagnostics& status) { health_.ReportScale(status); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     worker_.Post([this] { diagnostics_.force_update(); });
   });
   reset_ = OfferTrigger(private_node, "reset", [this] {
-    worker_.RunAndWait([this] { pipeline_->StartEpoch(); });
+    worker_.RunAndWait([this] { session_->StartEpoch(); });
     ROS_WARN("reset: the next pair begins a new map where the base stands");
     return std::string("the next pair begins a new map where the base stands");
   });
   save_ = OfferTrigger(private_node, "save_trajectory", [this] { return Save(); });
 }
 
-void PoseNode::Impl::Subscribe(ros::NodeHandle node, const ros::NodeHandle& private_node) {
+void PoseNode::Subscribe(ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   transforms_ = std::make_unique<TransformInput>(node, buffer_);
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
   updates_ = node.subscribe<MapUpdateStamped>(
       "map_update", 2,
       [this](const MapUpdateStampedConstPtr& update) {
-        worker_.Post([this, update] { pipeline_->Apply(*update); });
+        worker_.Post([this, update] { session_->Offer(FromMessage(*update), update->epoch); });
       },
-      ros::VoidConstPtr(), no_delay);
+      {}, no_delay);
   tracks_ = node.subscribe<nav_msgs::Odometry>(
       "track_odometry", 50, [this](const nav_msgs::OdometryConstPtr& odometry) {
-        worker_.Post([this, odometry] { pipeline_->AddTrack(*odometry); });
+        worker_.Post([this, odometry] {
+          health_.scale().AddTrack(odometry->header.stamp.toSec(),
+                                   ToRigid3(odometry->pose.pose).translation);
+        });
       });
-  left_ = transport_.subscribe(
+  image_transport::ImageTransport transport(node);
+  left_ = transport.subscribe(
       StereoTopic(node, "left/image_rect"), kPairQueueSize,
       [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<1>(image); }, {}, hints);
-  right_ = transport_.subscribe(
+  right_ = transport.subscribe(
       StereoTopic(node, "right/image_rect"), kPairQueueSize,
       [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<2>(image); }, {}, hints);
   frames_ = node.subscribe<Frame>(
@@ -116,10 +87,53 @@ void PoseNode::Impl::Subscribe(ros::NodeHandle node, const ros::NodeHandle& priv
       no_delay);
 }
 
-std::string PoseNode::Impl::Save() {
+std::string PoseNode::Save() {
   std::string saved;
-  worker_.RunAndWait([&] { saved = pipeline_->SaveTrajectory(); });
+  worker_.RunAndWait([&] { saved = SaveTrajectory(); });
   return saved;
+}
+
+std::string PoseNode::SaveTrajectory() const {
+  return trajectory_output_.Save(trajectory_output_.Select(session_->MakeTrajectory(), mounts_));
+}
+
+void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& left,
+                       const sensor_msgs::ImageConstPtr& right) {
+  Stopwatch stopwatch;
+  const uint32_t num_dropped = numbers_.CountMissing(message.pair_number);
+  health_.CountDropped(num_dropped);
+  if (!AcceptStamp(message.header.stamp)) return;
+  const StereoCamera camera = FromMessage(message.camera);
+  const StereoFrame frame = FromMessage(message);
+  const StereoImages images{frame.stamp_s, ToGrey(left, "left/image_rect", window_),
+                            ToGrey(right, "right/image_rect", window_)};
+  images.Check();
+  Require(images.left.cols == camera.width && images.left.rows == camera.height,
+          "left/image_rect does not have the size that features tells of the camera");
+  if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
+  const SessionUpdate pose =
+      mount_.Process(frame, camera, images, message.header, *session_, mounts_);
+  outputs_.Publish(pose, message, num_dropped);
+  outputs_.PublishPicture(images.left, frame, pose, message.header);
+  const auto line = health_.Count(frame, pose, stopwatch.LapMs(), ros::SteadyTime::now().toSec());
+  if (line && line->is_warning) ROS_WARN("%s", line->text.c_str());
+  if (line && !line->is_warning) ROS_INFO("%s", line->text.c_str());
+  if (pose.update.pose.status != PoseStatus::kNoTransform) worker_.Release();
+}
+
+bool PoseNode::AcceptStamp(const ros::Time& stamp) {
+  if (stamp == last_stamp_) return false;  // the same pair again
+  if (stamp < last_stamp_) {
+    ROS_WARN("time jumped back by %.3f s: starting anew", last_stamp_.toSec() - stamp.toSec());
+    if (trajectory_output_.is_enabled()) ROS_INFO("%s", SaveTrajectory().c_str());
+    trajectory_output_.StartRun();
+    mounts_.Clear();
+    session_ = std::make_unique<Session>(options_.algorithm.odometry, session_->epoch() + 1);
+    outputs_.ClearPath();
+    health_.Clear();
+  }
+  last_stamp_ = stamp;
+  return true;
 }
 
 }  // namespace arfm_vo

@@ -1,16 +1,16 @@
 #include "arfm_vo/ros/odometry/pose_outputs.h"
 
-#include <arfm_vo/KeyframeStamped.h>
 #include <arfm_vo/OdometryStatus.h>
 #include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/image_encodings.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <boost/make_shared.hpp>
 
-#include "arfm_vo/ros/display/match_picture.h"
+#include "arfm_vo/evaluation/match_picture.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/messages/pose_message.h"
+#include "arfm_vo/ros/messages/transforms.h"
 
 namespace arfm_vo {
 
@@ -20,40 +20,36 @@ static_assert(static_cast<uint8_t>(PoseStatus::kTracked) == OdometryStatus::TRAC
               static_cast<uint8_t>(PoseStatus::kDegraded) == OdometryStatus::DEGRADED);
 namespace {
 
-OdometryStatus MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
-                          uint32_t num_dropped) {
-  OdometryStatus status;
-  status.state = static_cast<uint8_t>(pose.update.pose.status);
-  status.text = pose.text;
-  status.is_keyframe = pose.update.is_keyframe;
-  status.epoch = pose.epoch;
-  status.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
-  status.num_right_features = frame.num_right_keypoints;
-  status.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
-  status.num_matches = pose.update.pose.num_matches;
-  status.num_inliers = pose.update.pose.num_inliers;
-  status.rms_px = pose.update.pose.rms_px;
-  status.ratio_threshold = frame.ratio_threshold;
-  status.row_residual_px = pose.update.median_row_residual_px;
-  status.grey_mean = frame.grey_mean;
-  status.grey_variance = frame.grey_variance;
-  status.num_dropped_arfm = frame.num_dropped_pairs;
-  status.num_dropped_pose = num_dropped;
-  status.stage_names = frame.stage_names;
-  status.stage_ms = frame.stage_ms;
+OdometryStatusPtr MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
+                             const std_msgs::Header& header, uint32_t num_dropped) {
+  const auto status = boost::make_shared<OdometryStatus>();
+  status->header = header;
+  status->state = static_cast<uint8_t>(pose.update.pose.status);
+  status->text = pose.text;
+  status->is_keyframe = pose.update.is_keyframe;
+  status->epoch = pose.epoch;
+  status->num_features = static_cast<uint32_t>(frame.keypoint_x.size());
+  status->num_right_features = frame.num_right_keypoints;
+  status->num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
+  status->num_matches = pose.update.pose.num_matches;
+  status->num_inliers = pose.update.pose.num_inliers;
+  status->rms_px = pose.update.pose.rms_px;
+  status->ratio_threshold = frame.ratio_threshold;
+  status->row_residual_px = pose.update.median_row_residual_px;
+  status->grey_mean = frame.grey_mean;
+  status->grey_variance = frame.grey_variance;
+  status->num_dropped_arfm = frame.num_dropped_pairs;
+  status->num_dropped_pose = num_dropped;
+  status->stage_names = frame.stage_names;
+  status->stage_ms = frame.stage_ms;
   for (const auto& [name, ms] : pose.update.stage_ms) {
-    status.stage_names.push_back(name);
-    status.stage_ms.push_back(ms);
+    status->stage_names.push_back(name);
+    status->stage_ms.push_back(ms);
   }
   return status;
 }
 
 }  // namespace
-
-void PoseOutputOptions::Check() const {
-  Require(!odom_frame.empty(), "odom_frame must not be empty");
-  path.Check();
-}
 
 PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
                          std::string base_frame)
@@ -72,11 +68,14 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   header.stamp = frame.header.stamp;
   header.frame_id = options_.odom_frame;
   // First, so that who drives by the pose hears of a new epoch before its poses.
-  PublishStatus(MakeStatus(pose, frame, num_dropped), header);
+  status_publisher_.publish(MakeStatus(pose, frame, header, num_dropped));
   if (pose.IsTried()) PublishOdometry(pose, header);
   if (pose.update.pose.IsMeasured()) {  // nobody steers by what no picture told
-    if (options_.publish_tf) PublishTransform(pose, header);
-    PublishPath(pose, header);
+    if (options_.publish_tf)
+      broadcaster_.sendTransform(
+          MakeTransform(header.stamp, header.frame_id, base_frame_, pose.odom_from_base));
+    if (path_.Add(header, ToPoseMessage(pose.odom_from_base)))
+      path_publisher_.publish(path_.path());
   }
   if (pose.keyframe) {
     const auto keyframe = boost::make_shared<KeyframeStamped>(ToMessage(*pose.keyframe));
@@ -85,38 +84,15 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   }
 }
 
-void PoseOutputs::PublishStatus(OdometryStatus status, const std_msgs::Header& header) {
-  status.header = header;
-  status_publisher_.publish(boost::make_shared<OdometryStatus>(std::move(status)));
-}
-
 void PoseOutputs::PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header) {
   const auto odometry = boost::make_shared<nav_msgs::Odometry>();
   odometry->header = header;
   odometry->child_frame_id = base_frame_;
   odometry->pose.pose = ToPoseMessage(pose.odom_from_base);
   odometry->pose.covariance = ToCovarianceMessage(pose.covariance);
-  geometry_msgs::Twist& twist = odometry->twist.twist;
-  twist.linear.x = pose.twist[0];
-  twist.linear.y = pose.twist[1];
-  twist.linear.z = pose.twist[2];
-  twist.angular.x = pose.twist[3];
-  twist.angular.y = pose.twist[4];
-  twist.angular.z = pose.twist[5];
+  odometry->twist.twist = tf2::toMsg(pose.twist);
   odometry->twist.covariance = ToCovarianceMessage(pose.twist_covariance);
   odometry_publisher_.publish(odometry);
-}
-
-void PoseOutputs::PublishTransform(const SessionUpdate& pose, const std_msgs::Header& header) {
-  geometry_msgs::TransformStamped transform;
-  transform.header = header;
-  transform.child_frame_id = base_frame_;
-  transform.transform = ToTransformMessage(pose.odom_from_base);
-  broadcaster_.sendTransform(transform);
-}
-
-void PoseOutputs::PublishPath(const SessionUpdate& pose, const std_msgs::Header& header) {
-  if (path_.Add(header, ToPoseMessage(pose.odom_from_base))) path_publisher_.publish(path_.path());
 }
 
 void PoseOutputs::PublishPicture(const cv::Mat& left, const StereoFrame& frame,

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <vector>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/process_usage.h"
+#include "arfm_vo/datasets/bag_records.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/messages/image_conversion.h"
-#include "arfm_vo/ros/messages/stereo_camera_model.h"
-#include "bag_records.h"
 
 namespace arfm_vo {
 namespace {
@@ -38,13 +39,9 @@ boost::shared_ptr<Message> Instantiate(const rosbag::MessageInstance& instance) 
   return message;
 }
 
-int CountMessages(const rosbag::Bag& bag, const std::string& topic) {
-  return static_cast<int>(rosbag::View(bag, rosbag::TopicQuery(topic)).size());
-}
-
 /// The number of messages of a topic, at least 1.
 int RequireTopic(const rosbag::Bag& bag, const std::string& topic) {
-  const int count = CountMessages(bag, topic);
+  const int count = static_cast<int>(rosbag::View(bag, rosbag::TopicQuery(topic)).size());
   if (count > 0) return count;
   std::string others;
   rosbag::View everything(bag);
@@ -87,38 +84,27 @@ void BagSequence::Open() {
 void BagSequence::ReadTruth() {
   for (const auto& instance : rosbag::View(bag_, rosbag::TopicQuery(topics_.ground_truth))) {
     const auto message = Instantiate<geometry_msgs::PoseStamped>(instance);
-    geometry_msgs::Transform world_from_camera;
-    world_from_camera.rotation = message->pose.orientation;
-    world_from_camera.translation.x = message->pose.position.x;
-    world_from_camera.translation.y = message->pose.position.y;
-    world_from_camera.translation.z = message->pose.position.z;
-    truth_.push_back({message->header.stamp.toSec(),
-                      FromMessage(world_from_camera, "topic " + topics_.ground_truth)});
+    truth_.emplace(message->header.stamp.toSec(),
+                   FromMessage(message->pose, "topic " + topics_.ground_truth));
   }
-  const auto by_stamp = [](const auto& a, const auto& b) { return a.stamp_s < b.stamp_s; };
-  std::stable_sort(truth_.begin(), truth_.end(), by_stamp);
 }
 
 std::optional<Rigid3> BagSequence::FindTruth(double stamp_s) const {
-  const auto after =
-      std::lower_bound(truth_.begin(), truth_.end(), stamp_s,
-                       [](const auto& pose, double stamp) { return pose.stamp_s < stamp; });
+  const auto after = truth_.lower_bound(stamp_s);
   if (after == truth_.end()) return std::nullopt;
-  if (after->stamp_s == stamp_s) return after->world_from_camera;
+  if (after->first == stamp_s) return after->second;
   if (after == truth_.begin()) return std::nullopt;
-  const auto before = after - 1;
-  const double gap_s = after->stamp_s - before->stamp_s;
+  const auto before = std::prev(after);
+  const double gap_s = after->first - before->first;
   if (gap_s > kMaxTruthGap_s) return std::nullopt;
-  return Interpolate(before->world_from_camera, after->world_from_camera,
-                     (stamp_s - before->stamp_s) / gap_s);
+  return Interpolate(before->second, after->second, (stamp_s - before->first) / gap_s);
 }
 
 cv::Mat BagSequence::MakeGrey(const Image& image, const std::string& topic) {
   const cv::Mat grey = ToGrey(image, "topic " + topic, window_);
   Require(grey.cols == camera_.width && grey.rows == camera_.height,
-          "topic " + topic + ": an image is " + std::to_string(grey.cols) + "x" +
-              std::to_string(grey.rows) + ", camera_info says " + std::to_string(camera_.width) +
-              "x" + std::to_string(camera_.height));
+          Format("topic %s: an image is %dx%d, camera_info says %dx%d", topic.c_str(), grey.cols,
+                 grey.rows, camera_.width, camera_.height));
   return grey.clone();  // the message goes
 }
 

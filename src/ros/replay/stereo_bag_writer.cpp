@@ -7,14 +7,18 @@
 
 namespace arfm_vo {
 
-StereoBagWriter::StereoBagWriter(const std::string& path, const StereoTopics& topics)
-    : path_(path), partial_path_(path + ".partial." + std::to_string(getpid())), topics_(topics) {
+void StereoBagWriter::Try(const std::function<void()>& write) const {
   try {
-    bag_.open(partial_path_, rosbag::bagmode::Write);
-    bag_.setCompression(rosbag::compression::LZ4);
+    write();
   } catch (const rosbag::BagException& error) {
     throw std::runtime_error(path_ + ": cannot be written: " + error.what());
   }
+}
+
+StereoBagWriter::StereoBagWriter(const std::string& path, const StereoTopics& topics)
+    : path_(path), partial_path_(path + ".partial." + std::to_string(getpid())), topics_(topics) {
+  Try([this] { bag_.open(partial_path_, rosbag::bagmode::Write); });
+  bag_.setCompression(rosbag::compression::LZ4);
 }
 
 StereoBagWriter::~StereoBagWriter() {
@@ -29,23 +33,17 @@ StereoBagWriter::~StereoBagWriter() {
 
 void StereoBagWriter::Write(const StereoMessages& messages) {
   const ros::Time stamp = messages.left.header.stamp;
-  try {
+  Try([&] {
     bag_.write(topics_.left_info, stamp, messages.left_info);
     bag_.write(topics_.right_info, stamp, messages.right_info);
     bag_.write(topics_.left_image, stamp, messages.left);
     bag_.write(topics_.right_image, stamp, messages.right);
     if (messages.ground_truth) bag_.write(topics_.ground_truth, stamp, *messages.ground_truth);
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(path_ + ": cannot be written: " + error.what());
-  }
+  });
 }
 
 void StereoBagWriter::Close() {
-  try {
-    bag_.close();
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(path_ + ": cannot be written: " + error.what());
-  }
+  Try([this] { bag_.close(); });
   std::filesystem::rename(partial_path_, path_);
   is_closed_ = true;
 }

@@ -1,23 +1,16 @@
-#include "arfm_vo/ros/rover/camera_health.h"
-
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "arfm_vo/base/format.h"
+#include "arfm_vo/ros/rover/stereo_camera_node.h"
 
 namespace arfm_vo {
 namespace {
-
-using diagnostic_msgs::DiagnosticStatus;
-using Diagnostics = diagnostic_updater::DiagnosticStatusWrapper;
 
 /// A stereo camera's baseline is shorter, m.
 constexpr double kMaxBaseline_m = 10;
 
 bool IsCalibrated(const sensor_msgs::CameraInfo& info) { return info.K[0] > 0; }
-
-bool HasSize(const sensor_msgs::CameraInfo& info, int width, int height) {
-  return static_cast<int>(info.width) == width && static_cast<int>(info.height) == height;
-}
 
 double UnpairedShare(const StereoCameraStatus& status, const StereoCameraStatus& before) {
   const int num_pairs = status.num_pairs - before.num_pairs;
@@ -31,16 +24,15 @@ std::string WhyNoPairs(const StereoCameraStatus& status, const StereoCameraStatu
                        const StereoCameraOptions& camera) {
   const bool has_left = status.num_unpaired_left > before.num_unpaired_left;
   const bool has_right = status.num_unpaired_right > before.num_unpaired_right;
-  char text[200] = "";
   if (status.num_ambiguous > before.num_ambiguous)
-    std::snprintf(text, sizeof(text),
-                  "frames of one eye come within %.1f ms, as two for one partner (max_skew_s is "
-                  "%.1f ms): its rate is higher than asked, or its stamps are wrong",
-                  2e3 * camera.max_skew_s, 1e3 * camera.max_skew_s);
-  else if (has_left && has_right)
-    std::snprintf(text, sizeof(text), "the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
+    return Format(
+        "frames of one eye come within %.1f ms, as two for one partner (max_skew_s is %.1f ms): "
+        "its rate is higher than asked, or its stamps are wrong",
+        2e3 * camera.max_skew_s, 1e3 * camera.max_skew_s);
+  if (has_left && has_right)
+    return Format("the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
                   1e3 * status.rejected_skew_s, 1e3 * camera.max_skew_s);
-  return text;
+  return "";
 }
 
 void Summarize(const StereoCameraStatus& status, const StereoCameraStatus& before,
@@ -50,25 +42,25 @@ void Summarize(const StereoCameraStatus& status, const StereoCameraStatus& befor
   const bool has_pairs = status.num_pairs > before.num_pairs;
   const std::string why_none = has_pairs ? "" : WhyNoPairs(status, before, camera);
   if (!status.is_open)
-    diagnostics.summary(DiagnosticStatus::ERROR, status.problem);
+    diagnostics.summary(Diagnostics::ERROR, status.problem);
   else if (!why_none.empty())
-    diagnostics.summary(DiagnosticStatus::ERROR, "no pairs: " + why_none);
+    diagnostics.summary(Diagnostics::ERROR, "no pairs: " + why_none);
   else if (!status.problem.empty())
-    diagnostics.summary(DiagnosticStatus::ERROR, status.problem);
+    diagnostics.summary(Diagnostics::ERROR, status.problem);
+  else if (!has_pairs && share > 0)
+    diagnostics.summary(Diagnostics::ERROR, "no pairs: frames come from one eye alone");
   else if (!has_pairs)
-    diagnostics.summary(
-        share > 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-        share > 0 ? "no pairs: frames come from one eye alone" : "no pairs since the last report");
+    diagnostics.summary(Diagnostics::WARN, "no pairs since the last report");
   else if (share > options.max_unpaired_share)
-    diagnostics.summaryf(DiagnosticStatus::WARN, "%.0f %% of an eye's frames have no partner",
+    diagnostics.summaryf(Diagnostics::WARN, "%.0f %% of an eye's frames have no partner",
                          100 * share);
   else if (status.rate_hz < options.min_rate_share * camera.video.rate_hz)
-    diagnostics.summaryf(DiagnosticStatus::WARN, "%.1f pairs a second, asked are %.1f",
-                         status.rate_hz, camera.video.rate_hz);
+    diagnostics.summaryf(Diagnostics::WARN, "%.1f pairs a second, asked are %.1f", status.rate_hz,
+                         camera.video.rate_hz);
   else if (!status.warning.empty())
-    diagnostics.summary(DiagnosticStatus::WARN, status.warning);
+    diagnostics.summary(Diagnostics::WARN, status.warning);
   else
-    diagnostics.summary(DiagnosticStatus::OK, "pairs come");
+    diagnostics.summary(Diagnostics::OK, "pairs come");
 }
 
 }  // namespace
@@ -99,23 +91,23 @@ void ReportCalibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::C
   if (!IsCalibrated(left) || !IsCalibrated(right)) {
     const bool is_one = IsCalibrated(left) || IsCalibrated(right);
     return diagnostics.summary(
-        DiagnosticStatus::WARN,
+        Diagnostics::WARN,
         is_one ? std::string(IsCalibrated(left) ? "right" : "left") + " eye is not calibrated"
                : "not calibrated (calibrate_stereo, set_camera_info or left_camera_info_url)");
   }
   for (const auto& [eye, info] : {std::pair("left", &left), {"right", &right}})
     if (!HasSize(*info, width, height))
-      return diagnostics.summaryf(DiagnosticStatus::ERROR,
+      return diagnostics.summaryf(Diagnostics::ERROR,
                                   "%s calibration is for %ux%u, pictures are %dx%d: not used", eye,
                                   info->width, info->height, width, height);
   const double baseline_m = -right.P[3] / right.P[0];
   diagnostics.addf("baseline (m)", "%.4f", baseline_m);
   if (!(baseline_m > 0 && baseline_m < kMaxBaseline_m))
-    return diagnostics.summaryf(DiagnosticStatus::ERROR,
+    return diagnostics.summaryf(Diagnostics::ERROR,
                                 "baseline is %.4g m: P[3] of the right eye must be -fx * baseline "
                                 "in m; are the eyes swapped?",
                                 baseline_m);
-  diagnostics.summary(DiagnosticStatus::OK, "calibrated");
+  diagnostics.summary(Diagnostics::OK, "calibrated");
 }
 
 }  // namespace arfm_vo

@@ -1,11 +1,10 @@
-#include "arfm_vo/ros/rover/chassis_messages.h"
-
+#include <iterator>
 #include <limits>
+
+#include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(DriveStatus::BLOCKED == static_cast<int>(DriveState::kBlocked));
 static_assert(DriveStatus::WARNING == static_cast<int>(DriveState::kWarning));
@@ -15,26 +14,15 @@ static_assert(ChassisState::MODE_REMOTE == static_cast<int>(ControlMode::kRemote
 static_assert(ChassisState::VEHICLE_FAULT == static_cast<int>(VehicleState::kFault));
 
 const char* ToString(ControlMode mode) {
-  switch (mode) {
-    case ControlMode::kStandby:
-      return "standby";
-    case ControlMode::kCan:
-      return "CAN";
-    case ControlMode::kUart:
-      return "UART";
-    case ControlMode::kRemote:
-      return "remote control";
-    case ControlMode::kUnknown:
-      break;
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"standby", "CAN", "UART", "remote control"};
+  const auto number = static_cast<size_t>(mode);
+  return number < std::size(kNames) ? kNames[number] : "unknown";
 }
 
 int LevelOf(const PilotStatus& status) {
-  using Level = diagnostic_msgs::DiagnosticStatus;
-  if (status.state == DriveState::kBlocked) return Level::ERROR;
+  if (status.state == DriveState::kBlocked) return Diagnostics::ERROR;
   const bool is_well = status.state == DriveState::kDriving || status.state == DriveState::kReady;
-  return is_well ? Level::OK : Level::WARN;
+  return is_well ? Diagnostics::OK : Diagnostics::WARN;
 }
 
 }  // namespace
@@ -127,7 +115,7 @@ ChassisState ToChassisMessage(const ChassisLink& link) {
 sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings) {
   sensor_msgs::BatteryState message;
   message.voltage = message.current = message.percentage = message.charge = message.capacity =
-      message.design_capacity = static_cast<float>(kNaN);
+      message.design_capacity = std::numeric_limits<float>::quiet_NaN();
   message.present = true;
   if (readings.system) message.voltage = static_cast<float>(readings.system->battery_v);
   if (!readings.battery) return message;
@@ -157,29 +145,25 @@ nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMot
   return message;
 }
 
-void FillDiagnostics(const PilotStatus& status, const ChassisLink& link,
-                     diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
-  const ChassisTraffic& traffic = link.Traffic();
-  const bool says_reason = status.reason != StopReason::kNone;
-  diagnostics.summary(LevelOf(status), std::string(ToString(status.state)) +
-                                           (says_reason ? ": " : "") +
-                                           (says_reason ? ToString(status.reason) : "") +
-                                           (status.detail.empty() ? "" : " " + status.detail));
-  if (status.is_tilt_near_limit)
-    diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "rover is tilted");
+void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnostics& diagnostics) {
+  std::string summary = ToString(status.state);
+  if (status.reason != StopReason::kNone) summary += std::string(": ") + ToString(status.reason);
+  if (!status.detail.empty()) summary += " " + status.detail;
+  diagnostics.summary(LevelOf(status), summary);
+  if (status.is_tilt_near_limit) diagnostics.mergeSummary(Diagnostics::WARN, "rover is tilted");
   diagnostics.add("bus", ToString(link.BusState()));
   if (link.BusState() != CanBusState::kUp)
-    diagnostics.mergeSummaryf(diagnostic_msgs::DiagnosticStatus::ERROR, "CAN bus is %s",
-                              ToString(link.BusState()));
+    diagnostics.mergeSummaryf(Diagnostics::ERROR, "CAN bus is %s", ToString(link.BusState()));
   if (const auto& system = link.Readings().system) {
     diagnostics.add("mode", ToString(system->mode));
     diagnostics.add("battery_v", system->battery_v);
     diagnostics.addf("error_bits", "0x%04X", system->error_bits);
     if (system->error_bits & kUnderVoltageWarning)
-      diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "battery is low");
+      diagnostics.mergeSummary(Diagnostics::WARN, "battery is low");
     if (system->error_bits & kRemoteLost)
-      diagnostics.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "remote control is lost");
+      diagnostics.mergeSummary(Diagnostics::WARN, "remote control is lost");
   }
+  const ChassisTraffic& traffic = link.Traffic();
   diagnostics.add("frames sent", traffic.num_sent);
   diagnostics.add("frames received", traffic.num_received);
   diagnostics.add("frames dropped, queue full", traffic.num_send_busy);

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "arfm_vo/ros/node/parameters.h"
-#include "arfm_vo/ros/node/wait_for_clock.h"
-#include "arfm_vo/ros/rover/chassis_messages.h"
+#include "arfm_vo/ros/node/services.h"
 
 namespace arfm_vo {
 namespace {
@@ -35,8 +34,8 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadOptions(private_node)),
       lock_(std::in_place, options_.can),
       transforms_(node, buffer_),
-      sight_(buffer_, options_.map_frame, options_.odom_frame, options_.base_frame),
-      goal_reader_(buffer_, options_.map_frame, options_.max_goal_age_s),
+      sight_{buffer_, options_.map_frame, options_.odom_frame, options_.base_frame},
+      goal_reader_{buffer_, options_.map_frame, options_.max_goal_age_s},
       driver_(options_.pilot, OpenCanBus(options_.can, ChassisLink::Filters())),
       publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
                  options_.base_frame),
@@ -131,23 +130,24 @@ void ChassisNode::Look(double now_s) {
   driver_.pilot().ObservePose(now_s, {seen_s_, sighting->odom_from_base, sighting->map_from_odom});
 }
 
-void ChassisNode::Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const {
+void ChassisNode::Report(Diagnostics& diagnostics) const {
   FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
   diagnostics.add("tf refused, from the future", transforms_.num_from_future());
   diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }
 
-template <class Message>
-void ChassisNode::TakeRoute(const Message& message) {
+void ChassisNode::TakeGoal(const geometry_msgs::PoseStamped& goal) {
+  TakeRoute(goal.header, [&] { return Route{goal_reader_.Read(goal)}; });
+}
+
+void ChassisNode::TakePath(const nav_msgs::Path& path) {
+  TakeRoute(path.header, [&] { return goal_reader_.Read(path); });
+}
+
+void ChassisNode::TakeRoute(const std_msgs::Header& header, const std::function<Route()>& read) {
   try {
-    goal_reader_.RequireFresh(message.header, ros::Time::now());
-    Route route;
-    if constexpr (std::is_same_v<Message, nav_msgs::Path>) {
-      route = goal_reader_.Read(message);
-    } else {
-      route = {goal_reader_.Read(message)};
-    }
-    const Reply reply = driver_.pilot().SetRoute(std::move(route));
+    goal_reader_.RequireFresh(header, ros::Time::now());
+    const Reply reply = driver_.pilot().SetRoute(read());
     Require(reply.is_accepted, reply.text);
     Tick();
   } catch (const std::invalid_argument& error) {

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "arfm_vo/ros/rover/chassis_messages.h"
-
 namespace arfm_vo {
 namespace {
 

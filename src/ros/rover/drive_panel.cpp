@@ -2,8 +2,7 @@
 
 #include <std_srvs/Trigger.h>
 
-#include <cstdio>
-
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/ros/node/parameters.h"
 
 namespace arfm_vo {
@@ -35,13 +34,18 @@ Marker MakeText(const std::string& text, double y_m, double z_m) {
   return marker;
 }
 
+InteractiveMarkerControl MakeControl(const std::string& name) {
+  InteractiveMarkerControl control;
+  control.name = name;
+  control.always_visible = true;
+  control.orientation.w = 1;
+  return control;
+}
+
 InteractiveMarkerControl MakeButton(const std::string& name, double y_m, double z_m, float red,
                                     float green) {
-  InteractiveMarkerControl button;
-  button.name = name;
+  InteractiveMarkerControl button = MakeControl(name);
   button.interaction_mode = InteractiveMarkerControl::BUTTON;
-  button.always_visible = true;
-  button.orientation.w = 1;
   button.markers = {MakeMarker(Marker::CUBE, y_m, z_m, kButton_m),
                     MakeText(name, y_m, z_m + kButton_m)};
   button.markers[0].color.r = red;
@@ -56,10 +60,7 @@ std::string Describe(const DriveStatus& status) {
   std::string text = status.state_text;
   if (status.reason != "none") text += ": " + status.reason;
   if (!status.has_goal) return text;
-  char way[48];
-  std::snprintf(way, sizeof(way), "\n%s, %.1f m to go", status.phase.c_str(),
-                status.distance_to_goal_m);
-  return text + way;
+  return text + Format("\n%s, %.1f m to go", status.phase.c_str(), status.distance_to_goal_m);
 }
 
 DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
@@ -69,8 +70,11 @@ DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
       server_(kName) {
   status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
   Show(state_);
-  timer_ = node.createWallTimer(ros::WallDuration(0.5),
-                                [this](const ros::WallTimerEvent&) { NoticeSilence(); });
+  timer_ = node.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
+    if (heard_.isZero() || ros::WallTime::now() - heard_ < kMaxSilence) return;
+    heard_ = {};
+    Show("chassis_node is silent");
+  });
 }
 
 void DrivePanel::TakeStatus(const DriveStatus& status) {
@@ -96,10 +100,7 @@ visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
   panel.scale = 1;
   panel.pose.orientation.w = 1;
   const double z_m = options_.height_m;
-  InteractiveMarkerControl words;
-  words.name = "words";
-  words.always_visible = true;
-  words.orientation.w = 1;
+  InteractiveMarkerControl words = MakeControl("words");
   words.markers = {MakeText(state_ + "\n" + answer_, 0, z_m + 2 * kRow_m)};
   panel.controls = {MakeButton("start", kRow_m, z_m, 0.1f, 0.7f),
                     MakeButton("stop", -kRow_m, z_m, 0.9f, 0.1f), words};
@@ -113,12 +114,6 @@ void DrivePanel::Show(const std::string& state) {
   };
   server_.insert(MakePanel(), take, InteractiveMarkerFeedback::BUTTON_CLICK);
   server_.applyChanges();
-}
-
-void DrivePanel::NoticeSilence() {
-  if (heard_.isZero() || ros::WallTime::now() - heard_ < kMaxSilence) return;
-  heard_ = {};
-  Show("chassis_node is silent");
 }
 
 }  // namespace arfm_vo

@@ -10,21 +10,9 @@
 #include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/hardware/serial_port.h"
 #include "arfm_vo/ros/node/parameters.h"
-#include "arfm_vo/ros/node/trigger_service.h"
-#include "arfm_vo/ros/node/wait_for_clock.h"
+#include "arfm_vo/ros/node/services.h"
 
 namespace arfm_vo {
-
-using diagnostic_msgs::DiagnosticStatus;
-
-void PanTiltNodeOptions::Check() const {
-  Require(!port.empty(), "port must name a device file");
-  Require(baud > 0, "baud must be positive");
-  Require(max_rate_hz > 0 && max_rate_hz <= 1000, "max_rate_hz must be in (0, 1000]");
-  Require(!pan_joint.empty() && !tilt_joint.empty() && pan_joint != tilt_joint,
-          "pan_joint and tilt_joint must be two names");
-  unit.Check();
-}
 
 PanTiltGoal ReadGoal(const sensor_msgs::JointState& command, const PanTiltNodeOptions& options) {
   Require(!command.name.empty(), "cmd: names no joint");
@@ -85,7 +73,9 @@ PanTiltNode::PanTiltNode(ros::NodeHandle node, ros::NodeHandle private_node)
 void PanTiltNode::Tick() {
   const PanTiltReadings readings = head_.Step();
   PublishReadings(readings);
-  PublishSettled();
+  std_msgs::Bool settled;
+  settled.data = head_.IsSettled() && !head_.HasLostPosition();
+  settled_.publish(settled);
   if (head_.problem() != said_) {
     if (head_.problem().empty())
       ROS_INFO("the pan-tilt unit on %s answers", options_.port.c_str());
@@ -111,12 +101,6 @@ void PanTiltNode::PublishReadings(const PanTiltReadings& readings) {
   last_tilt_ = head_.HasLostPosition() ? std::nullopt : readings.tilt;
 }
 
-void PanTiltNode::PublishSettled() {
-  std_msgs::Bool message;
-  message.data = head_.IsSettled() && !head_.HasLostPosition();
-  settled_.publish(message);
-}
-
 void PanTiltNode::TakeCommand(const sensor_msgs::JointState& command) {
   try {
     if (const auto refusal = head_.MoveTo(ReadGoal(command, options_))) Refuse(*refusal);
@@ -134,7 +118,7 @@ void PanTiltNode::Refuse(const std::string& why) {
 }
 
 void PanTiltNode::ReportAxis(PtuAxis axis, const std::string& joint,
-                             diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const {
+                             Diagnostics& diagnostics) const {
   const auto properties = head_.properties(axis);
   if (!properties) return;
   constexpr double kDeg = 180 / M_PI;
@@ -145,18 +129,18 @@ void PanTiltNode::ReportAxis(PtuAxis axis, const std::string& joint,
                    kDeg * properties->resolution_rad * properties->speed);
 }
 
-void PanTiltNode::Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
+void PanTiltNode::Report(Diagnostics& diagnostics) {
   if (head_.state() == PanTiltState::kClosed)
-    diagnostics.summary(DiagnosticStatus::ERROR, head_.problem());
+    diagnostics.summary(Diagnostics::ERROR, head_.problem());
   else if (head_.HasLostPosition())
-    diagnostics.summary(DiagnosticStatus::ERROR,
+    diagnostics.summary(Diagnostics::ERROR,
                         "an axis hit a limit and lost its place: call the service home");
   else if (head_.state() == PanTiltState::kHoming)
-    diagnostics.summary(DiagnosticStatus::WARN, "homing");
+    diagnostics.summary(Diagnostics::WARN, "homing");
   else if (!head_.problem().empty())
-    diagnostics.summary(DiagnosticStatus::WARN, head_.problem());
+    diagnostics.summary(Diagnostics::WARN, head_.problem());
   else
-    diagnostics.summary(DiagnosticStatus::OK, head_.IsSettled() ? "settled" : "moving");
+    diagnostics.summary(Diagnostics::OK, head_.IsSettled() ? "settled" : "moving");
   diagnostics.add("state", ToString(head_.state()));
   diagnostics.add("readings", num_readings_);
   diagnostics.add("goals refused", num_refused_);

@@ -2,16 +2,15 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "arfm_vo/rehearsal/drive_picture.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/messages/pose_message.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/parameters.h"
-#include "arfm_vo/ros/rover/terrain_marker.h"
 
 namespace arfm_vo {
 namespace {
@@ -60,17 +59,22 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       clock_(node.advertise<rosgraph_msgs::Clock>("/clock", 10)),
       truth_(node.advertise<nav_msgs::Odometry>("base_truth", 10)),
       ground_(node.advertise<visualization_msgs::Marker>(
-          "terrain", 1, [this](const auto& subscriber) { ShowTerrain(subscriber); })),
-      status_subscriber_(node.subscribe("status", 10, &SimulatorNode::TakeStatus, this)),
+          "terrain", 1,
+          [this](const ros::SingleSubscriberPublisher& subscriber) {
+            subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
+          })),
+      status_subscriber_(node.subscribe<OdometryStatus>(
+          "status", 10,
+          [this](const OdometryStatusConstPtr& status) {
+            odometry_done_ = std::max(odometry_done_, status->header.stamp);
+          })),
       odometry_subscriber_(node.subscribe("odom", 10, &SimulatorNode::TakeOdometry, this)),
       report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)) {}
 
-void SimulatorNode::ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const {
-  subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
-}
-
 void SimulatorNode::Run() {
-  if (!head_) PublishFixedMount();
+  if (!head_)
+    broadcaster_.sendTransform(
+        MakeTransform(Stamp(), options_.base_frame, options_.camera_frame, BaseFromCamera()));
   WaitForSubscribers();
   while (ros::ok()) {
     // A reading of the head takes some ms of wall time on its line, in which it must not go far.
@@ -120,7 +124,7 @@ bool SimulatorNode::HasHeadMoved() {
   return std::exchange(head_angles_, angles) != angles;
 }
 
-Rigid3 SimulatorNode::BaseFromCamera() {
+Rigid3 SimulatorNode::BaseFromCamera() const {
   if (!head_) return BaseFromLeftEye(options_.shape);
   // The unit tilts upward, BaseFromLeftEye downward.
   return BaseFromLeftEye(options_.shape, head_->Angle(PtuAxis::kPan),
@@ -130,43 +134,30 @@ Rigid3 SimulatorNode::BaseFromCamera() {
 void SimulatorNode::TakePair() {
   const Rigid3 world_from_base = chassis_.plant().WorldFromBase();
   const Rigid3 world_from_camera = world_from_base * BaseFromCamera();
+  const Rigid3 map_from_base = map_from_world_ * world_from_base;
   pair_stamp_ = Stamp();
   SequencePair pair;
   pair.images = renderer_.RenderPair(camera_, world_from_camera, num_pairs_++,
                                      Stamp().toSec() - kStampOffset_s);
   pair.true_world_from_camera = world_from_camera;
-  StereoMessages messages = ToMessages(pair, camera_, options_.camera_frame);
-  stereo_.Publish(messages);
+  stereo_.Publish(ToMessages(pair, camera_, options_.camera_frame));
   TrackPoint point;
   point.time_s = pair_stamp_.toSec();
-  point.truth = ProjectToPlane(map_from_world_ * world_from_base);
+  point.truth = ProjectToPlane(map_from_base);
   point.slope_deg = SlopeOf(world_from_base);
   drive_.track.push_back(point);
-  PublishTruth(map_from_world_ * world_from_base);
-}
-
-void SimulatorNode::PublishClock() const {
-  rosgraph_msgs::Clock clock;
-  clock.clock = Stamp();
-  clock_.publish(clock);
-}
-
-void SimulatorNode::PublishTruth(const Rigid3& map_from_base) const {
   nav_msgs::Odometry truth;
-  truth.header.stamp = Stamp();
+  truth.header.stamp = pair_stamp_;
   truth.header.frame_id = options_.map_frame;
   truth.child_frame_id = options_.base_frame;
   truth.pose.pose = ToPoseMessage(map_from_base);
   truth_.publish(truth);
 }
 
-void SimulatorNode::PublishFixedMount() {
-  geometry_msgs::TransformStamped mount;
-  mount.header.stamp = Stamp();
-  mount.header.frame_id = options_.base_frame;
-  mount.child_frame_id = options_.camera_frame;
-  mount.transform = ToTransformMessage(BaseFromCamera());
-  broadcaster_.sendTransform(mount);
+void SimulatorNode::PublishClock() const {
+  rosgraph_msgs::Clock clock;
+  clock.clock = Stamp();
+  clock_.publish(clock);
 }
 
 void SimulatorNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
@@ -191,19 +182,14 @@ void SimulatorNode::TakeReport(const GoalReport& report) {
   drive_.duration_s = end.time_s - drive_.track.front().time_s;
   for (const TrackPoint& point : drive_.track)
     drive_.steepest_deg = std::max(drive_.steepest_deg, point.slope_deg);
-  SavePicture();
+  try {
+    SaveDrive(options_.picture, terrain_, RoverPose{}, drive_);
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR("%s", error.what());
+  }
   drive_.track.assign(1, TrackPoint(end));
   drive_.steepest_deg = 0;
   driven_before_m_ = chassis_.plant().DrivenDistance();
-}
-
-void SimulatorNode::SavePicture() const {
-  const std::string temporary = options_.picture + ".new.png";
-  if (cv::imwrite(temporary, DrawDrive(terrain_, RoverPose{}, drive_))) {
-    std::filesystem::rename(temporary, options_.picture);
-  } else {
-    ROS_ERROR("%s cannot be written", temporary.c_str());
-  }
 }
 
 }  // namespace arfm_vo

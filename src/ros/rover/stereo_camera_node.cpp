@@ -1,7 +1,5 @@
 #include "arfm_vo/ros/rover/stereo_camera_node.h"
 
-#include <sensor_msgs/image_encodings.h>
-
 #include <utility>
 
 #include "arfm_vo/base/check.h"
@@ -11,21 +9,8 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kCameraQueueSize = 2;
 constexpr double kStep_s = 0.1;
 constexpr double kReport_s = 1;
-
-sensor_msgs::ImagePtr ToMessage(const cv::Mat& grey, const std_msgs::Header& header) {
-  auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header = header;
-  message->width = static_cast<uint32_t>(grey.cols);
-  message->height = static_cast<uint32_t>(grey.rows);
-  message->encoding = sensor_msgs::image_encodings::MONO8;
-  message->step = message->width;
-  message->data.resize(grey.total());
-  grey.copyTo(cv::Mat(grey.rows, grey.cols, CV_8UC1, message->data.data()));
-  return message;
-}
 
 }  // namespace
 
@@ -40,32 +25,6 @@ void StereoCameraNodeOptions::Check() const {
           "left_camera_info_url and right_camera_info_url must differ");
 }
 
-StereoCameraNode::Eye::Eye(const ros::NodeHandle& node, const std::string& name,
-                           const std::string& url, const DriveListener& drive)
-    : node_(node, name),
-      calibration_(node_, name, url,
-                   [&drive] { return drive.IsDriving() ? "the rover drives: stop it first" : ""; }),
-      transport_(node_),
-      publisher_(transport_.advertiseCamera("image_raw", kCameraQueueSize)) {}
-
-sensor_msgs::CameraInfo StereoCameraNode::Eye::Fitting(int width, int height) {
-  sensor_msgs::CameraInfo info = calibration_.Get();
-  const bool has_size =
-      static_cast<int>(info.width) == width && static_cast<int>(info.height) == height;
-  if (!has_size) info = sensor_msgs::CameraInfo();
-  info.width = static_cast<uint32_t>(width);
-  info.height = static_cast<uint32_t>(height);
-  return info;
-}
-
-void StereoCameraNode::Eye::Publish(const VideoFrame& frame, const std_msgs::Header& header) {
-  if (publisher_.getNumSubscribers() == 0) return;
-  auto info =
-      boost::make_shared<sensor_msgs::CameraInfo>(Fitting(frame.grey.cols, frame.grey.rows));
-  info->header = header;
-  publisher_.publish(ToMessage(frame.grey, header), info);
-}
-
 StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private_node,
                                    VideoEnvironment environment)
     : options_(ReadParameters<StereoCameraNodeOptions>(private_node)),
@@ -77,7 +36,10 @@ StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID(options_.camera.left_device + " " + options_.camera.right_device);
   updater_.add("camera", this, &StereoCameraNode::Report);
-  updater_.add("calibration", this, &StereoCameraNode::ReportCalibration);
+  updater_.add("calibration", [this](Diagnostics& diagnostics) {
+    const VideoOptions& video = options_.camera.video;
+    ReportCalibration(left_.Loaded(), right_.Loaded(), video.width, video.height, diagnostics);
+  });
   timer_ =
       node.createSteadyTimer(ros::WallDuration(kReport_s),
                              [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
@@ -99,8 +61,7 @@ void StereoCameraNode::Run() {
       ROS_ERROR("%s", status.problem.c_str());
     if (status.problem.empty() && !said_.empty()) ROS_INFO("pairs come");
     said_ = status.problem;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    status_ = status;
+    status_.Set(status);
     num_clock_jumps_ = clock_.num_jumps();
   }
 }
@@ -115,26 +76,15 @@ void StereoCameraNode::Publish(const FramePair& pair) {
   if (header.stamp <= last_stamp_ && !was_set) return;
   published_jumps_ = clock_.num_jumps();
   last_stamp_ = header.stamp;
-  left_.Publish(pair.left, header);
-  right_.Publish(pair.right, header);
+  left_.Publish(pair.left.grey, header);
+  right_.Publish(pair.right.grey, header);
 }
 
-void StereoCameraNode::Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
-  StereoCameraStatus status;
-  int num_jumps;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    status = status_;
-    num_jumps = num_clock_jumps_;
-  }
+void StereoCameraNode::Report(Diagnostics& diagnostics) {
+  const StereoCameraStatus status = status_.Get();
   ReportCamera(status, reported_, options_.camera, options_.health, diagnostics);
-  diagnostics.add("times the wall clock was set", num_jumps);
+  diagnostics.add("times the wall clock was set", num_clock_jumps_.load());
   reported_ = status;
-}
-
-void StereoCameraNode::ReportCalibration(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) {
-  arfm_vo::ReportCalibration(left_.Loaded(), right_.Loaded(), options_.camera.video.width,
-                             options_.camera.video.height, diagnostics);
 }
 
 }  // namespace arfm_vo

@@ -1,9 +1,8 @@
-#include "arfm_vo/ros/rover/terrain_marker.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/rover/simulator_node.h"
 
 namespace arfm_vo {
 namespace {

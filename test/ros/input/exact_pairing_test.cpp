@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/input/exact_pairing.h"
+#include "arfm_vo/datasets/exact_pairing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,6 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "arfm_vo/ros/messages/pose_message.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {

@@ -1,11 +1,10 @@
-#include "arfm_vo/ros/messages/image_conversion.h"
-
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
 #include <opencv2/core.hpp>
 
+#include "arfm_vo/ros/messages/stereo_messages.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {

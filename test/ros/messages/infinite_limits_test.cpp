@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "arfm_vo/configuration/option_traits.h"
-#include "arfm_vo/ros/rover/chassis_node_options.h"
+#include "arfm_vo/ros/rover/chassis_node.h"
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
 #include "arfm_vo/ros/rover/simulator_node.h"
 #include "ros/expect_throw.h"

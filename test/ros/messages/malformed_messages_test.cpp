@@ -9,16 +9,12 @@
 #include <memory>
 
 #include "arfm_vo/driving/pilot.h"
+#include "arfm_vo/driving/scale_check.h"
 #include "arfm_vo/odometry/session.h"
-#include "arfm_vo/ros/messages/add_transform.h"
-#include "arfm_vo/ros/messages/image_conversion.h"
-#include "arfm_vo/ros/messages/stereo_camera_model.h"
-#include "arfm_vo/ros/odometry/map_shift.h"
-#include "arfm_vo/ros/odometry/scale_check.h"
-#include "arfm_vo/ros/replay/truth_path.h"
-#include "arfm_vo/ros/rover/goal_reader.h"
+#include "arfm_vo/ros/messages/stereo_messages.h"
+#include "arfm_vo/ros/messages/transforms.h"
+#include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
-#include "arfm_vo/ros/rover/rover_sight.h"
 #include "ros/random_message.h"
 #include "ros/valid_messages.h"
 
@@ -106,8 +102,8 @@ TEST_F(MalformedMessages, OdometryStatus) {
 }
 
 TEST_F(MalformedMessages, Transforms) {
-  const RoverSight sight(buffer_, "map", "odom", "base_link");
-  TruthAlignment alignment(buffer_, "odom", "base_link", "camera");
+  const RoverSight sight{buffer_, "map", "odom", "base_link"};
+  TruthAlignment alignment{buffer_, "odom", "base_link", "camera"};
   console_bridge::noOutputHandler();  // tf2 tells of each
   Feed(ValidTransforms(ros::Time()), [&](const auto& message) {
     for (const auto& transform : message.transforms) {

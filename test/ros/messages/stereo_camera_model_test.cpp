@@ -1,7 +1,6 @@
-#include "arfm_vo/ros/messages/stereo_camera_model.h"
-
 #include <gtest/gtest.h>
 
+#include "arfm_vo/ros/messages/stereo_messages.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "arfm_vo/ros/odometry/arfm_node_options.h"
-#include "arfm_vo/ros/odometry/ba_node_options.h"
-#include "arfm_vo/ros/odometry/pose_node_options.h"
+#include "arfm_vo/ros/odometry/arfm_node.h"
+#include "arfm_vo/ros/odometry/ba_node.h"
+#include "arfm_vo/ros/odometry/pose_node.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {

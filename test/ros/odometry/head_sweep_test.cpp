@@ -7,7 +7,7 @@
 
 #include "arfm_vo/odometry/stereo_frontend.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/odometry/mounted_session.h"
+#include "arfm_vo/ros/odometry/camera_mount.h"
 #include "arfm_vo/simulation/scene.h"
 
 namespace arfm_vo {
@@ -41,6 +41,7 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   const CameraMount mount(buffer, mount_options);
   StereoFrontend frontend(scene.camera(), {});
   Session session({});
+  MountLog log;
   Drift drift;
   std::optional<Rigid3> first_from_odom;
   for (int i = 0; i < scene.num_pairs(); i += kStride) {
@@ -50,7 +51,7 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
     header.stamp.fromSec(images.stamp_s);
     header.frame_id = "left_camera_optical";
     const SessionUpdate pose =
-        ProcessMounted(session, mount, frontend.Process(images), scene.camera(), images, header);
+        mount.Process(frontend.Process(images), scene.camera(), images, header, session, log);
     drift.num_slewing += !pose.IsTried();
     if (!pose.IsTracked()) continue;
     ++drift.num_tracked;

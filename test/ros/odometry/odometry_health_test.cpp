@@ -12,6 +12,7 @@ namespace arfm_vo {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using testing::HasSubstr;
 using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
 
 StereoFrame FrameWithRows(double row_residual_px) {
@@ -36,7 +37,7 @@ const SessionUpdate kTracked = PoseWithStatus(PoseStatus::kTracked, "tracked");
 
 int LevelOfRows(double row_residual_px) {
   OdometryHealth health{OdometryHealthOptions()};
-  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(row_residual_px), kTracked, 1);
+  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(row_residual_px), kTracked, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
   return status.level;
@@ -44,8 +45,8 @@ int LevelOfRows(double row_residual_px) {
 
 TEST(OdometryHealth, PairsAreCounted) {
   OdometryHealth health{OdometryHealthOptions()};
-  health.Count(FrameWithRows(0), kTracked, 1);
-  health.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1);
+  health.Count(FrameWithRows(0), kTracked, 1, 0);
+  health.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1, 0);
   health.CountRefused("a pair without a picture");
   health.CountRefused("a pair without a picture");
   health.CountRefused("a pair without a picture");
@@ -72,7 +73,7 @@ TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
   OdometryHealth health{OdometryHealthOptions()};
   SessionUpdate pose = kTracked;
   pose.update.skew = EyeSkew{-0.0101, 0.0002};
-  health.Count(FrameWithRows(0.3), pose, 1);
+  health.Count(FrameWithRows(0.3), pose, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
@@ -81,7 +82,7 @@ TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
 
 TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
   OdometryHealth health{OdometryHealthOptions()};
-  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1);
+  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
@@ -95,14 +96,14 @@ TEST(OdometryHealth, LostIsAnError) {
     return status;
   };
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // no pairs yet
-  health.Count({}, kTracked, 1);
+  health.Count({}, kTracked, 1, 0);
   EXPECT_EQ(report().level, DiagnosticStatus::OK);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // none since
-  health.Count({}, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), 1);
+  health.Count({}, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), 1, 0);
   const Wrapper lost = report();
   EXPECT_EQ(lost.level, DiagnosticStatus::ERROR);
   EXPECT_THAT(lost.message, testing::HasSubstr("too few matches"));
-  health.Count({}, PoseWithStatus(PoseStatus::kHeadSlewing, "head slewing"), 1);
+  health.Count({}, PoseWithStatus(PoseStatus::kHeadSlewing, "head slewing"), 1, 0);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);
   health.CountRefused("left/image_rect: the image is empty");
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
@@ -116,7 +117,7 @@ Wrapper ReportScale(double ratio) {
     SessionUpdate pose = kTracked;
     pose.update.stamp_s = 0.1 * i - 0.05;
     pose.odom_from_base.translation = {ratio * 0.1 * i, 0, 0};
-    health.Count({}, pose, 1);
+    health.Count({}, pose, 1, 0);
   }
   Wrapper status;
   health.ReportScale(status);
@@ -134,6 +135,107 @@ TEST(OdometryHealth, OptionsAreChecked) {
   OdometryHealthOptions options;
   options.row_residual_error_px = 0.1;
   EXPECT_INVALID(OdometryHealth{options}, "row_residual_error_px");
+}
+
+/// Gives pairs of one second apart until something is told.
+std::optional<ConsoleLine> Watch(OdometryHealth& health, double start_s, const SessionUpdate& pose,
+                                 const StereoFrame& frame = {}) {
+  for (double s = start_s; s < start_s + 10; ++s)
+    if (const auto line = health.Count(frame, pose, 1, s)) return line;
+  return std::nullopt;
+}
+
+TEST(OdometryHealth, TellsTheFirstPoseOnce) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const auto line = Watch(health, 0, kTracked);
+  ASSERT_TRUE(line);
+  EXPECT_FALSE(line->is_warning);
+  EXPECT_THAT(line->text, HasSubstr("the first pose is there"));
+  EXPECT_FALSE(Watch(health, 1, kTracked));
+}
+
+TEST(OdometryHealth, ATransformThatIsMissingIsNamedWithTheRemedy) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const auto line = Watch(
+      health, 0,
+      PoseWithStatus(PoseStatus::kNoTransform, "no transform: tf base_link <- camera: no tree"));
+  ASSERT_TRUE(line);
+  EXPECT_TRUE(line->is_warning);
+  EXPECT_THAT(line->text, HasSubstr("base_link <- camera"));
+  EXPECT_THAT(line->text, HasSubstr("base_from_camera:="));
+}
+
+TEST(OdometryHealth, ATransformThatComesLateIsTold) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const auto line = Watch(health, 0,
+                          PoseWithStatus(PoseStatus::kNoTransform,
+                                         "Lookup would require extrapolation into the future."));
+  ASSERT_TRUE(line);
+  EXPECT_THAT(line->text, HasSubstr("tf_timeout_s"));
+}
+
+TEST(OdometryHealth, SaysWhyItIsLostAndWhenItIsBack) {
+  OdometryHealth health{OdometryHealthOptions()};
+  health.Count({}, kTracked, 1, 0);
+  const auto lost =
+      Watch(health, 1, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few features"));
+  ASSERT_TRUE(lost);
+  EXPECT_TRUE(lost->is_warning);
+  EXPECT_THAT(lost->text, HasSubstr("too few features"));
+  EXPECT_THAT(lost->text, HasSubstr("without texture"));
+  const auto back = health.Count({}, kTracked, 1, 5);
+  ASSERT_TRUE(back);
+  EXPECT_FALSE(back->is_warning);
+  EXPECT_THAT(back->text, HasSubstr("after 5.0 s"));
+}
+
+/// With 500 features, of which so many are stereo points.
+StereoFrame ToldFrame(int num_points) {
+  StereoFrame frame;
+  frame.features.keypoints.resize(500);
+  frame.features.descriptors.create(500, 64, CV_32F);
+  frame.points.resize(num_points);
+  return frame;
+}
+
+TEST(OdometryHealth, EyesThatDoNotFitAreTold) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const StereoFrame frame = ToldFrame(0);
+  const auto line = Watch(health, 0, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few"), frame);
+  ASSERT_TRUE(line);
+  EXPECT_THAT(line->text, HasSubstr("the eyes not swapped"));
+}
+
+TEST(OdometryHealth, WhereEyesFitAndTheMapIsNotFoundTheMotionMayBeTooFast) {
+  OdometryHealth health{OdometryHealthOptions()};
+  const StereoFrame frame = ToldFrame(300);
+  const auto line =
+      Watch(health, 0, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), frame);
+  ASSERT_TRUE(line);
+  EXPECT_THAT(line->text, HasSubstr("too fast"));
+}
+
+TEST(OdometryHealth, SaysWhyAPoseIsDegraded) {
+  OdometryHealth health{OdometryHealthOptions()};
+  health.Count({}, kTracked, 1, 0);
+  const auto degraded =
+      Watch(health, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
+  ASSERT_TRUE(degraded);
+  EXPECT_TRUE(degraded->is_warning);
+  EXPECT_EQ(degraded->text, "the right camera is dark");
+  EXPECT_THAT(health.Count({}, kTracked, 1, 20)->text, HasSubstr("tracked again"));
+}
+
+TEST(OdometryHealth, CountsAllPairsInTheTotals) {
+  OdometryHealth health{OdometryHealthOptions()};
+  health.Count({}, kTracked, 1, 0);
+  health.Count({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1, 1);
+  health.Count({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 1, 2);
+  health.CountDropped(4);
+  for (int i = 0; i < 5; ++i) health.CountRefused("an image without pixels");
+  EXPECT_EQ(health.Totals(),
+            "3 pairs: 1 with a pose, 1 lost, 0 degraded, 1 without tf or skipped while the head "
+            "turned; 4 dropped, 5 refused");
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "arfm_vo/ros/rover/camera_health.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
-#include "arfm_vo/ros/rover/chassis_messages.h"
-
 #include <gtest/gtest.h>
 
 #include "arfm_vo/hardware/can_memory_bus.h"
+#include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
 namespace {

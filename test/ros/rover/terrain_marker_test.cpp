@@ -1,8 +1,8 @@
-#include "arfm_vo/ros/rover/terrain_marker.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "arfm_vo/ros/rover/simulator_node.h"
 
 namespace arfm_vo {
 namespace {

@@ -9,9 +9,8 @@
 #include <set>
 #include <string>
 
-#include "arfm_vo/ros/input/exact_pairing.h"
 #include "arfm_vo/ros/messages/stereo_messages.h"
-#include "arfm_vo/ros/node/console_watch.h"
+#include "arfm_vo/ros/node/health.h"
 
 namespace arfm_vo {
 
@@ -26,15 +25,6 @@ StereoTopics ResolveStereoTopics(const ros::NodeHandle& node);
 /// Calls `take` once, with the frame of the first left camera_info. `subscriber` must outlive it.
 void AwaitCameraFrame(ros::NodeHandle& node, ros::Subscriber& subscriber,
                       std::function<void(const std::string&)> take);
-
-/// The names of all topics that somebody publishes, by the master; empty where it does not answer.
-std::set<std::string> ListPublishedTopics();
-
-/// A rectified pair as it came.
-struct StereoMessagePair {
-  sensor_msgs::ImageConstPtr left, right;
-  sensor_msgs::CameraInfoConstPtr left_info, right_info;
-};
 
 /// How many messages came, and how many pairs they made.
 struct StereoInputCounts {
@@ -55,7 +45,8 @@ struct StereoInputCounts {
 /// second.
 class StereoInputWatch {
  public:
-  void Tell(const StereoInputCounts& counts, const StereoTopics& topics);
+  /// Returns what keeps pairs from coming since the last call; empty where they do come.
+  std::string Tell(const StereoInputCounts& counts, const StereoTopics& topics);
   /// Nobody listens: what came is forgotten.
   void Reset() { before_ = {}; }
 
@@ -65,26 +56,33 @@ class StereoInputWatch {
   ros::Time time_before_;
 };
 
-/// Subscribes to both eyes' images and camera_info and pairs those of exactly one stamp.
+/// What is done with each message of a rectified camera.
+struct StereoCallbacks {
+  std::function<void(const sensor_msgs::ImageConstPtr&)> left, right;
+  std::function<void(const sensor_msgs::CameraInfoConstPtr&)> left_info, right_info;
+};
+
+/// A rectified pair as it came.
+struct StereoMessagePair {
+  sensor_msgs::ImageConstPtr left, right;
+  sensor_msgs::CameraInfoConstPtr left_info, right_info;
+};
+
+/// Gives `take` the messages of exactly one stamp.
+StereoCallbacks PairExactly(std::function<void(const StereoMessagePair&)> take);
+
+/// Subscribes to both eyes' images and camera_info for as long as it lives, and counts them.
 class StereoInput {
  public:
-  using Callback = std::function<void(const StereoMessagePair&)>;
+  StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,
+              const StereoCallbacks& take);
+  StereoInput(const StereoInput&) = delete;  // its callbacks count here
 
-  StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node, Callback callback);
-
-  /// Of the thread that the callbacks run on.
-  const StereoInputCounts& counts() const { return counts_; }
-  const StereoTopics& topics() const { return topics_; }
+  /// Of the thread that the callbacks run on. The pairs are the callbacks' to count.
+  StereoInputCounts counts;
 
  private:
-  using Image = sensor_msgs::Image;
-  using Info = sensor_msgs::CameraInfo;
-
-  const StereoTopics topics_;
-  StereoInputCounts counts_;
   ros::Time left_stamp_, right_stamp_;
-  image_transport::ImageTransport transport_;
-  ExactPairing<Image, Image, Info, Info> pairing_;
   image_transport::Subscriber left_, right_;
   ros::Subscriber left_info_, right_info_;
 };

@@ -7,6 +7,9 @@
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
 
+#include <boost/array.hpp>
+#include <string>
+
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
@@ -24,6 +27,15 @@ geometry_msgs::Transform ToTransformMessage(const Rigid3& b_from_a);
 geometry_msgs::Pose ToPoseMessage(const Rigid3& b_from_a);
 /// `name` is what the error calls it, such as "KeyframeStamped: base_from_camera".
 Rigid3 FromMessage(const geometry_msgs::Transform& message, const std::string& name);
+Rigid3 FromMessage(const geometry_msgs::Pose& message, const std::string& name);
+/// The pose as the message has it: whether it is finite and its quaternion of unit length is not
+/// checked.
+Rigid3 ToRigid3(const geometry_msgs::Pose& pose);
+/// The pose that somebody states, its quaternion normalised. Throws std::invalid_argument, `prefix`
+/// and the flaw, where it can be no pose of a rover (FindGoalFlaw).
+Rigid3 ReadPose(const geometry_msgs::Pose& pose, const std::string& prefix);
+/// A pose's or twist's covariance row by row.
+boost::array<double, 36> ToCovarianceMessage(const Eigen::Matrix<double, 6, 6>& covariance);
 
 RectifiedStereo ToMessage(const StereoCamera& camera);
 StereoCamera FromMessage(const RectifiedStereo& message);

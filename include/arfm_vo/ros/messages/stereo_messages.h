@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arfm_vo/datasets/stereo_sequence.h"
+#include "arfm_vo/image/grey_window.h"
 
 namespace arfm_vo {
 
@@ -35,5 +36,26 @@ constexpr double kStampOffset_s = 1000;
 
 StereoMessages ToMessages(const SequencePair& pair, const StereoCamera& camera,
                           const std::string& frame_id);
+
+/// An image message as 8 bit grey: mono8 as it is, without a copy; colour and Bayer images
+/// converted; those of 16 bits by `window`, which is the camera's. The result may point into the
+/// message and holds only as long as that does. Throws std::invalid_argument naming `topic` for an
+/// empty image, an encoding that is no picture (depth, optical flow), or data that does not fill
+/// the size.
+cv::Mat ToGrey(const sensor_msgs::ImageConstPtr& message, const std::string& topic,
+               GreyWindow& window);
+
+/// The rectified stereo camera that a pair of camera_info messages describes: intrinsics from P of
+/// the left eye, baseline_m = -P[3] / P[0] of the right eye (REP-104), size of a pixel after
+/// binning and region of interest as P stands. Throws std::invalid_argument saying what is wrong
+/// and what to do about it: an eye that is not calibrated, P matrices that differ (not rectified),
+/// sizes that differ, left and right swapped, no baseline, a baseline in mm.
+StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
+                              const sensor_msgs::CameraInfo& right);
+
+/// Throws std::invalid_argument, with the image's topic, where an image has not the size that its
+/// camera_info tells.
+void CheckSize(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info,
+               const std::string& topic);
 
 }  // namespace arfm_vo

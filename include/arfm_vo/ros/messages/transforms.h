@@ -1,63 +1,54 @@
 #pragma once
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/time.h>
+#include <tf2/buffer_core.h>
 
 #include <optional>
 #include <string>
 
 #include "arfm_vo/geometry/rigid3.h"
 
-namespace tf2 {
-class BufferCore;
-}
-
 namespace arfm_vo {
 
-/// Where a camera on a head that moves sits on the rover, and whether it can be trusted.
-struct CameraMountOptions {
-  std::string base_frame = "base_link";  ///< frame whose pose is told
-  std::string camera_frame;              ///< left optical frame; empty: the frame_id of the images
-  double tf_timeout_s = 0.1;   ///< how long a pair waits for the tf of its stamp (wall time)
-  double max_slew_dps = 0;     ///< pairs taken while the head turns faster are skipped; 0: none
-  double slew_window_s = 0.1;  ///< over which the head's rate is measured
+/// `parent_from_child` as tf's message.
+geometry_msgs::TransformStamped MakeTransform(const ros::Time& stamp, const std::string& parent,
+                                              const std::string& child,
+                                              const Rigid3& parent_from_child);
 
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("base_frame", base_frame);
-    visit("camera_frame", camera_frame);
-    visit("tf_timeout_s", tf_timeout_s);
-    visit("max_slew_dps", max_slew_dps);
-    visit("slew_window_s", slew_window_s);
-  }
+/// What tf tells, at most at the stamp that was asked for.
+struct StampedTransform {
+  ros::Time stamp;
+  Rigid3 target_from_source;
 };
 
-/// base_from_camera at each image's stamp, from tf.
-class CameraMount {
- public:
-  /// `buffer` must outlive the mount.
-  CameraMount(const tf2::BufferCore& buffer, const CameraMountOptions& options);
+/// Looks a transform up, the newest one where `stamp` is zero. Throws std::invalid_argument naming
+/// the frames where tf has none, or one that is no rigid motion.
+StampedTransform LookUpTransform(const tf2::BufferCore& buffer, const std::string& target,
+                                 const std::string& source, const ros::Time& stamp);
 
-  /// base_from_camera at `stamp`; nothing where tf cannot tell within the timeout. Never the newest
-  /// one instead, never identity.
-  std::optional<Rigid3> BaseFromCamera(const std::string& image_frame,
-                                       const ros::Time& stamp) const;
+/// Puts a transform that `source` has published into `buffer`. Returns false where its stamp is too
+/// far ahead of `now`: it would hold back all later ones, and the largest stamp makes tf2 throw. A
+/// static one holds at all times, whatever its stamp.
+bool AddTransform(geometry_msgs::TransformStamped transform, bool is_static, const ros::Time& now,
+                  const std::string& source, tf2::BufferCore& buffer);
 
-  /// Whether the head turned faster than the limit in the window before `stamp`. Where tf does not
-  /// reach back so far, it did not.
-  bool IsSlewing(const std::string& image_frame, const ros::Time& stamp,
-                 const Rigid3& base_from_camera) const;
+/// How the map frame moves, within its x-y plane, where a person states that the rover stands at
+/// `stated` and not at `map_from_base`; new_map_from_map. Height, roll and pitch stay. Throws
+/// std::invalid_argument where `stated` is no pose in the frame `map_frame`.
+Rigid3 FindMapShift(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                    const std::string& map_frame, const Rigid3& map_from_base);
 
-  /// Why the last lookup failed: the frames and tf's words.
-  const std::string& error() const { return error_; }
+/// Lays recorded truth, the camera's pose in a world of its own, over the odometry: the first true
+/// pose is where the odometry says that the camera is at that stamp.
+struct TruthAlignment {
+  const tf2::BufferCore& buffer;  ///< must outlive this
+  std::string reference_frame, base_frame, camera_frame;
+  std::optional<Rigid3> reference_from_truth = {};  ///< not before the first pose; reset: anew
 
- private:
-  const std::string& CameraFrame(const std::string& image_frame) const;
-  std::optional<Rigid3> LookUp(const std::string& camera_frame, const ros::Time& stamp) const;
-
-  const tf2::BufferCore& buffer_;
-  CameraMountOptions options_;
-  mutable std::string error_;
+  /// The true pose of the base in the reference frame; nothing where tf cannot tell yet.
+  std::optional<Rigid3> Align(const ros::Time& stamp, const Rigid3& truth_from_camera);
 };
 
 }  // namespace arfm_vo

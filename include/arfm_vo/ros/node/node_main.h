@@ -27,17 +27,20 @@ bool TellHelp(int argc, char** argv, const char* name, const char* text) {
   return false;
 }
 
-/// The main of a node: constructs Node(public, private node handle) and spins. Wrong use and
-/// configuration end it with a clear error and exit status 1. `text` tells --help what it does.
+/// The main of a node: constructs Node(public, private node handle) and spins, or what else `run`
+/// does. Wrong use and configuration end it with a clear error and exit status 1. `text` tells
+/// --help what it does.
 template <class Node, class Options>
-int RunNode(int argc, char** argv, const char* name, const char* text) {
+int RunNode(
+    int argc, char** argv, const char* name, const char* text,
+    void (*run)(Node&) = [](Node&) { ros::spin(); }) {
   if (TellHelp<Options>(argc, argv, name, text)) return 0;
   KeepMemoryFlat();
   ros::init(argc, argv, name);
   const ros::NodeHandle keeper;  // the last handle that goes takes the log with it
   try {
     Node node{ros::NodeHandle(), ros::NodeHandle("~")};
-    ros::spin();
+    run(node);
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

@@ -1,10 +1,37 @@
 #pragma once
 
-#include <ros/node_handle.h>
+#include <arfm_vo/StereoFrameStamped.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
 
 #include <memory>
+#include <string>
+
+#include "arfm_vo/base/worker.h"
+#include "arfm_vo/datasets/pair_order.h"
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/input/stereo_input.h"
+#include "arfm_vo/ros/node/health.h"
+#include "arfm_vo/ros/odometry/learned_calibration.h"
 
 namespace arfm_vo {
+
+struct ArfmNodeOptions {
+  OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
+  int max_waiting_pairs = 4;  ///< older ones are dropped
+  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
+
+  void Check() const {
+    algorithm.Check();
+    Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    algorithm.VisitFields(visit);
+    visit("max_waiting_pairs", max_waiting_pairs);
+    learned.VisitFields(visit);
+  }
+};
 
 /// Rectified stereo pairs in, `features` out: layers image to reconstruction. Subscribes to the
 /// pairs only while somebody subscribes to `features`, so that a player which waits for subscribers
@@ -17,8 +44,46 @@ class ArfmNode {
   ~ArfmNode();
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  /// How the pairs since the start fared.
+  struct Figures {
+    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
+    std::string refusal;  ///< why the newest pair was refused; empty where it was not
+    size_t num_left = 0, num_right = 0, num_points = 0;
+    PairTimes times;
+    bool is_idle = true;         ///< nobody subscribes to features
+    StereoInputCounts input;     ///< of all topics
+    std::string input_obstacle;  ///< what keeps messages from making pairs; empty: nothing
+  };
+
+  void Connect();
+  void ReportFigures();
+  void TellDrops();
+  // On the worker's thread:
+  void Process(const StereoMessagePair& pair);
+  /// Says whether the pair is to be worked on; begins anew where time has jumped.
+  bool AcceptStamp(const ros::Time& stamp);
+  void PrepareFrontend(const StereoMessagePair& pair);
+  void Report(Diagnostics& status);
+
+  ros::NodeHandle node_, private_node_;
+  const ArfmNodeOptions options_;
+  const StereoTopics topics_;
+  // Of the thread that calls back:
+  StereoInputWatch input_watch_;
+  ConsoleWatch drop_watch_;
+  uint32_t num_dropped_before_ = 0;
+  // Of the worker's thread:
+  StereoCamera camera_;
+  GreyWindow window_;
+  std::unique_ptr<StereoFrontend> frontend_;
+  LearnedCalibration learned_;
+  StampOrder<ros::Time> stamps_;
+  Figures figures_;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  std::unique_ptr<StereoInput> input_;
+  ros::Publisher features_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace arfm_vo

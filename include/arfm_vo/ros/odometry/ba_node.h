@@ -1,8 +1,9 @@
 #pragma once
 
-#include <ros/node_handle.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <tf2_ros/transform_broadcaster.h>
 
-#include <memory>
+#include "arfm_vo/ros/odometry/adjusted_map.h"
 
 namespace arfm_vo {
 
@@ -15,8 +16,19 @@ class BaNode {
   ~BaNode();
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void SendTransform();
+
+  const BaNodeOptions options_;
+  AdjustedMap map_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  diagnostic_updater::Updater diagnostics_;
+  Worker worker_;
+  nav_msgs::OdometryConstPtr newest_odometry_;
+  ros::Subscriber keyframes_, odometry_, stated_;
+  ros::ServiceServer save_;
+  ros::Time sent_;  // the newest transform's stamp
+  ros::WallTimer timer_;
+  ros::Timer tf_timer_;
 };
 
 }  // namespace arfm_vo

@@ -11,7 +11,6 @@ struct LearnedCalibrationOptions {
   bool remember_calibration = false;    ///< from drive to drive, a file a camera
   std::string learned_calibration_dir;  ///< where; empty: arfm_vo in ROS's own folder (ROS_HOME)
 
-  void Check() const {}
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("remember_calibration", remember_calibration);

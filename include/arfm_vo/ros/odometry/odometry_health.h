@@ -1,15 +1,13 @@
 #pragma once
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
-
+#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/driving/scale_check.h"
 #include "arfm_vo/odometry/session.h"
-#include "arfm_vo/reconstruction/stereo_frame.h"
-#include "arfm_vo/ros/node/wall_rate.h"
-#include "arfm_vo/ros/odometry/odometry_console.h"
-#include "arfm_vo/ros/odometry/running_median.h"
-#include "arfm_vo/ros/odometry/scale_check.h"
+#include "arfm_vo/ros/node/health.h"
 
 namespace arfm_vo {
 
@@ -20,7 +18,13 @@ struct OdometryHealthOptions {
   double scale_warn = 0.15;            ///< deviation of visual to track way from 1
   double scale_error = 0.5;            ///< above it ERROR
 
-  void Check() const;
+  void Check() const {
+    Require(row_residual_warn_px > 0 && row_residual_error_px >= row_residual_warn_px,
+            "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
+    Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
+    Require(scale_warn > 0 && scale_error >= scale_warn,
+            "health.scale_error must be at least scale_warn, both positive");
+  }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("row_residual_warn_px", row_residual_warn_px);
@@ -31,39 +35,51 @@ struct OdometryHealthOptions {
   }
 };
 
+/// A line for the console.
+struct ConsoleLine {
+  bool is_warning = false;
+  std::string text;
+};
+
 /// What pose_node tells in its diagnostics and on the console.
 class OdometryHealth {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   explicit OdometryHealth(const OdometryHealthOptions& options);
   /// Tells the totals on the console.
-  ~OdometryHealth();
+  ~OdometryHealth() { TellAtEnd("pose_node: " + Totals() + times_.Total()); }
 
-  void Count(const StereoFrame& frame, const SessionUpdate& pose, double ms);
+  /// Takes the next pair, which took `ms` of work; `now_s` is any steady time. Returns what to tell
+  /// on the console: the first pose, why there is none and what to do about it, that it is back.
+  std::optional<ConsoleLine> Count(const StereoFrame& frame, const SessionUpdate& pose, double ms,
+                                   double now_s);
   void CountRefused(const std::string& why);
   void CountDropped(uint32_t num_dropped) { num_dropped_ = num_dropped; }
   ScaleCheck& scale() { return scale_; }
   /// After a jump of time.
   void Clear();
 
-  void ReportOdometry(Status& status);     ///< ERROR while lost
-  void ReportCalibration(Status& status);  ///< row residual
-  void ReportScale(Status& status) const;  ///< against the tracks, where they are known
+  /// All pairs so far in a line.
+  std::string Totals() const;
+  void ReportOdometry(Diagnostics& status);     ///< ERROR while lost
+  void ReportCalibration(Diagnostics& status);  ///< row residual
+  void ReportScale(Diagnostics& status) const;  ///< against the tracks, where they are known
 
  private:
+  std::optional<ConsoleLine> TellTracked(double now_s);
+  uint32_t NumWithoutPose() const { return num_pairs_ - num_tracked_ - num_degraded_; }
+
   OdometryHealthOptions options_;
-  OdometryConsole console_;
-  ConsoleWatch calibration_watch_, skew_watch_;
+  ConsoleWatch watch_, calibration_watch_, skew_watch_;
+  bool is_problem_told_ = false;
+  std::optional<double> last_tracked_s_;
   RunningMedian row_residual_px_;
   ScaleCheck scale_;
-  WallRate rate_;
+  PairTimes times_;
   SessionUpdate last_;
   bool is_new_ = false;  ///< a pair came since the last report
   std::string refusal_;
-  double ms_ = 0;
-  RunningMedian times_ms_{kTimedPairs};
-  uint32_t num_pairs_ = 0, num_lost_ = 0, num_refused_ = 0, num_dropped_ = 0;
+  uint32_t num_pairs_ = 0, num_tracked_ = 0, num_degraded_ = 0, num_lost_ = 0;
+  uint32_t num_refused_ = 0, num_dropped_ = 0;
 };
 
 }  // namespace arfm_vo

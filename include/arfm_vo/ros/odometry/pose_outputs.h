@@ -1,6 +1,5 @@
 #pragma once
 
-#include <arfm_vo/OdometryStatus.h>
 #include <arfm_vo/StereoFrameStamped.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -9,7 +8,7 @@
 #include <string>
 
 #include "arfm_vo/odometry/session.h"
-#include "arfm_vo/ros/display/bounded_path.h"
+#include "arfm_vo/ros/messages/display_messages.h"
 
 namespace arfm_vo {
 
@@ -18,7 +17,10 @@ struct PoseOutputOptions {
   bool publish_tf = true;           ///< odom_frame -> base_frame
   BoundedPathOptions path;
 
-  void Check() const;
+  void Check() const {
+    Require(!odom_frame.empty(), "odom_frame must not be empty");
+    path.Check();
+  }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("odom_frame", odom_frame);
@@ -44,10 +46,7 @@ class PoseOutputs {
   void ClearPath() { path_.Clear(); }
 
  private:
-  void PublishStatus(OdometryStatus status, const std_msgs::Header& header);
   void PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header);
-  void PublishTransform(const SessionUpdate& pose, const std_msgs::Header& header);
-  void PublishPath(const SessionUpdate& pose, const std_msgs::Header& header);
 
   PoseOutputOptions options_;
   std::string base_frame_;

@@ -4,10 +4,10 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "arfm_vo/datasets/stamp_pairing.h"
 #include "arfm_vo/datasets/stereo_sequence.h"
@@ -37,10 +37,6 @@ class BagSequence : public StereoSequence {
 
  private:
   using Image = sensor_msgs::ImageConstPtr;
-  struct StampedPose {
-    double stamp_s;
-    Rigid3 world_from_camera;
-  };
 
   void Open();
   void ReadTruth();
@@ -55,7 +51,7 @@ class BagSequence : public StereoSequence {
   rosbag::Bag bag_;
   StereoCamera camera_;
   GreyWindow window_;
-  std::vector<StampedPose> truth_;  ///< by stamp
+  std::map<double, Rigid3> truth_;  ///< world_from_camera by stamp
   std::unique_ptr<rosbag::View> images_;
   rosbag::View::iterator next_;
   StampPairing<Image> pairing_;

@@ -2,6 +2,7 @@
 
 #include <rosbag/bag.h>
 
+#include <functional>
 #include <string>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
@@ -21,6 +22,8 @@ class StereoBagWriter {
   void Close();
 
  private:
+  void Try(const std::function<void()>& write) const;
+
   std::string path_, partial_path_;
   StereoTopics topics_;
   rosbag::Bag bag_;

@@ -41,7 +41,6 @@ class DrivePanel {
   void TakeStatus(const DriveStatus& status);
   void TakeClick(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void Show(const std::string& state);
-  void NoticeSilence();
   visualization_msgs::InteractiveMarker MakePanel() const;
 
   const DrivePanelOptions options_;

@@ -7,8 +7,10 @@
 
 #include <string>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
+#include "arfm_vo/ros/node/health.h"
 #include "arfm_vo/ros/rover/drive_listener.h"
 
 namespace arfm_vo {
@@ -20,7 +22,14 @@ struct PanTiltNodeOptions {
   std::string pan_joint = "pan", tilt_joint = "tilt";  ///< names in cmd and joint_states
   PanTiltOptions unit;                                 ///< its keys stand beside those of the node
 
-  void Check() const;
+  void Check() const {
+    Require(!port.empty(), "port must name a device file");
+    Require(baud > 0, "baud must be positive");
+    Require(max_rate_hz > 0 && max_rate_hz <= 1000, "max_rate_hz must be in (0, 1000]");
+    Require(!pan_joint.empty() && !tilt_joint.empty() && pan_joint != tilt_joint,
+            "pan_joint and tilt_joint must be two names");
+    unit.Check();
+  }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("port", port);
@@ -56,12 +65,10 @@ class PanTiltNode {
  private:
   void Tick();
   void PublishReadings(const PanTiltReadings& readings);
-  void PublishSettled();
   void TakeCommand(const sensor_msgs::JointState& command);
   void Refuse(const std::string& why);
-  void Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics);
-  void ReportAxis(PtuAxis axis, const std::string& joint,
-                  diagnostic_updater::DiagnosticStatusWrapper& diagnostics) const;
+  void Report(Diagnostics& diagnostics);
+  void ReportAxis(PtuAxis axis, const std::string& joint, Diagnostics& diagnostics) const;
 
   const PanTiltNodeOptions options_;
   PanTilt head_;

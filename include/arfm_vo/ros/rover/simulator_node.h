@@ -5,8 +5,8 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <visualization_msgs/Marker.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -58,6 +58,11 @@ struct SimulatorNodeOptions {
   }
 };
 
+/// The ground around the map's origin, without rocks, as lit triangles for rviz, some cm too low so
+/// that paths and landmarks on it are seen. `map_from_world` is where the terrain lies in `frame`.
+visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid3& map_from_world,
+                                             const std::string& frame);
+
 /// The world around the nodes: /clock, a tracked chassis at the other end of the CAN bus that slips
 /// on a terrain, a pan-tilt unit on a serial line, stereo pairs rendered where the rover truly
 /// stands and its head truly looks, and the truth.
@@ -77,18 +82,11 @@ class SimulatorNode {
   void Step();
   /// Since it was asked last.
   bool HasHeadMoved();
-  Rigid3 BaseFromCamera();
+  Rigid3 BaseFromCamera() const;
   void TakePair();
   void PublishClock() const;
-  void PublishTruth(const Rigid3& map_from_base) const;
-  void PublishFixedMount();
-  void TakeStatus(const OdometryStatus& status) {
-    odometry_done_ = std::max(odometry_done_, status.header.stamp);
-  }
   void TakeOdometry(const nav_msgs::Odometry& odometry);
   void TakeReport(const GoalReport& report);
-  void ShowTerrain(const ros::SingleSubscriberPublisher& subscriber) const;
-  void SavePicture() const;
   ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_); }
 
   const SimulatorNodeOptions options_;

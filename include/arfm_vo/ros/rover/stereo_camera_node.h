@@ -1,21 +1,36 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <thread>
 
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/worker.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
-#include "arfm_vo/ros/rover/camera_health.h"
-#include "arfm_vo/ros/rover/camera_info_server.h"
-#include "arfm_vo/ros/rover/drive_listener.h"
+#include "arfm_vo/ros/node/health.h"
+#include "arfm_vo/ros/rover/camera_eye.h"
 
 namespace arfm_vo {
+
+struct CameraHealthOptions {
+  double min_rate_share = 0.8;      ///< of video.rate_hz; fewer pairs a second are a warning
+  double max_unpaired_share = 0.1;  ///< of an eye's frames since the last report; more: warning
+
+  void Check() const {
+    Require(min_rate_share >= 0 && min_rate_share <= 1, "health.min_rate_share must be in 0..1");
+    Require(max_unpaired_share >= 0 && max_unpaired_share <= 1,
+            "health.max_unpaired_share must be in 0..1");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("min_rate_share", min_rate_share);
+    visit("max_unpaired_share", max_unpaired_share);
+  }
+};
 
 struct StereoCameraNodeOptions {
   StereoCameraOptions camera;  ///< its keys stand beside those of the node
@@ -34,6 +49,18 @@ struct StereoCameraNodeOptions {
   }
 };
 
+/// The camera in stereo_camera_node's diagnostics: ERROR while no pairs come, WARN where they come
+/// seldom, many frames stay alone, or a device does not do as asked.
+/// `before` is the status at the last report.
+void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& before,
+                  const StereoCameraOptions& camera, const CameraHealthOptions& options,
+                  Diagnostics& diagnostics);
+
+/// The calibration of both eyes: WARN where there is none, ERROR where it has another size than the
+/// pictures or a baseline that is none.
+void ReportCalibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
+                       int width, int height, Diagnostics& diagnostics);
+
 /// Pairs of a stereo camera as left|right/image_raw and camera_info, both eyes with one stamp.
 class StereoCameraNode {
  public:
@@ -44,42 +71,21 @@ class StereoCameraNode {
   ~StereoCameraNode();
 
  private:
-  /// The topics of one eye and its set_camera_info, which is refused while the rover drives.
-  class Eye {
-   public:
-    Eye(const ros::NodeHandle& node, const std::string& name, const std::string& url,
-        const DriveListener& drive);
-    /// With the calibration, or an empty one where it is not for pictures of this size.
-    void Publish(const VideoFrame& frame, const std_msgs::Header& header);
-    /// The calibration, whatever its size; K[0] is 0 where there is none.
-    sensor_msgs::CameraInfo Loaded() { return calibration_.Get(); }
-
-   private:
-    sensor_msgs::CameraInfo Fitting(int width, int height);
-
-    ros::NodeHandle node_;
-    CameraInfoServer calibration_;
-    image_transport::ImageTransport transport_;
-    image_transport::CameraPublisher publisher_;
-  };
-
   void Run();
   void Publish(const FramePair& pair);
-  void Report(diagnostic_updater::DiagnosticStatusWrapper& diagnostics);
-  void ReportCalibration(diagnostic_updater::DiagnosticStatusWrapper& diagnostics);
+  void Report(Diagnostics& diagnostics);
 
   const StereoCameraNodeOptions options_;
   DriveListener drive_;
-  Eye left_, right_;
+  CameraEye left_, right_;
   // Of the capturing thread:
   StereoCameraDevice camera_;
   ClockOffset clock_;
   ros::Time last_stamp_;
   int published_jumps_ = 0;
   std::string said_;  ///< the problem that was last logged
-  std::mutex mutex_;  ///< guards the two that follow
-  StereoCameraStatus status_;
-  int num_clock_jumps_ = 0;
+  Shared<StereoCameraStatus> status_;
+  std::atomic<int> num_clock_jumps_{0};
   StereoCameraStatus reported_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

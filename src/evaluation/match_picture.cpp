@@ -1,0 +1,76 @@
+#include "arfm_vo/evaluation/match_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "arfm_vo/base/format.h"
+
+namespace arfm_vo {
+namespace {
+
+const cv::Scalar kGreen(60, 220, 60), kRed(60, 60, 255), kWhite(255, 255, 255);
+constexpr int kTextHeight_px = 22;
+constexpr int kSubpixelBits = 3;  // coordinates in eighths of a pixel
+
+double Quantile(std::vector<float>& values, double fraction) {
+  const auto wanted = values.begin() + static_cast<int>(fraction * (values.size() - 1));
+  std::nth_element(values.begin(), wanted, values.end());
+  return std::max(*wanted, 1e-3f);
+}
+
+cv::Point ToSubpixels(double u, double v) {
+  return {cvRound(u * (1 << kSubpixelBits)), cvRound(v * (1 << kSubpixelBits))};
+}
+
+void DrawRing(cv::Mat& picture, double u, double v, int radius_px, const cv::Scalar& color,
+              int thickness) {
+  cv::circle(picture, ToSubpixels(u, v), radius_px << kSubpixelBits, color, thickness, cv::LINE_AA,
+             kSubpixelBits);
+}
+
+std::string Describe(const StereoFrame& frame, const PoseEstimate& pose) {
+  if (!pose.IsMeasured())
+    return Format("LOST: %s (%d matches, %zu stereo points)", ToString(pose.status),
+                  pose.num_matches, frame.points.size());
+  return Format("%s%d of %d map points agree, rms %.2f px",
+                pose.IsTracked() ? "" : "DEGRADED: ", pose.num_inliers, pose.num_matches,
+                pose.rms_px);
+}
+
+}  // namespace
+
+DepthColors::DepthColors(std::vector<float> depths_m) {
+  if (depths_m.empty()) return;
+  log_near_ = std::log(Quantile(depths_m, 0.05));
+  log_far_ = std::max(std::log(Quantile(depths_m, 0.95)), log_near_ + 1e-3);
+}
+
+cv::Scalar DepthColors::BgrOf(double depth_m) const {
+  const double log_depth = std::log(std::max(depth_m, 1e-3));
+  const double far = std::clamp((log_depth - log_near_) / (log_far_ - log_near_), 0.0, 1.0);
+  // Through violet, not green: green is for the matched ones.
+  return {255 * std::min(1.0, 2 - 2 * far), 60, 255 * std::min(1.0, 2 * far)};
+}
+
+cv::Mat DrawMatches(const cv::Mat& left, const StereoFrame& frame, const OdometryUpdate& update) {
+  cv::Mat picture(left.rows + kTextHeight_px, left.cols, CV_8UC3, cv::Scalar::all(0));
+  cv::Mat image = picture.rowRange(kTextHeight_px, picture.rows);
+  cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
+
+  std::vector<float> depths_m;
+  for (const StereoPoint& point : frame.points) depths_m.push_back(point.x_in_camera.z());
+  const DepthColors colors(depths_m);
+  for (const StereoPoint& point : frame.points)
+    DrawRing(image, point.observation.x(), point.observation.y(), 2,
+             colors.BgrOf(point.x_in_camera.z()), cv::FILLED);
+  for (const LandmarkObservation& observation : update.observations)
+    DrawRing(image, observation.pixels[0], observation.pixels[1], 5, kGreen, 1);
+
+  cv::putText(picture, Describe(frame, update.pose), {6, kTextHeight_px - 7},
+              cv::FONT_HERSHEY_SIMPLEX, 0.5, update.pose.IsTracked() ? kWhite : kRed, 1,
+              cv::LINE_AA);
+  return picture;
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,63 @@
+#include "arfm_vo/ros/messages/display_messages.h"
+
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <cmath>
+
+#include "arfm_vo/evaluation/match_picture.h"
+
+namespace arfm_vo {
+
+void BoundedPath::Clear() {
+  path_.poses.clear();
+  spacing_m_ = options_.spacing_m;
+}
+
+bool BoundedPath::Add(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+  std::vector<geometry_msgs::PoseStamped>& poses = path_.poses;
+  if (!poses.empty()) {
+    const geometry_msgs::Point &last = poses.back().pose.position, &next = pose.position;
+    if (std::hypot(next.x - last.x, next.y - last.y, next.z - last.z) < spacing_m_) return false;
+  }
+  if (static_cast<int>(poses.size()) >= options_.max_poses) {
+    size_t kept = 0;
+    for (size_t i = 0; i < poses.size(); i += 2) poses[kept++] = poses[i];
+    poses.resize(kept);
+    spacing_m_ *= 2;
+  }
+  path_.header = header;
+  poses.emplace_back();
+  poses.back().header = header;
+  poses.back().pose = pose;
+  return true;
+}
+
+sensor_msgs::PointCloud2 MakeLandmarkCloud(const std::vector<LandmarkPoint>& points) {
+  sensor_msgs::PointCloud2 cloud;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2Fields(
+      5, "x", 1, sensor_msgs::PointField::FLOAT32, "y", 1, sensor_msgs::PointField::FLOAT32, "z", 1,
+      sensor_msgs::PointField::FLOAT32, "rgb", 1, sensor_msgs::PointField::FLOAT32, "depth", 1,
+      sensor_msgs::PointField::FLOAT32);
+  modifier.resize(points.size());
+  cloud.is_dense = true;
+  if (points.empty()) return cloud;  // the iterators take the first byte's address
+
+  std::vector<float> depths_m;
+  for (const LandmarkPoint& point : points) depths_m.push_back(point.depth_m);
+  const DepthColors colors(depths_m);
+  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), depth(cloud, "depth");
+  sensor_msgs::PointCloud2Iterator<uint8_t> bgr(cloud, "rgb");
+  for (const LandmarkPoint& point : points) {
+    const cv::Scalar color = colors.BgrOf(point.depth_m);
+    for (int i = 0; i < 3; ++i) {
+      x[i] = static_cast<float>(point.x_in_map[i]);
+      bgr[i] = static_cast<uint8_t>(color[i]);
+    }
+    *depth = point.depth_m;
+    ++x, ++bgr, ++depth;
+  }
+  return cloud;
+}
+
+}  // namespace arfm_vo

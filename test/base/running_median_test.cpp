@@ -1,0 +1,23 @@
+#include "arfm_vo/base/running_median.h"
+
+#include <gtest/gtest.h>
+
+namespace arfm_vo {
+namespace {
+
+TEST(RunningMedian, IsThatOfTheNewestValues) {
+  RunningMedian median(3);
+  EXPECT_EQ(median.Median(), 0);
+  median.Add(5);
+  EXPECT_EQ(median.Median(), 5);
+  median.Add(1);
+  EXPECT_EQ(median.Median(), 1);
+  median.Add(9);
+  EXPECT_EQ(median.Median(), 5);
+  median.Add(-3);  // the first 5 has left
+  EXPECT_EQ(median.Median(), 1);
+  EXPECT_EQ(median.size(), 3u);
+}
+
+}  // namespace
+}  // namespace arfm_vo

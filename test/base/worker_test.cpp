@@ -1,0 +1,122 @@
+#include "arfm_vo/base/worker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace arfm_vo {
+namespace {
+
+using testing::ElementsAre;
+
+void FailOnError(const std::exception& error) { ADD_FAILURE() << error.what(); }
+
+TEST(Worker, RunsJobsInTheirOrder) {
+  std::vector<int> ran;
+  Worker worker(1, FailOnError);
+  for (int i = 0; i < 3; ++i) worker.Post([&ran, i] { ran.push_back(i); });
+  worker.RunAndWait([&ran] { ran.push_back(3); });
+  EXPECT_THAT(ran, ElementsAre(0, 1, 2, 3));
+}
+
+TEST(Worker, DropsTheOldestLossyJobsWhileBusyAndNoOthers) {
+  std::vector<int> ran;
+  std::promise<void> is_busy, may_go;
+  Worker worker(2, FailOnError);
+  worker.Post([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+  });
+  is_busy.get_future().wait();
+  for (int i = 0; i < 5; ++i) {
+    worker.PostLossy([&ran, i] { ran.push_back(i); });
+    if (i == 0) worker.Post([&ran] { ran.push_back(100); });
+  }
+  may_go.set_value();
+  worker.RunAndWait([] {});
+  EXPECT_THAT(ran, ElementsAre(100, 3, 4));
+  EXPECT_EQ(worker.num_dropped(), 3u);
+}
+
+TEST(Worker, AFloodOfJobsIsBounded) {
+  std::atomic<size_t> num_ran{0};
+  std::string told;
+  std::promise<void> is_busy, may_go;
+  Worker worker(1, [&told](const std::exception& error) { told = error.what(); });
+  worker.Post([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+  });
+  is_busy.get_future().wait();
+  for (size_t i = 0; i < Worker::kMaxJobs + 50; ++i) worker.Post([&num_ran] { ++num_ran; });
+  EXPECT_THROW(worker.RunAndWait([] {}), std::future_error);
+  may_go.set_value();
+  while (num_ran < Worker::kMaxJobs) std::this_thread::yield();
+  worker.RunAndWait([] {});
+  EXPECT_EQ(num_ran, Worker::kMaxJobs);
+  EXPECT_EQ(told, "1000 messages wait to be worked on: the newest are dropped");
+}
+
+TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {
+  std::vector<int> ran;
+  std::promise<void> is_busy, may_go;
+  Worker worker(2, FailOnError);
+  worker.Hold(4);
+  worker.PostLossy([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+    worker.Release();
+  });
+  is_busy.get_future().wait();
+  for (int i = 0; i < 5; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  may_go.set_value();
+  worker.RunAndWait([&] {
+    for (int i = 5; i < 9; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  });
+  worker.RunAndWait([] {});
+  EXPECT_THAT(ran, ElementsAre(1, 2, 3, 4, 7, 8));
+  EXPECT_EQ(worker.num_dropped(), 3u);
+}
+
+TEST(Worker, AnErrorOfAJobIsReportedAndTheNextJobRuns) {
+  std::vector<std::string> errors;
+  Worker worker(1, [&](const std::exception& error) { errors.push_back(error.what()); });
+  worker.Post([] { throw std::invalid_argument("bad pair"); });
+  bool ran = false;
+  worker.RunAndWait([&] { ran = true; });
+  EXPECT_TRUE(ran);
+  EXPECT_THAT(errors, ElementsAre("bad pair"));
+}
+
+TEST(Worker, RunAndWaitRethrows) {
+  Worker worker(1, FailOnError);
+  EXPECT_THROW(worker.RunAndWait([] { throw std::runtime_error("disk full"); }),
+               std::runtime_error);
+}
+
+TEST(Worker, ForgetsWhatWaitsWhenItStopsAndTellsTheRunningJob) {
+  bool ran = false, was_told = false;
+  {
+    std::promise<void> is_busy;
+    Worker worker(1, FailOnError);
+    worker.Post([&] {
+      is_busy.set_value();
+      while (!worker.is_stopping()) std::this_thread::yield();
+      was_told = true;
+    });
+    worker.Post([&] { ran = true; });
+    is_busy.get_future().wait();
+  }
+  EXPECT_TRUE(was_told);
+  EXPECT_FALSE(ran);
+}
+
+}  // namespace
+}  // namespace arfm_vo
