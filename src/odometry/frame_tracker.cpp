@@ -86,7 +86,7 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
     if (is_better || !tracked.pose.HasPose()) tracked = found;
   }
   if (!tracked.pose.HasPose()) return tracked;
-  if (options_.align_patches) Align(images, map, expected.use_right, tracked);
+  if (options_.align_patches) Align(images, map, expected, tracked);
   Weigh(frame, map, expected, tracked);
   Sort(tracked);
   return tracked;
@@ -199,8 +199,8 @@ Correspondences FrameTracker::Correspond(
   return correspondences;
 }
 
-void FrameTracker::Align(const StereoImages& images, const LocalMap& map, bool use_right,
-                         TrackedFrame& tracked) const {
+void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
+                         const Expectation& expected, TrackedFrame& tracked) const {
   const Rigid3 coarse_pose = tracked.pose.camera_from_world;
   auto landmarks = map.LandmarksInView(coarse_pose, 8);
   const auto moves = [&](const Landmark* landmark) {
@@ -210,12 +210,12 @@ void FrameTracker::Align(const StereoImages& images, const LocalMap& map, bool u
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
   tracked.expected = Ids(landmarks);
   const std::vector<std::optional<LandmarkObservation>> observations =
-      Measure(images, map, landmarks, coarse_pose, use_right);
+      Measure(images, map, landmarks, coarse_pose, expected.use_right);
   StereoCorrection correction = correction_;
   Correspondences correspondences = Correspond(landmarks, observations, correction);
   PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
-  if (use_right && refined.status == RefinementStatus::kConverged) {
+  if (expected.may_turn && expected.use_right && refined.status == RefinementStatus::kConverged) {
     tracked.right_turn = FindRightTurn(camera_, correction, correspondences.landmarks,
                                        correspondences.observed, refined.camera_from_world);
   }

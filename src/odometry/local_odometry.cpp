@@ -144,10 +144,10 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    TrackedFrame tracked =
-        tracker_.Track(frame, images, map_,
-                       {predicted, verdict_.log_odds_of_ground(),
-                        verdict_.right_fault() == Reason::kNone, verdict_.IsUnsure()});
+    TrackedFrame tracked = tracker_.Track(
+        frame, images, map_,
+        {predicted, verdict_.log_odds_of_ground(), verdict_.right_fault() == Reason::kNone,
+         !correction_.IsExact(), verdict_.IsUnsure()});
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();

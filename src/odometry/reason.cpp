@@ -15,7 +15,7 @@ const std::vector<ReasonRow>& ListReasons() {
       {Reason::kRightOff,
        "the rows of the two pictures do not agree (one late, or a camera moved?), the left one "
        "alone tells",
-       "degraded: pose by the left image"},
+       "tracked by the left image, new points by motion: their depths count in the covariance"},
       {Reason::kGroupsDiffer, "two groups of points move differently",
        "degraded: pose of the likelier group, the covariance reaches to the other"},
       {Reason::kGroundHidden, "what is seen moves otherwise than the ground is known to", kLost},

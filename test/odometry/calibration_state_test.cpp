@@ -46,6 +46,20 @@ TEST(CalibrationState, IsFoundOnceAndThenLeft) {
   EXPECT_TRUE(state.WindowPrior(7));
 }
 
+TEST(CalibrationState, ATurnThatAPairHasToldEndsWhatEarlierKeyframesTell) {
+  CalibrationState state = Known();
+  const Eigen::Matrix3d covariance = 1e-8 * Eigen::Matrix3d::Identity();
+  state.Turn({{0, 1e-3, 0}, covariance}, 9);
+  EXPECT_NEAR((state.correction().mean.coefficients_px - Yaw(1)).norm(), 0, 1e-9);
+  EXPECT_EQ(state.first_telling(), 9);
+  EXPECT_GT(state.correction().MaxColumnSigma(kCamera), 0.05);
+  EXPECT_FALSE(state.WindowPrior(10));
+  EXPECT_TRUE(state.WindowPrior(12));
+  CalibrationState held(kCamera, false, kCalibration);
+  held.Turn({{0, 1e-3, 0}, covariance}, 9);
+  EXPECT_TRUE(held.correction().mean.IsZero());
+}
+
 TEST(CalibrationState, AnAdjustmentWithoutACovarianceSaysNothing) {
   CalibrationState state(kCamera, true, kCalibration);
   EXPECT_FALSE(state.Learn(Found(Yaw(1), 0), 6));

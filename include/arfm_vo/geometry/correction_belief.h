@@ -13,6 +13,7 @@ struct RightTurn {
 /// What is known of a StereoCorrection: a normal distribution of its coefficients.
 struct CorrectionBelief {
   using Matrix = Eigen::Matrix<double, StereoCorrection::kSize, StereoCorrection::kSize>;
+  static constexpr double kExactSigmaPx = 1e-3;
 
   StereoCorrection mean;
   Matrix covariance = Matrix::Zero();  ///< px^2; symmetric, positive definite
@@ -29,7 +30,8 @@ struct CorrectionBelief {
   /// others in proportion), and the focal length of both by 0.1 %.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
   /// Of a calibration that is right: within a thousandth of a pixel, so that it can be inverted.
-  static CorrectionBelief OfExactCalibration() { return Isotropic(1e-3); }
+  static CorrectionBelief OfExactCalibration() { return Isotropic(kExactSigmaPx); }
+  bool IsExact() const { return covariance.diagonal().maxCoeff() <= kExactSigmaPx * kExactSigmaPx; }
 
   /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have
   /// turned the cameras against each other by a milliradian, and moved a centre by 0.3 px.

@@ -58,6 +58,7 @@ struct Expectation {
   std::optional<PredictedPose> predicted;
   double log_odds = 0;    ///< that the map's poses are the ground's
   bool use_right = true;  ///< whether the right image is worth looking at
+  bool may_turn = false;  ///< whether the right camera's turns are looked for
   bool is_wary = false;   ///< whether to look for a rival even where most points agree
 };
 
@@ -96,7 +97,7 @@ class FrameTracker {
   Correspondences Correspond(const std::vector<const Landmark*>& landmarks,
                              const std::vector<std::optional<LandmarkObservation>>& observations,
                              const StereoCorrection& correction) const;
-  void Align(const StereoImages& images, const LocalMap& map, bool use_right,
+  void Align(const StereoImages& images, const LocalMap& map, const Expectation& expected,
              TrackedFrame& tracked) const;
 
   StereoCamera camera_;

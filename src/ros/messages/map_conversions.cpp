@@ -30,6 +30,19 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   return observations;
 }
 
+std::optional<RightTurn> ImportTurn(const KeyframeStamped& message) {
+  const std::string name = "KeyframeStamped: right_turn";
+  const size_t size = message.right_turn.empty() ? 0 : 3;
+  RequireNumbers(message.right_turn, size, name);
+  RequireNumbers(message.right_turn_covariance, 3 * size, name + "_covariance");
+  if (size == 0) return std::nullopt;
+  RightTurn turn{Eigen::Map<const Eigen::Vector3d>(message.right_turn.data()),
+                 Eigen::Map<const Eigen::Matrix3d>(message.right_turn_covariance.data())};
+  Require(turn.covariance.diagonal().minCoeff() > 0,
+          name + "_covariance has a variance that is not positive");
+  return turn;
+}
+
 std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
   const std::string name = "KeyframeStamped: ";
   const size_t size = message.landmark_id.size();
@@ -75,6 +88,10 @@ KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
   message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
   message.id = seen.id;
   message.camera_from_world = ToTransformMessage(seen.camera_from_world);
+  if (const auto& turn = seen.right_turn) {
+    message.right_turn.assign(turn->turn_rad.data(), turn->turn_rad.data() + 3);
+    message.right_turn_covariance.assign(turn->covariance.data(), turn->covariance.data() + 9);
+  }
   for (const LandmarkObservation& observation : seen.observations) {
     message.observation_landmark.push_back(observation.landmark);
     for (int i = 0; i < 4; ++i)
@@ -105,6 +122,7 @@ PlacedKeyframe FromMessage(const KeyframeStamped& message) {
   keyframe.keyframe.stamp_s = message.header.stamp.toSec();
   keyframe.keyframe.camera_from_world =
       FromMessage(message.camera_from_world, "KeyframeStamped: camera_from_world");
+  keyframe.keyframe.right_turn = ImportTurn(message);
   keyframe.keyframe.observations = ImportObservations(message);
   keyframe.landmarks = ImportLandmarks(message);
   return keyframe;

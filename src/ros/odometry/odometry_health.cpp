@@ -115,7 +115,7 @@ void OdometryHealth::ReportOdometry(Diagnostics& status) {
     status.summary(Diagnostics::ERROR, "pair refused: " + refusal_);
   else if (!is_new_)
     status.summary(Diagnostics::WARN, "no pairs come");
-  else if (last_.IsTracked())
+  else if (last_.IsTracked() && last_.update.reason == Reason::kNone)
     status.summary(Diagnostics::OK, "tracked");
   else if (last_.HasPose() || !last_.IsTried())
     status.summary(Diagnostics::WARN, last_.text);

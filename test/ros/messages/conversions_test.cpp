@@ -221,6 +221,17 @@ TEST(Conversions, AMalformedKeyframeIsRefusedByName) {
                 [](auto& message) { message.observation_landmark[1] = 1; });
   ExpectRefused(good, "observation_sigma[0] is not positive",
                 [](auto& message) { message.observation_sigma[0] = 0; });
+  ExpectRefused(good, "right_turn holds 1 values, 3 expected",
+                [](auto& message) { message.right_turn = {1}; });
+  ExpectRefused(good, "right_turn_covariance holds 0 values, 9 expected", [](auto& message) {
+    message.right_turn = {0, 0, 0};
+    message.right_turn_covariance.clear();
+  });
+  ExpectRefused(good, "right_turn_covariance has a variance that is not positive",
+                [](auto& message) {
+                  message.right_turn = {0, 0, 0};
+                  message.right_turn_covariance.assign(9, 0);
+                });
   ExpectRefused(good, "landmark_descriptors holds 63 values, 64 expected",
                 [](auto& message) { message.landmark_descriptors.pop_back(); });
   ExpectRefused(good, "base_from_camera is not finite",
