@@ -216,7 +216,7 @@ void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
   PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
   if (expected.may_turn && expected.use_right && refined.status == RefinementStatus::kConverged) {
-    tracked.right_turn = FindRightTurn(camera_, correction, correspondences.landmarks,
+    tracked.right_turn = FindRightTurn(camera_, correction, map, correspondences.landmarks,
                                        correspondences.observed, refined.camera_from_world);
   }
   if (tracked.right_turn) {

@@ -39,10 +39,11 @@ RightByTurn ByTurn(const StereoCamera& camera, const CorrectionBelief::Turns& by
 /// A pose and a turn that explain what was seen.
 class Solver {
  public:
-  Solver(const StereoCamera& camera, const StereoCorrection& correction,
+  Solver(const StereoCamera& camera, const StereoCorrection& correction, const LocalMap& map,
          const Rigid3& camera_from_world)
       : camera_(camera),
         correction_(correction),
+        map_(map),
         by_turn_(CorrectionBelief::ByTurn(camera)),
         camera_from_world_(camera_from_world) {}
 
@@ -59,11 +60,12 @@ class Solver {
     Eigen::Matrix<double, 4, 9> jacobian = Eigen::Matrix<double, 4, 9>::Zero();
     jacobian.leftCols<6>() = projection * moved;
     jacobian.bottomRightCorner<2, 3>() = of_right;
-    Eigen::Vector4d error = observation.pixels - seen;
+    const Before before = SeenBefore(landmark);
+    Eigen::Vector4d error = observation.pixels - seen - before.off_px;
     error.tail<2>() -= of_right * turn_;
     const Eigen::Matrix<double, 4, 3> by_world = projection * camera_from_world_.RotationMatrix();
     Eigen::Matrix4d covariance = by_world * landmark.covariance * by_world.transpose();
-    covariance.diagonal().array() += observation.sigma_px * observation.sigma_px;
+    covariance.diagonal().array() += observation.sigma_px * observation.sigma_px + before.variance;
     const Eigen::LLT<Eigen::Matrix4d> factor(covariance);
     const double squared = error.dot(factor.solve(error));
     const double weight = 1 / (1 + squared / 4);
@@ -91,8 +93,25 @@ class Solver {
   }
 
  private:
+  struct Before {
+    Eigen::Vector4d off_px = Eigen::Vector4d::Zero();
+    double variance = 0;  ///< px^2
+  };
+
+  /// How far its keyframe saw a landmark from where the map has it.
+  Before SeenBefore(const Landmark& landmark) const {
+    const Keyframe* keyframe = map_.FindKeyframe(landmark.reference);
+    if (keyframe == nullptr) return {};
+    const auto* observation = FindObservation(keyframe->observations, landmark.id);
+    const Eigen::Vector3d x = keyframe->camera_from_world * landmark.x_in_world;
+    if (observation == nullptr || !observation->has_right || !(x.z() > kMinDepth)) return {};
+    return {observation->pixels - ProjectStereo4(camera_, correction_, x),
+            observation->sigma_px * observation->sigma_px};
+  }
+
   StereoCamera camera_;
   StereoCorrection correction_;
+  const LocalMap& map_;
   CorrectionBelief::Turns by_turn_;
   Rigid3 camera_from_world_;
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
@@ -114,7 +133,7 @@ double LogOdds(const RightTurn& found) {
 }  // namespace
 
 std::optional<RightTurn> FindRightTurn(const StereoCamera& camera,
-                                       const StereoCorrection& correction,
+                                       const StereoCorrection& correction, const LocalMap& map,
                                        const std::vector<const Landmark*>& landmarks,
                                        const LandmarkObservations& observations,
                                        const Rigid3& camera_from_world) {
@@ -124,7 +143,7 @@ std::optional<RightTurn> FindRightTurn(const StereoCamera& camera,
   }
   if (seen.size() < kLeast) return std::nullopt;
   const size_t every = 1 + seen.size() / kMost;
-  Solver solver(camera, correction, camera_from_world);
+  Solver solver(camera, correction, map, camera_from_world);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (size_t k = 0; k < seen.size(); k += every) {
       solver.Add(*landmarks[seen[k]], observations[seen[k]]);

@@ -42,7 +42,7 @@ class RightTurnTest : public ::testing::Test {
       observations.push_back(observation);
     }
     const Rigid3 off(ExpSO3({1e-4, 2e-4, 0}), Eigen::Vector3d(0, 0, 0.02));
-    return FindRightTurn(kCamera, {}, seen, observations, off * kPose);
+    return FindRightTurn(kCamera, {}, LocalMap(kCamera, {}), seen, observations, off * kPose);
   }
 
   const StereoCamera kCamera{500, 500, 320, 240, 0.3, 640, 480};
