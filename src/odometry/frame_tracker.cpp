@@ -186,19 +186,6 @@ std::vector<std::optional<LandmarkObservation>> FrameTracker::Measure(
   return observations;
 }
 
-Correspondences FrameTracker::Correspond(
-    const std::vector<const Landmark*>& landmarks,
-    const std::vector<std::optional<LandmarkObservation>>& observations,
-    const StereoCorrection& correction) const {
-  Correspondences correspondences;
-  for (size_t i = 0; i < landmarks.size(); ++i) {
-    if (observations[i]) {
-      correspondences.Add(camera_, correction, *landmarks[i], *observations[i]);
-    }
-  }
-  return correspondences;
-}
-
 void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
                          const Expectation& expected, TrackedFrame& tracked) const {
   const Rigid3 coarse_pose = tracked.pose.camera_from_world;
@@ -211,25 +198,24 @@ void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
   tracked.expected = Ids(landmarks);
   const std::vector<std::optional<LandmarkObservation>> observations =
       Measure(images, map, landmarks, coarse_pose, expected.use_right);
-  StereoCorrection correction = correction_;
-  Correspondences correspondences = Correspond(landmarks, observations, correction);
-  PoseRefinement refined =
+  Correspondences correspondences;
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    if (observations[i]) {
+      correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
+    }
+  }
+  const PoseRefinement refined =
       RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
-  if (expected.may_turn && expected.use_right && refined.status == RefinementStatus::kConverged) {
-    tracked.right_turn = FindRightTurn(camera_, correction, map, correspondences.landmarks,
-                                       correspondences.observed, refined.camera_from_world);
-  }
-  if (tracked.right_turn) {
-    correction = CorrectionBelief{correction}.After(*tracked.right_turn, camera_).mean;
-    correspondences = Correspond(landmarks, observations, correction);
-    refined = RefinePose(camera_, correspondences.points, coarse_pose, options_.refinement);
-  }
   const double enough = std::max<double>(
       options_.pose.min_inliers,
       options_.pose.min_inlier_share * static_cast<double>(correspondences.points.size()));
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) {
-    tracked.right_turn.reset();
     return;  // too few patches are no better than the keypoints that agreed
+  }
+  if (expected.may_turn && expected.use_right) {
+    tracked.turn_against_map =
+        FindTurnAgainstMap(camera_, correction_, correspondences.landmarks,
+                           correspondences.observed, refined.camera_from_world);
   }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;

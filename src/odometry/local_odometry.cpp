@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "arfm_vo/base/check.h"
@@ -10,6 +11,7 @@
 #include "arfm_vo/odometry/verdict.h"
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
+#include "right_turn.h"
 #include "skew_compensation.h"
 #include "step_by_correction.h"
 #include "still_keypoints.h"
@@ -116,6 +118,7 @@ class LocalOdometry::Implementation {
     skew_.Interrupt();
     covariance_.Clear();
     archive_.Clear();
+    turn_against_map_.reset();
   }
 
   const LocalMap& map() const { return map_; }
@@ -144,10 +147,11 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    TrackedFrame tracked = tracker_.Track(
-        frame, images, map_,
-        {predicted, verdict_.log_odds_of_ground(), verdict_.right_fault() == Reason::kNone,
-         !correction_.IsExact(), verdict_.IsUnsure()});
+    const Expectation expected{predicted, verdict_.log_odds_of_ground(),
+                               verdict_.right_fault() == Reason::kNone, !correction_.IsExact(),
+                               verdict_.IsUnsure()};
+    TrackedFrame tracked = tracker_.Track(frame, images, map_, expected);
+    if (HasTurned(tracked)) tracked = tracker_.Track(frame, images, map_, expected);
     update.pose = tracked.pose;
     if (!tracked.pose.HasPose()) {
       standstill_.Reset();
@@ -156,7 +160,6 @@ class LocalOdometry::Implementation {
       return;
     }
     map_.SetArrived(tracked.arrived);
-    if (tracked.right_turn) TakeTurn(*tracked.right_turn);
     if (!verdict_.Weigh(tracked, predicted, update)) return;
     const bool are_depths_known =
         AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);
@@ -180,13 +183,21 @@ class LocalOdometry::Implementation {
     FindCovariance(update);
   }
 
-  void TakeTurn(const RightTurn& turn) {
-    correction_ = correction_.After(turn, camera_);
+  /// Whether the right camera has turned since the pair before; that is taken over.
+  bool HasTurned(const TrackedFrame& tracked) {
+    if (!tracked.turn_against_map) return false;
+    const auto before = std::exchange(turn_against_map_, tracked.turn_against_map);
+    const auto turn =
+        before ? FindTurnSince(*before, *tracked.turn_against_map) : std::optional<RightTurn>();
+    if (!turn) return false;
+    turn_against_map_ = before;
+    correction_ = correction_.After(*turn, camera_);
     tracker_.SetCorrection(correction_.mean);
     covariance_.SetCorrection(correction_);
     const KeyframeId next = map_.keyframes().back().id + 1;
     map_.ForgetRight(next);
-    turned_.push_back({next, turn});
+    turned_.push_back({next, *turn});
+    return true;
   }
 
   /// Takes away what stands still in the picture though the camera has moved, where that is too
@@ -222,6 +233,7 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     covariance_.Begin(place->pose.camera_from_world, place->covariance_from_start);
+    turn_against_map_.reset();
     update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
@@ -276,7 +288,8 @@ class LocalOdometry::Implementation {
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;
-  std::vector<Turned> turned_;  ///< of which no adjustment knows yet
+  std::optional<RightTurn> turn_against_map_;  ///< of the right camera, as the last pair told
+  std::vector<Turned> turned_;                 ///< of which no adjustment knows yet
   SkewCompensation skew_;
   WindowAdjustment adjustment_;  ///< the map stays as it is while one runs
 };

@@ -39,11 +39,10 @@ RightByTurn ByTurn(const StereoCamera& camera, const CorrectionBelief::Turns& by
 /// A pose and a turn that explain what was seen.
 class Solver {
  public:
-  Solver(const StereoCamera& camera, const StereoCorrection& correction, const LocalMap& map,
+  Solver(const StereoCamera& camera, const StereoCorrection& correction,
          const Rigid3& camera_from_world)
       : camera_(camera),
         correction_(correction),
-        map_(map),
         by_turn_(CorrectionBelief::ByTurn(camera)),
         camera_from_world_(camera_from_world) {}
 
@@ -60,12 +59,11 @@ class Solver {
     Eigen::Matrix<double, 4, 9> jacobian = Eigen::Matrix<double, 4, 9>::Zero();
     jacobian.leftCols<6>() = projection * moved;
     jacobian.bottomRightCorner<2, 3>() = of_right;
-    const Before before = SeenBefore(landmark);
-    Eigen::Vector4d error = observation.pixels - seen - before.off_px;
+    Eigen::Vector4d error = observation.pixels - seen;
     error.tail<2>() -= of_right * turn_;
     const Eigen::Matrix<double, 4, 3> by_world = projection * camera_from_world_.RotationMatrix();
     Eigen::Matrix4d covariance = by_world * landmark.covariance * by_world.transpose();
-    covariance.diagonal().array() += observation.sigma_px * observation.sigma_px + before.variance;
+    covariance.diagonal().array() += observation.sigma_px * observation.sigma_px;
     const Eigen::LLT<Eigen::Matrix4d> factor(covariance);
     const double squared = error.dot(factor.solve(error));
     const double weight = 1 / (1 + squared / 4);
@@ -93,25 +91,8 @@ class Solver {
   }
 
  private:
-  struct Before {
-    Eigen::Vector4d off_px = Eigen::Vector4d::Zero();
-    double variance = 0;  ///< px^2
-  };
-
-  /// How far its keyframe saw a landmark from where the map has it.
-  Before SeenBefore(const Landmark& landmark) const {
-    const Keyframe* keyframe = map_.FindKeyframe(landmark.reference);
-    if (keyframe == nullptr) return {};
-    const auto* observation = FindObservation(keyframe->observations, landmark.id);
-    const Eigen::Vector3d x = keyframe->camera_from_world * landmark.x_in_world;
-    if (observation == nullptr || !observation->has_right || !(x.z() > kMinDepth)) return {};
-    return {observation->pixels - ProjectStereo4(camera_, correction_, x),
-            observation->sigma_px * observation->sigma_px};
-  }
-
   StereoCamera camera_;
   StereoCorrection correction_;
-  const LocalMap& map_;
   CorrectionBelief::Turns by_turn_;
   Rigid3 camera_from_world_;
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
@@ -120,30 +101,20 @@ class Solver {
   double squared_ = 0, num_coordinates_ = 0;  ///< errors in units of what is expected
 };
 
-/// Log odds of a turn against none.
-double LogOdds(const RightTurn& found) {
-  const Eigen::Matrix3d prior =
-      kTurnSigma_rad * kTurnSigma_rad * Eigen::Matrix3d::Identity() + found.covariance;
-  const double if_none = found.turn_rad.dot(found.covariance.ldlt().solve(found.turn_rad));
-  const double if_turned = found.turn_rad.dot(prior.ldlt().solve(found.turn_rad));
-  const double occam = std::log(prior.determinant() / found.covariance.determinant());
-  return kKnocked + (if_none - if_turned - occam) / 2;
-}
-
 }  // namespace
 
-std::optional<RightTurn> FindRightTurn(const StereoCamera& camera,
-                                       const StereoCorrection& correction, const LocalMap& map,
-                                       const std::vector<const Landmark*>& landmarks,
-                                       const LandmarkObservations& observations,
-                                       const Rigid3& camera_from_world) {
+std::optional<RightTurn> FindTurnAgainstMap(const StereoCamera& camera,
+                                            const StereoCorrection& correction,
+                                            const std::vector<const Landmark*>& landmarks,
+                                            const LandmarkObservations& observations,
+                                            const Rigid3& camera_from_world) {
   std::vector<size_t> seen;
   for (size_t i = 0; i < observations.size(); ++i) {
     if (observations[i].has_right) seen.push_back(i);
   }
   if (seen.size() < kLeast) return std::nullopt;
   const size_t every = 1 + seen.size() / kMost;
-  Solver solver(camera, correction, map, camera_from_world);
+  Solver solver(camera, correction, camera_from_world);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (size_t k = 0; k < seen.size(); k += every) {
       solver.Add(*landmarks[seen[k]], observations[seen[k]]);
@@ -151,9 +122,20 @@ std::optional<RightTurn> FindRightTurn(const StereoCamera& camera,
     solver.Step();
   }
   const RightTurn found = solver.Result();
-  const bool is_told = found.turn_rad.allFinite() && found.covariance.allFinite();
-  if (!is_told || LogOdds(found) < 0) return std::nullopt;
+  if (!found.turn_rad.allFinite() || !found.covariance.allFinite()) return std::nullopt;
   return found;
+}
+
+std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn& now) {
+  const RightTurn since{now.turn_rad - before.turn_rad, now.covariance + before.covariance};
+  const Eigen::Matrix3d if_turned =
+      kTurnSigma_rad * kTurnSigma_rad * Eigen::Matrix3d::Identity() + since.covariance;
+  const auto squared = [&](const Eigen::Matrix3d& covariance) {
+    return since.turn_rad.dot(covariance.ldlt().solve(since.turn_rad));
+  };
+  const double occam = std::log(if_turned.determinant() / since.covariance.determinant());
+  const double log_odds = kKnocked + (squared(since.covariance) - squared(if_turned) - occam) / 2;
+  return log_odds > 0 ? std::optional(since) : std::nullopt;
 }
 
 }  // namespace arfm_vo

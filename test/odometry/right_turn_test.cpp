@@ -24,9 +24,10 @@ class RightTurnTest : public ::testing::Test {
     }
   }
 
-  /// What the pair tells where the right camera has turned so, with a pose that is a little off.
-  std::optional<RightTurn> Find(const Eigen::Vector3d& turn_rad, double noise_px = 0.2) {
-    std::mt19937 random(2);
+  /// What a pair tells where the right camera stands so, with a pose that is a little off.
+  std::optional<RightTurn> AgainstMap(const Eigen::Vector3d& turn_rad, double noise_px = 0.2,
+                                      int seed = 2) {
+    std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, noise_px);
     const StereoCorrection turned{CorrectionBelief::ByTurn(kCamera) * turn_rad};
     std::vector<const Landmark*> seen;
@@ -42,7 +43,12 @@ class RightTurnTest : public ::testing::Test {
       observations.push_back(observation);
     }
     const Rigid3 off(ExpSO3({1e-4, 2e-4, 0}), Eigen::Vector3d(0, 0, 0.02));
-    return FindRightTurn(kCamera, {}, LocalMap(kCamera, {}), seen, observations, off * kPose);
+    return FindTurnAgainstMap(kCamera, {}, seen, observations, off * kPose);
+  }
+
+  std::optional<RightTurn> Since(const Eigen::Vector3d& before_rad, const Eigen::Vector3d& now_rad,
+                                 double noise_px = 0.2) {
+    return FindTurnSince(*AgainstMap(before_rad, noise_px, 2), *AgainstMap(now_rad, noise_px, 3));
   }
 
   const StereoCamera kCamera{500, 500, 320, 240, 0.3, 640, 480};
@@ -51,15 +57,16 @@ class RightTurnTest : public ::testing::Test {
 };
 
 TEST_F(RightTurnTest, FindsNoneWhereThereIsNone) {
-  EXPECT_FALSE(Find({0, 0, 0}));
-  EXPECT_FALSE(Find({0, 1e-4, 0})) << "0.05 px";
-  EXPECT_FALSE(Find({0, 0, 0}, 0.6)) << "noise that is not expected";
+  EXPECT_FALSE(Since({0, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(Since({0, 0, 0}, {0, 1e-4, 0})) << "0.05 px";
+  EXPECT_FALSE(Since({0, 0, 0}, {0, 0, 0}, 0.6)) << "noise that is not expected";
+  EXPECT_FALSE(Since({3e-3, 3e-3, 3e-3}, {3e-3, 3e-3, 3e-3})) << "it has always stood so";
 }
 
 TEST_F(RightTurnTest, FindsATurnAboutEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d turn_rad = 3e-3 * Eigen::Vector3d::Unit(axis);
-    const auto found = Find(turn_rad);
+    const auto found = Since({1e-3, 0, 0}, turn_rad + Eigen::Vector3d(1e-3, 0, 0));
     ASSERT_TRUE(found) << axis;
     const Eigen::Vector3d off = found->turn_rad - turn_rad;
     EXPECT_LT(off.norm(), 3e-4) << axis;
@@ -69,7 +76,7 @@ TEST_F(RightTurnTest, FindsATurnAboutEachAxis) {
 
 TEST_F(RightTurnTest, AFewPointsTellNothing) {
   landmarks_.resize(20);
-  EXPECT_FALSE(Find({0, 3e-3, 0}));
+  EXPECT_FALSE(AgainstMap({0, 3e-3, 0}));
 }
 
 }  // namespace

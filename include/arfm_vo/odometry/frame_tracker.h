@@ -48,9 +48,8 @@ struct TrackedFrame {
   bool is_odd_rest = false;            ///< the pose has not moved, most of the picture has
   double log_odds = 0;  ///< by this frame, that the pose is the ground's, not what moves on its own
   double log_odds_of_rival = 0;
-  double arrived = 0;  ///< LocalMap::arrived, by this frame
-  /// The right camera has turned since the frame before.
-  std::optional<RightTurn> right_turn;
+  double arrived = 0;                         ///< LocalMap::arrived, by this frame
+  std::optional<RightTurn> turn_against_map;  ///< how the right camera stands, where it is told
 };
 
 /// What is known of a frame before it is tracked.
@@ -58,7 +57,7 @@ struct Expectation {
   std::optional<PredictedPose> predicted;
   double log_odds = 0;    ///< that the map's poses are the ground's
   bool use_right = true;  ///< whether the right image is worth looking at
-  bool may_turn = false;  ///< whether the right camera's turns are looked for
+  bool may_turn = false;  ///< whether to tell how the right camera stands
   bool is_wary = false;   ///< whether to look for a rival even where most points agree
 };
 
@@ -93,10 +92,6 @@ class FrameTracker {
       const StereoImages& images, const LocalMap& map,
       const std::vector<const Landmark*>& landmarks, const Rigid3& camera_from_world,
       bool use_right) const;
-  /// Those of the landmarks that are seen.
-  Correspondences Correspond(const std::vector<const Landmark*>& landmarks,
-                             const std::vector<std::optional<LandmarkObservation>>& observations,
-                             const StereoCorrection& correction) const;
   void Align(const StereoImages& images, const LocalMap& map, const Expectation& expected,
              TrackedFrame& tracked) const;
 
