@@ -10,13 +10,8 @@
 namespace arfm_vo {
 namespace {
 
-/// Of what was counted for a landmark, at each further frame that tells of it.
-constexpr double kRemembered = 0.9;
 /// What a match that no pose explains counts against a landmark: it is wrong as a rule.
 constexpr double kMismatch = 0.3;
-
-/// What a pose tells that is the ground's with this probability: of even odds nothing.
-double Telling(double probability) { return std::max(0., 2 * probability - 1); }
 
 }  // namespace
 
@@ -175,9 +170,7 @@ void LocalMap::CountSightings(const std::vector<LandmarkId>& expected,
     Landmark& landmark = found->second;
     const bool is_seen = FindObservation(tracked, id) != nullptr;
     landmark.num_missed = is_seen ? 0 : landmark.num_missed + 1;
-    if (!is_seen) continue;
-    landmark.num_contradicted *= kRemembered;
-    landmark.num_agreed = kRemembered * landmark.num_agreed + Telling(probability);
+    if (is_seen) landmark.CountAgreed(probability);
   }
 }
 
@@ -187,11 +180,8 @@ void LocalMap::CountContradictions(const LandmarkObservations& contradicting,
   for (const LandmarkObservation& other : contradicting) {
     const auto found = landmarks_.find(other.landmark);
     if (found == landmarks_.end() || FindObservation(tracked, other.landmark)) continue;
-    Landmark& landmark = found->second;
     const double weight = FindObservation(of_rival, other.landmark) ? 1 : kMismatch;
-    landmark.num_agreed *= kRemembered;
-    landmark.num_contradicted =
-        kRemembered * landmark.num_contradicted + weight * Telling(probability);
+    found->second.CountContradicted(probability, weight);
   }
 }
 
@@ -238,13 +228,6 @@ void LocalMap::RemoveObservation(KeyframeId keyframe_id, LandmarkId landmark_id)
       MoveReference(landmark->second, keyframe.camera_from_world);
     }
   }
-}
-
-void LocalMap::Turn(const RightTurn& turn) {
-  std::optional<RightTurn>& sum = keyframes_.back().right_turn;
-  if (!sum) sum = RightTurn{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
-  sum->turn_rad += turn.turn_rad;
-  sum->covariance += turn.covariance;
 }
 
 void LocalMap::ForgetRight(KeyframeId before) {

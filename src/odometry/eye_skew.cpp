@@ -7,6 +7,7 @@
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/geometry/stereo_correction.h"
+#include "arfm_vo/odometry/odometry_update.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,6 +22,10 @@ constexpr double kMinSkew_s = 0.001, kSignificance = 3;
 constexpr double kMinDepth_m = 0.1;
 /// Of what frames told, at each further one: the skew may change.
 constexpr double kRemembered = 0.99;
+/// Share of the way by which the pose may be off for a skew that was not known on it.
+constexpr double kDoubt = 0.1;
+/// Known skew that moves what is seen by more than this is not made up for well enough to trust.
+constexpr double kMaxShiftPx = 1;
 
 }  // namespace
 
@@ -28,19 +33,30 @@ EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera)
   information_.setZero();
 }
 
-void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& observations,
-                           double stamp_s, const Rigid3& camera_from_world) {
+double EyeSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
+  Add(map, update);
+  update.skew = found_;
+  if (update.pose.IsTracked() && MedianShiftPx(map, update) >= kMaxShiftPx) {
+    update.Degrade(Reason::kSkewed);
+  }
+  const bool is_new = found_ && !is_known_;
+  is_known_ |= is_new;
+  return is_new ? kDoubt * update.pose.camera_from_world.Inverse().translation.norm() : 0;
+}
+
+void EyeSkewEstimator::Add(const LocalMap& map, const OdometryUpdate& update) {
+  const Rigid3& camera_from_world = update.pose.camera_from_world;
   if (!last_) {
-    last_ = Last{stamp_s, camera_from_world, {}, 0};
+    last_ = Last{update.stamp_s, camera_from_world, {}, 0};
     return;
   }
-  const double interval_s = stamp_s - last_->stamp_s;
+  const double interval_s = update.stamp_s - last_->stamp_s;
   if (interval_s <= 0) return;
   information_ *= kRemembered;
   right_side_ *= kRemembered;
   scatter_ *= kRemembered;
   score_.setZero();
-  for (const LandmarkObservation& observation : observations) {
+  for (const LandmarkObservation& observation : update.observations) {
     if (!observation.has_right) continue;
     const Eigen::Vector3d& x = map.landmarks().at(observation.landmark).x_in_world;
     const Eigen::Vector3d now = camera_from_world * x, before = last_->camera_from_world * x;
@@ -50,8 +66,8 @@ void EyeSkewEstimator::Add(const LocalMap& map, const LandmarkObservations& obse
   }
   scatter_ += score_ * score_.transpose();
   Solve();
-  last_ = Last{stamp_s, camera_from_world, camera_from_world * last_->camera_from_world.Inverse(),
-               interval_s};
+  last_ = Last{update.stamp_s, camera_from_world,
+               camera_from_world * last_->camera_from_world.Inverse(), interval_s};
 }
 
 void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s,
@@ -86,24 +102,23 @@ void EyeSkewEstimator::Solve() {
 }
 
 Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
-                                           const std::optional<Rigid3>& predicted) const {
+                                           const std::optional<PredictedPose>& predicted) const {
   if (!found_ || !last_) return {};
   if (predicted && stamp_s > last_->stamp_s) {
-    const Rigid3 now_from_last = *predicted * last_->camera_from_world.Inverse();
+    const Rigid3 now_from_last = predicted->camera_from_world * last_->camera_from_world.Inverse();
     return Interpolate({}, now_from_last, found_->s / (stamp_s - last_->stamp_s));
   }
   if (last_->interval_s == 0) return {};
   return Interpolate({}, last_->now_from_before, found_->s / last_->interval_s);
 }
 
-double EyeSkewEstimator::MedianShiftPx(const Rigid3& later_from_now, const LocalMap& map,
-                                       const LandmarkObservations& observations,
-                                       const Rigid3& camera_from_world) const {
-  if (later_from_now.IsIdentity()) return 0;
+double EyeSkewEstimator::MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const {
+  if (later_from_now_.IsIdentity()) return 0;
   std::vector<double> shifts_px;
-  for (const LandmarkObservation& observation : observations) {
+  for (const LandmarkObservation& observation : update.observations) {
     const Eigen::Vector3d& x = map.landmarks().at(observation.landmark).x_in_world;
-    shifts_px.push_back(ShiftOfRight(camera_, later_from_now, camera_from_world * x).norm());
+    const Eigen::Vector3d x_in_camera = update.pose.camera_from_world * x;
+    shifts_px.push_back(ShiftOfRight(camera_, later_from_now_, x_in_camera).norm());
   }
   return Median(std::move(shifts_px));
 }

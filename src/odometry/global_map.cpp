@@ -183,11 +183,6 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
     point.row = static_cast<int>(problem.points.size());
     problem.points.push_back(point.x_in_world);
   }
-  size_t most = 0;
-  for (int k = first_seeing; k < num_keyframes(); ++k) {
-    most += store_.keyframes[k].observations.size();
-  }
-  problem.observations.reserve(most);
   for (int k = first_seeing; k < num_keyframes(); ++k) {
     const int pose = k - first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_world);

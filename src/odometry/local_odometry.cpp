@@ -1,8 +1,6 @@
 #include "arfm_vo/odometry/local_odometry.h"
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/stopwatch.h"
@@ -12,8 +10,6 @@
 #include "arfm_vo/reconstruction/motion_stereo.h"
 #include "corrected_frame.h"
 #include "right_turn.h"
-#include "skew_compensation.h"
-#include "step_by_correction.h"
 #include "still_keypoints.h"
 #include "window_adjustment.h"
 
@@ -46,17 +42,14 @@ class LocalOdometry::Implementation {
         verdict_(camera.baseline_m),
         skew_(camera) {
     options.Check();
-    tracker_.SetCorrection(correction.mean);
-    covariance_.SetCorrection(correction);
+    SetCorrection(correction);
   }
 
   OdometryUpdate Process(const StereoFrame& measured, const StereoImages& images,
                          const std::optional<PredictedPose>& predicted) {
     Stopwatch stopwatch;
-    skew_.Advance(measured.stamp_s,
-                  predicted ? std::optional(predicted->camera_from_world) : std::nullopt);
+    skew_.Advance(measured.stamp_s, predicted);
     tracker_.SetMotionBetweenEyes(skew_.later_from_now());
-    const StereoCorrection before = correction_.mean;
     StereoFrame frame = Corrected(measured, camera_, correction_.mean, skew_.later_from_now());
     verdict_.Look(frame);
     const bool is_left_good = verdict_.left_fault() == Reason::kNone;
@@ -68,7 +61,7 @@ class LocalOdometry::Implementation {
                        static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
     FlagStill(camera_, newest_features_, frame);
-    FinishAdjustment();
+    adjustment_.Finish(map_, covariance_);
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
       Start(frame, update);
@@ -83,11 +76,15 @@ class LocalOdometry::Implementation {
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
-      if (before.coefficients_px != correction_.mean.coefficients_px) {
+      if (is_right_good) {
         frame.points =
             Corrected(measured, camera_, correction_.mean, skew_.later_from_now()).points;
+      } else {
+        frame.points = TriangulateByMotion(
+            camera_, correction_.mean, {frame.features, update.pose.camera_from_world},
+            {newest_features_, map_.keyframes().back().camera_from_world},
+            options_.tracker.matching.keypoint_sigma);
       }
-      if (!is_right_good) frame.points = PointsByMotion(frame, update);
       RemoveFixed(update.pose.camera_from_world, frame);
       AddKeyframe(frame, images, update);
       newest_features_ = frame.features;
@@ -97,38 +94,32 @@ class LocalOdometry::Implementation {
   }
 
   void Apply(const MapUpdate& update) {
-    FinishAdjustment();
-    const CorrectionBelief& learnt = update.correction;
-    const bool is_new = correction_.mean.coefficients_px != learnt.mean.coefficients_px ||
-                        correction_.covariance != learnt.covariance;
-    if (is_new) covariance_.SetCorrection(learnt);
-    correction_ = update.correction;
-    const auto is_told = [&](const Turned& one) { return one.from <= update.keyframes.back().id; };
-    turned_.erase(std::remove_if(turned_.begin(), turned_.end(), is_told), turned_.end());
-    for (const Turned& one : turned_) correction_ = correction_.After(one.turn, camera_);
-    tracker_.SetCorrection(correction_.mean);
+    adjustment_.Finish(map_, covariance_);
+    const CorrectionBelief learnt =
+        turns_.Follow(update.correction, update.keyframes.back().id, camera_);
+    if (!(learnt == correction_)) SetCorrection(learnt);
     ApplyMapUpdate(update, map_);
   }
 
   void Reset() {
-    FinishAdjustment();
+    adjustment_.Finish(map_, covariance_);
     verdict_.Reset(!map_.keyframes().empty());
     map_.Clear();
     standstill_.Reset();
     skew_.Interrupt();
     covariance_.Clear();
     archive_.Clear();
-    turn_against_map_.reset();
+    turns_.Interrupt();
   }
 
   const LocalMap& map() const { return map_; }
 
  private:
-  /// The right camera has turned, from this keyframe on.
-  struct Turned {
-    KeyframeId from;
-    RightTurn turn;
-  };
+  void SetCorrection(const CorrectionBelief& correction) {
+    correction_ = correction;
+    tracker_.SetCorrection(correction.mean);
+    covariance_.SetCorrection(correction);
+  }
 
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
     update.pose.num_matches = static_cast<int>(frame.points.size());
@@ -138,8 +129,7 @@ class LocalOdometry::Implementation {
     }
     update.pose.status = PoseStatus::kTracked;
     update.pose.num_inliers = update.pose.num_matches;
-    update.pose.covariance.setIdentity();
-    update.pose.covariance *= 1e-12;  // the world is this camera
+    update.pose.covariance.diagonal().fill(1e-12);  // the world is this camera
     update.covariance_from_start = update.pose.covariance;
     covariance_.Begin(update.pose.camera_from_world, update.pose.covariance);
     update.is_keyframe = true;
@@ -180,23 +170,18 @@ class LocalOdometry::Implementation {
     update.observations = std::move(tracked.observations);
     contradicting_ = std::move(tracked.contradicting);
     covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
-    FindCovariance(update);
+    covariance_.AddPose(map_.keyframes().back(), update.pose.camera_from_world,
+                        FindDrift(camera_, correction_.mean, map_, update, options_.bundle.solver));
+    update.covariance_from_start = covariance_.OfNewest();
   }
 
   /// Whether the right camera has turned since the pair before; that is taken over.
   bool HasTurned(const TrackedFrame& tracked) {
-    if (!tracked.turn_against_map) return false;
-    const auto before = std::exchange(turn_against_map_, tracked.turn_against_map);
-    const auto turn =
-        before ? FindTurnSince(*before, *tracked.turn_against_map) : std::optional<RightTurn>();
-    if (!turn) return false;
-    turn_against_map_ = before;
-    correction_ = correction_.After(*turn, camera_);
-    tracker_.SetCorrection(correction_.mean);
-    covariance_.SetCorrection(correction_);
     const KeyframeId next = map_.keyframes().back().id + 1;
+    const auto turn = turns_.Look(tracked.turn_against_map, next);
+    if (!turn) return false;
+    SetCorrection(correction_.After(*turn, camera_));
     map_.ForgetRight(next);
-    turned_.push_back({next, *turn});
     return true;
   }
 
@@ -207,20 +192,9 @@ class LocalOdometry::Implementation {
     if (!map_.keyframes().empty()) {
       before_from_now = map_.keyframes().back().camera_from_world * camera_from_world.Inverse();
     }
-    const FixedPoints fixed = FindFixed(camera_, frame, before_from_now);
-    if (before_from_now && fixed.share) verdict_.CountFixed(*fixed.share);
-    if (!verdict_.IsSomethingFixed()) return;
-    auto& points = frame.points;
-    const auto hides = [&](const auto& point) { return fixed.is_fixed[point.keypoint] != 0; };
-    points.erase(std::remove_if(points.begin(), points.end(), hides), points.end());
-  }
-
-  /// New points without a right image.
-  StereoPoints PointsByMotion(const StereoFrame& frame, const OdometryUpdate& update) const {
-    return TriangulateByMotion(camera_, correction_.mean,
-                               {frame.features, update.pose.camera_from_world},
-                               {newest_features_, map_.keyframes().back().camera_from_world},
-                               options_.tracker.matching.keypoint_sigma);
+    const FixedPoints fixed(camera_, frame, before_from_now);
+    if (fixed.share) verdict_.CountFixed(*fixed.share);
+    if (verdict_.IsSomethingFixed()) fixed.RemoveFrom(frame);
   }
 
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
@@ -233,7 +207,7 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     covariance_.Begin(place->pose.camera_from_world, place->covariance_from_start);
-    turn_against_map_.reset();
+    turns_.Interrupt();
     update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
@@ -248,33 +222,10 @@ class LocalOdometry::Implementation {
     if (is_full) Retire(map_.keyframes().front());
     const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
                                                 update.observations, contradicting_);
-    for (const Turned& one : turned_) {
-      if (one.from == keyframe.id) map_.Turn(one.turn);
-    }
+    if (const auto turn = turns_.Before(keyframe.id)) map_.Turn(*turn);
     covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
-  }
-
-  void FindCovariance(OdometryUpdate& update) {
-    const Keyframe& newest = map_.keyframes().back();
-    const Rigid3& camera_from_world = update.pose.camera_from_world;
-    covariance_.AddPose(
-        newest, camera_from_world,
-        {update.pose.covariance,
-         FindStepByCorrection(camera_, correction_.mean, map_.landmarks(),
-                              {newest.camera_from_world, newest.observations},
-                              {camera_from_world, update.observations}, options_.bundle.solver)});
-    update.covariance_from_start = covariance_.OfNewest();
-  }
-
-  /// Takes over what the adjustment of the last keyframe found: always before the next frame, so
-  /// that the result does not depend on how fast threads run.
-  void FinishAdjustment() {
-    const auto adjusted = adjustment_.Take();
-    if (!adjusted) return;
-    ApplyLocalBundle(adjusted->bundle, adjusted->result, map_);
-    covariance_.Update(adjusted->bundle, adjusted->information);
   }
 
   StereoCamera camera_;
@@ -288,10 +239,11 @@ class LocalOdometry::Implementation {
   Features newest_features_;            ///< of the newest keyframe
   LandmarkObservations contradicting_;  ///< of the last tracked frame
   PathCovariance covariance_;
-  std::optional<RightTurn> turn_against_map_;  ///< of the right camera, as the last pair told
-  std::vector<Turned> turned_;                 ///< of which no adjustment knows yet
-  SkewCompensation skew_;
-  WindowAdjustment adjustment_;  ///< the map stays as it is while one runs
+  RightTurns turns_;
+  EyeSkewEstimator skew_;
+  /// Of the last keyframe. It is finished before the next frame, so that the result does not depend
+  /// on how fast threads run; the map stays as it is while it runs.
+  WindowAdjustment adjustment_;
 };
 
 LocalOdometry::LocalOdometry(const StereoCamera& camera, const LocalOdometryOptions& options,

@@ -138,4 +138,29 @@ std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn&
   return log_odds > 0 ? std::optional(since) : std::nullopt;
 }
 
+std::optional<RightTurn> RightTurns::Look(const std::optional<RightTurn>& against_map,
+                                          KeyframeId next) {
+  if (!against_map) return std::nullopt;
+  const auto turn =
+      against_map_ ? FindTurnSince(*against_map_, *against_map) : std::optional<RightTurn>();
+  if (turn) {
+    turns_[next] += *turn;  // and the map is seen with it, as before
+  } else {
+    against_map_ = against_map;
+  }
+  return turn;
+}
+
+std::optional<RightTurn> RightTurns::Before(KeyframeId keyframe) const {
+  const auto found = turns_.find(keyframe);
+  return found == turns_.end() ? std::nullopt : std::optional(found->second);
+}
+
+CorrectionBelief RightTurns::Follow(CorrectionBelief learnt, KeyframeId newest,
+                                    const StereoCamera& camera) {
+  turns_.erase(turns_.begin(), turns_.upper_bound(newest));
+  for (const auto& [keyframe, turn] : turns_) learnt = learnt.After(turn, camera);
+  return learnt;
+}
+
 }  // namespace arfm_vo

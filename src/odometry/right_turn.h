@@ -1,12 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
-#include "arfm_vo/mapping/landmark.h"
+#include "arfm_vo/mapping/keyframe.h"
 
 namespace arfm_vo {
 
@@ -24,5 +25,23 @@ std::optional<RightTurn> FindTurnAgainstMap(const StereoCamera& camera,
 /// the calibration is off by is the same in both. Nothing where a turn is not likelier, by the
 /// prior rate of knocks, than none.
 std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn& now);
+
+/// The right camera's turns, from pair to pair.
+class RightTurns {
+ public:
+  /// Takes how the right camera stands against the map in the next pair, where that is told.
+  /// Returns how it has turned since the pair before; `next` is the next keyframe.
+  std::optional<RightTurn> Look(const std::optional<RightTurn>& against_map, KeyframeId next);
+  /// How it has turned between this keyframe and the one before.
+  std::optional<RightTurn> Before(KeyframeId keyframe) const;
+  /// What was learnt from the keyframes up to `newest`, with the turns after it.
+  CorrectionBelief Follow(CorrectionBelief learnt, KeyframeId newest, const StereoCamera& camera);
+  /// The next pair does not follow the last one, or is told by another map.
+  void Interrupt() { against_map_.reset(); }
+
+ private:
+  std::optional<RightTurn> against_map_;   ///< as the last pair told
+  std::map<KeyframeId, RightTurn> turns_;  ///< of which no adjustment knows yet
+};
 
 }  // namespace arfm_vo

@@ -87,20 +87,24 @@ void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& 
   frame.rest_log_ratio = RestLogRatio(camera, frame);
 }
 
-FixedPoints FindFixed(const StereoCamera& camera, const StereoFrame& frame,
-                      const std::optional<Rigid3>& before_from_now) {
-  FixedPoints fixed;
-  fixed.is_fixed.resize(frame.features.size());
+FixedPoints::FixedPoints(const StereoCamera& camera, const StereoFrame& frame,
+                         const std::optional<Rigid3>& before_from_now)
+    : is_fixed(frame.features.size()) {
   int num_moved = 0, num_fixed = 0;
   for (const StereoPoint& point : frame.points) {
     const double reach_px = 2 * StillReach(frame.features.keypoints[point.keypoint]);
     if (before_from_now && LeastFlow(camera, *before_from_now, point) <= reach_px) continue;
-    fixed.is_fixed[point.keypoint] = frame.is_still[point.keypoint];
+    is_fixed[point.keypoint] = frame.is_still[point.keypoint];
     num_fixed += frame.is_still[point.keypoint];
     ++num_moved;
   }
-  if (num_moved > 0) fixed.share = static_cast<double>(num_fixed) / num_moved;
-  return fixed;
+  if (before_from_now && num_moved > 0) share = static_cast<double>(num_fixed) / num_moved;
+}
+
+void FixedPoints::RemoveFrom(StereoFrame& frame) const {
+  auto& points = frame.points;
+  const auto hides = [&](const auto& point) { return is_fixed[point.keypoint] != 0; };
+  points.erase(std::remove_if(points.begin(), points.end(), hides), points.end());
 }
 
 }  // namespace arfm_vo

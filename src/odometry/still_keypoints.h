@@ -14,14 +14,16 @@ namespace arfm_vo {
 /// of the picture, so each of its 4 x 3 regions counts once.
 void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame);
 
+/// Those of `frame.points` that are fixed before the camera: still, though they must have moved in
+/// the picture as the camera has moved since the newest keyframe.
 struct FixedPoints {
-  std::vector<char> is_fixed;   ///< [features] still, though it must have moved in the picture
-  std::optional<double> share;  ///< of the points that must have
-};
+  /// Where the camera's motion is not known all that is still is taken to be fixed.
+  FixedPoints(const StereoCamera& camera, const StereoFrame& frame,
+              const std::optional<Rigid3>& before_from_now);
+  void RemoveFrom(StereoFrame& frame) const;
 
-/// What of `frame.points` is fixed before the camera, which has moved so since the newest keyframe;
-/// where that is not known all that is still.
-FixedPoints FindFixed(const StereoCamera& camera, const StereoFrame& frame,
-                      const std::optional<Rigid3>& before_from_now);
+  std::vector<char> is_fixed;   ///< [features]
+  std::optional<double> share;  ///< of the points that must have moved; where the motion is known
+};
 
 }  // namespace arfm_vo

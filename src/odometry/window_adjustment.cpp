@@ -14,9 +14,11 @@ void WindowAdjustment::Start(const StereoCamera& camera, const StereoCorrection&
   });
 }
 
-std::optional<AdjustedWindow> WindowAdjustment::Take() {
-  if (!pending_.valid()) return std::nullopt;
-  return pending_.get();
+void WindowAdjustment::Finish(LocalMap& map, PathCovariance& covariance) {
+  if (!pending_.valid()) return;
+  const AdjustedWindow adjusted = pending_.get();
+  ApplyLocalBundle(adjusted.bundle, adjusted.result, map);
+  covariance.Update(adjusted.bundle, adjusted.information);
 }
 
 }  // namespace arfm_vo

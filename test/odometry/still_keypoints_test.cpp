@@ -56,13 +56,13 @@ TEST(StillKeypoints, AnotherDescriptorIsAnotherThing) {
 TEST(StillKeypoints, FixedIsWhatTheMotionShouldHaveMoved) {
   const Rigid3 before_from_now(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.5, 0, 0));
   const double covered_px = kCamera.width / 3.;
-  const auto fixed = FindFixed(kCamera, Flagged(MakeGrid(covered_px, 15)), before_from_now);
+  const FixedPoints fixed(kCamera, Flagged(MakeGrid(covered_px, 15)), before_from_now);
   ASSERT_TRUE(fixed.share);
   EXPECT_NEAR(*fixed.share, 1 / 3., 0.07);
-  const auto at_rest = FindFixed(kCamera, Flagged(MakeGrid(covered_px, 15)), Rigid3());
+  const FixedPoints at_rest(kCamera, Flagged(MakeGrid(covered_px, 15)), Rigid3());
   EXPECT_FALSE(at_rest.share);
   // So far away nothing moves in the picture: it is not fixed to the camera.
-  const auto far = FindFixed(kCamera, Flagged(MakeGrid(0, 0, 1)), before_from_now);
+  const FixedPoints far(kCamera, Flagged(MakeGrid(0, 0, 1)), before_from_now);
   EXPECT_FALSE(far.share);
 }
 

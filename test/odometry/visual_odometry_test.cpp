@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
+#include "base/held_memory.h"
 #include "image/image_noise.h"
 #include "ros/textured_wall.h"
 
@@ -102,6 +103,18 @@ TEST_F(VisualOdometryTest, RefusesImagesThatDoNotFitTheCamera) {
   images.left = images.left.colRange(0, 100).clone();
   images.right = images.right.colRange(0, 100).clone();
   EXPECT_THROW(odometry_.Process(images), std::invalid_argument);
+}
+
+TEST(StereoFrontend, MemoryDoesNotGrowWithTheNumberOfPairs) {
+  const StereoCamera camera{50, 50, 31.5, 23.5, 0.5, 64, 48};
+  StereoFrontend frontend(camera, FrontendOptions());
+  const cv::Mat grey = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
+  double before_mb = 0;
+  for (int i = 0; i < 600; ++i) {
+    if (i == 100) before_mb = HeldMemoryMb();
+    frontend.Process({0.1 * i, grey, grey});
+  }
+  EXPECT_LT(HeldMemoryMb() - before_mb, 0.1);
 }
 
 }  // namespace

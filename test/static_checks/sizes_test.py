@@ -19,14 +19,14 @@ LARGER = {
     "test/hardware": 28, "test/nodes": 33, "test/odometry": 27, "test/recordings": 26,
     # Lines.
     "src/driving/drive_state.cpp, a function": 73,  # a switch over all reasons
-    "src/mapping/local_map.cpp": 266, "src/odometry/global_map.cpp": 268,
+    "src/mapping/local_map.cpp": 259, "src/odometry/global_map.cpp": 265,
     "src/odometry/local_odometry.cpp": 262, "test/odometry/global_map_test.cpp": 260, "src/pose/pose_election.cpp": 261,
     "test/bundle_adjustment/bundle_adjustment_test.cpp": 350, "test/bundle_adjustment/bundle_scene.h": 153,
     "test/calibration/rendered_board.h": 168, "test/experiments/experiments_report.py": 352,
     "test/experiments/matching_experiment.cpp": 263, "test/features/plain_surf.h": 195, "test/hardware/pan_tilt_test.cpp": 300,
     "test/nodes/chassis_node_test.cpp": 583, "test/nodes/odometry_chain_test.cpp": 345, "test/odometry/session_test.cpp": 373,
     "test/pose/pose_estimator_test.cpp": 288, "test/pose/pose_refinement_test.cpp": 269, "test/programs/programs_test.cpp": 263,
-    "test/ros/messages/conversions_test.cpp": 255, "test/ros/valid_messages.h": 155,
+    "test/ros/messages/conversions_test.cpp": 254, "test/ros/valid_messages.h": 155,
     "test/simulation/fault_table_test.cpp": 430, "test/simulation/simulated_drive.h": 146,
     "test/synthetic/simulated_run_test.cpp": 263,
 }

@@ -6,8 +6,14 @@ namespace arfm_vo {
 
 /// How the right camera has turned against the left one.
 struct RightTurn {
-  Eigen::Vector3d turn_rad;
-  Eigen::Matrix3d covariance;  ///< rad^2
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< rad^2
+
+  RightTurn& operator+=(const RightTurn& next) {
+    turn_rad += next.turn_rad;
+    covariance += next.covariance;
+    return *this;
+  }
 };
 
 /// What is known of a StereoCorrection: a normal distribution of its coefficients.
@@ -31,6 +37,10 @@ struct CorrectionBelief {
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
   /// Of a calibration that is right: within a thousandth of a pixel, so that it can be inverted.
   static CorrectionBelief OfExactCalibration() { return Isotropic(kExactSigmaPx); }
+  bool operator==(const CorrectionBelief& other) const {
+    return mean.coefficients_px == other.mean.coefficients_px && covariance == other.covariance &&
+           is_of_earlier_drive == other.is_of_earlier_drive;
+  }
   bool IsExact() const { return covariance.diagonal().maxCoeff() <= kExactSigmaPx * kExactSigmaPx; }
 
   /// What this belief of an earlier drive says of this one: meanwhile a knock, or warmth, may have

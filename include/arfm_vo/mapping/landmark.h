@@ -35,6 +35,17 @@ struct Landmark {
   /// not, if nothing has.
   double doubt = 0;
 
+  /// A frame has told of it, whose pose is the ground's with this probability: the landmark agreed.
+  void CountAgreed(double probability) {
+    num_contradicted *= kRemembered;
+    num_agreed = kRemembered * num_agreed + Telling(probability);
+  }
+  /// It was seen elsewhere.
+  void CountContradicted(double probability, double weight) {
+    num_agreed *= kRemembered;
+    num_contradicted = kRemembered * num_contradicted + weight * Telling(probability);
+  }
+
   /// That it belongs to the ground, not to what moves on its own; 0: it is not known. By what
   /// poses have told of it alone.
   double LogOddsOfGround() const { return std::log((num_agreed + 0.3) / (num_contradicted + 0.3)); }
@@ -42,6 +53,12 @@ struct Landmark {
   double LogOddsOfGround(double arrived) const {
     return LogOddsOfGround() + (1 - 2 * arrived) * doubt;
   }
+
+ private:
+  /// Of what was counted, at each further frame that tells.
+  static constexpr double kRemembered = 0.9;
+  /// What a pose tells that is the ground's with this probability: of even odds nothing.
+  static double Telling(double probability) { return std::max(0., 2 * probability - 1); }
 };
 
 /// Where a frame saw a landmark.

@@ -75,7 +75,7 @@ class LocalMap {
   /// Forgets that a keyframe saw a landmark; a landmark that nobody sees leaves the map.
   void RemoveObservation(KeyframeId keyframe, LandmarkId landmark);
   /// The right camera has turned since the keyframe before the newest.
-  void Turn(const RightTurn& turn);
+  void Turn(const RightTurn& turn) { keyframes_.back().right_turn = turn; }
   /// Forgets what the right eye saw in the keyframes before this one.
   void ForgetRight(KeyframeId before);
   /// Applies `new_from_old` to the whole map: all poses and points.

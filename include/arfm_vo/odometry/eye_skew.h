@@ -6,34 +6,39 @@
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/pose/pose_estimator.h"
 
 namespace arfm_vo {
+
+struct OdometryUpdate;
 
 /// How much later than the left picture the right one is taken (earlier: negative).
 struct EyeSkew {
   double s = 0, sigma_s = 0;
 };
 
-/// Estimates the skew from rows. In a still rig left and right rows differ by a field over the
-/// image that stays (StereoCorrection); with skew they differ besides by the skew times the speed
-/// at which a point's row moves. Both are estimated together by least squares over all frames.
+/// Estimates the skew from rows, and how the camera moves between a pair's pictures. In a still rig
+/// left and right rows differ by a field over the image that stays (StereoCorrection); with skew
+/// they differ besides by the skew times the speed at which a point's row moves. Both are estimated
+/// together by least squares over all frames.
 class EyeSkewEstimator {
  public:
   explicit EyeSkewEstimator(const StereoCamera& camera);
 
-  /// A tracked frame and what both eyes saw in it, right pixels moved to where they would be
-  /// without the skew that Find() told before.
-  void Add(const LocalMap& map, const LandmarkObservations& observations, double stamp_s,
-           const Rigid3& camera_from_world);
-  /// Nothing where it may well be none: that is no more than a millisecond, give or take.
-  const std::optional<EyeSkew>& Find() const { return found_; }
-  /// The camera's motion (later_from_now) from a left picture to its right one, at the speed of the
-  /// way to `predicted`, or of the last way; none where there is no skew to be found.
-  Rigid3 MotionBetweenEyes(double stamp_s, const std::optional<Rigid3>& predicted) const;
-  /// How far that motion moves what the right eye sees of the observed landmarks, px, their median.
-  double MedianShiftPx(const Rigid3& later_from_now, const LocalMap& map,
-                       const LandmarkObservations& observations,
-                       const Rigid3& camera_from_world) const;
+  /// Takes the next pair, with the pose that is expected for it.
+  void Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
+    later_from_now_ = MotionBetweenEyes(stamp_s, predicted);
+  }
+  /// The camera's motion from the pair's left picture to its right one; none where there is no skew
+  /// to be found.
+  const Rigid3& later_from_now() const { return later_from_now_; }
+
+  /// Learns from the pair's pose and what both eyes saw, right pixels moved to where they would be
+  /// without that motion; sets its skew: nothing where it may well be none, that is no more than a
+  /// millisecond, give or take. The pose is degraded where the motion is too large to be made up
+  /// for well. Returns by how much the way up to here may be wrong besides, m: that of all before
+  /// the skew was found.
+  double Learn(const LocalMap& map, OdometryUpdate& update);
   /// The next frame does not follow the last one.
   void Interrupt() { last_.reset(); }
 
@@ -47,6 +52,11 @@ class EyeSkewEstimator {
     Rigid3 now_from_before;
     double interval_s;  ///< of that motion; 0: none is known
   };
+  void Add(const LocalMap& map, const OdometryUpdate& update);
+  /// At the speed of the way to `predicted`, or of the last way.
+  Rigid3 MotionBetweenEyes(double stamp_s, const std::optional<PredictedPose>& predicted) const;
+  /// How far the motion moves what the right eye sees of the observed landmarks, px, their median.
+  double MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const;
   void AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s, double sigma_px);
   void Solve();
 
@@ -56,6 +66,8 @@ class EyeSkewEstimator {
   Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
   std::optional<EyeSkew> found_;  ///< where it is significant
+  bool is_known_ = false;         ///< it was found once
+  Rigid3 later_from_now_;
   std::optional<Last> last_;
 };
 

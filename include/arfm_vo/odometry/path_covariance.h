@@ -5,6 +5,7 @@
 #include "arfm_vo/mapping/keyframe.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/local_bundle.h"
+#include "arfm_vo/odometry/odometry_update.h"
 
 namespace arfm_vo {
 
@@ -31,6 +32,11 @@ class UnknownWay {
   Eigen::Vector3d newest_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d closed_ = Eigen::Matrix3d::Zero();  ///< up to start_
 };
+
+/// The drift of a pose against the newest keyframe: its own covariance, and what the correction
+/// does by the points that both see, some 100 of them: zero where these do not fix the pose.
+PoseDrift FindDrift(const StereoCamera& camera, const StereoCorrection& correction,
+                    const LocalMap& map, const OdometryUpdate& update, const BundleOptions& solver);
 
 /// How unsure the newest pose and the map's keyframes are against the first camera of all: what
 /// drifts from keyframe to keyframe, and the ways whose length was not known. All covariances are

@@ -46,9 +46,7 @@ std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& 
 }
 
 void LearnedCalibration::Write(const CorrectionBelief& correction) {
-  const bool is_new = correction.mean.coefficients_px != written_.mean.coefficients_px ||
-                      correction.covariance != written_.covariance;
-  if (!options_.remember_calibration || !camera_ || !is_new) return;
+  if (!options_.remember_calibration || !camera_ || correction == written_) return;
   try {
     WriteLearnedCorrection(Path(), *camera_, correction);
     written_ = correction;
