@@ -33,13 +33,13 @@ class LocalOdometry::Implementation {
   Implementation(const StereoCamera& camera, const LocalOdometryOptions& options,
                  const CorrectionBelief& correction)
       : camera_(camera),
-        correction_(correction),
         options_(options),
         tracker_(camera, options.tracker),
         map_(camera, options.map),
         standstill_(options.standstill),
         archive_(camera, options.archive),
         verdict_(camera.baseline_m),
+        turns_(correction, camera),
         skew_(camera) {
     options.Check();
     SetCorrection(correction);
@@ -97,7 +97,8 @@ class LocalOdometry::Implementation {
     adjustment_.Finish(map_, covariance_);
     const CorrectionBelief learnt =
         turns_.Follow(update.correction, update.keyframes.back().id, camera_);
-    if (!(learnt == correction_)) SetCorrection(learnt);
+    SetCorrection(learnt);
+    turns_.Interrupt(learnt, camera_);
     ApplyMapUpdate(update, map_);
   }
 
@@ -109,16 +110,16 @@ class LocalOdometry::Implementation {
     skew_.Interrupt();
     covariance_.Clear();
     archive_.Clear();
-    turns_.Interrupt();
+    turns_.Interrupt(correction_, camera_);
   }
 
   const LocalMap& map() const { return map_; }
 
  private:
   void SetCorrection(const CorrectionBelief& correction) {
+    if (!(correction == correction_)) covariance_.SetCorrection(correction);
     correction_ = correction;
     tracker_.SetCorrection(correction.mean);
-    covariance_.SetCorrection(correction);
   }
 
   void Start(const StereoFrame& frame, OdometryUpdate& update) {
@@ -207,7 +208,7 @@ class LocalOdometry::Implementation {
     update.pose = place->pose;
     update.covariance_from_start = place->covariance_from_start;
     covariance_.Begin(place->pose.camera_from_world, place->covariance_from_start);
-    turns_.Interrupt();
+    turns_.Interrupt(correction_, camera_);
     update.is_keyframe = update.is_relocalised = true;
     contradicting_.clear();
   }
@@ -241,8 +242,8 @@ class LocalOdometry::Implementation {
   PathCovariance covariance_;
   RightTurns turns_;
   EyeSkewEstimator skew_;
-  /// Of the last keyframe. It is finished before the next frame, so that the result does not depend
-  /// on how fast threads run; the map stays as it is while it runs.
+  /// Of the last keyframe, finished before the next frame: a result does not depend on how fast
+  /// threads run. The map stays as it is meanwhile.
   WindowAdjustment adjustment_;
 };
 

@@ -12,9 +12,8 @@
 namespace arfm_vo {
 namespace {
 
-/// How far a knock turns a camera, about each axis; and its log odds for one pair: a knock in
-/// hours.
-constexpr double kTurnSigma_rad = 2e-3, kKnocked = -11;
+/// Log odds of a knock between two pairs: one in hours.
+constexpr double kKnocked = -11;
 /// A pair errs as a whole by so much.
 constexpr double kCommonSigma_px = 0.1;
 /// Observations that are looked at, at most, and those that suffice.
@@ -129,7 +128,8 @@ std::optional<RightTurn> FindTurnAgainstMap(const StereoCamera& camera,
 std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn& now) {
   const RightTurn since{now.turn_rad - before.turn_rad, now.covariance + before.covariance};
   const Eigen::Matrix3d if_turned =
-      kTurnSigma_rad * kTurnSigma_rad * Eigen::Matrix3d::Identity() + since.covariance;
+      RightTurn::kKnockSigma_rad * RightTurn::kKnockSigma_rad * Eigen::Matrix3d::Identity() +
+      since.covariance;
   const auto squared = [&](const Eigen::Matrix3d& covariance) {
     return since.turn_rad.dot(covariance.ldlt().solve(since.turn_rad));
   };
@@ -141,14 +141,20 @@ std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn&
 std::optional<RightTurn> RightTurns::Look(const std::optional<RightTurn>& against_map,
                                           KeyframeId next) {
   if (!against_map) return std::nullopt;
-  const auto turn =
-      against_map_ ? FindTurnSince(*against_map_, *against_map) : std::optional<RightTurn>();
+  const auto turn = FindTurnSince(against_map_, *against_map);
   if (turn) {
     turns_[next] += *turn;  // and the map is seen with it, as before
   } else {
-    against_map_ = against_map;
+    against_map_ = *against_map;
   }
   return turn;
+}
+
+void RightTurns::Interrupt(const CorrectionBelief& correction, const StereoCamera& camera) {
+  const CorrectionBelief::Turns by_turn = CorrectionBelief::ByTurn(camera);
+  const Eigen::Matrix<double, 3, StereoCorrection::kSize> as_turn =
+      (by_turn.transpose() * by_turn).inverse() * by_turn.transpose();
+  against_map_ = {Eigen::Vector3d::Zero(), as_turn * correction.covariance * as_turn.transpose()};
 }
 
 std::optional<RightTurn> RightTurns::Before(KeyframeId keyframe) const {

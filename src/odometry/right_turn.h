@@ -29,6 +29,9 @@ std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn&
 /// The right camera's turns, from pair to pair.
 class RightTurns {
  public:
+  RightTurns(const CorrectionBelief& correction, const StereoCamera& camera) {
+    Interrupt(correction, camera);
+  }
   /// Takes how the right camera stands against the map in the next pair, where that is told.
   /// Returns how it has turned since the pair before; `next` is the next keyframe.
   std::optional<RightTurn> Look(const std::optional<RightTurn>& against_map, KeyframeId next);
@@ -36,11 +39,12 @@ class RightTurns {
   std::optional<RightTurn> Before(KeyframeId keyframe) const;
   /// What was learnt from the keyframes up to `newest`, with the turns after it.
   CorrectionBelief Follow(CorrectionBelief learnt, KeyframeId newest, const StereoCamera& camera);
-  /// The next pair does not follow the last one, or is told by another map.
-  void Interrupt() { against_map_.reset(); }
+  /// The next pair does not follow the last one, or is told by another map: what the calibration
+  /// may be off by is all that is known of how it will find the right camera.
+  void Interrupt(const CorrectionBelief& correction, const StereoCamera& camera);
 
  private:
-  std::optional<RightTurn> against_map_;   ///< as the last pair told
+  RightTurn against_map_;                  ///< as the last pair told
   std::map<KeyframeId, RightTurn> turns_;  ///< of which no adjustment knows yet
 };
 

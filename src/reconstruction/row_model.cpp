@@ -34,6 +34,16 @@ RowModel::RowModel(const StereoCamera& camera, const CorrectionBelief& prior)
   camera.Check();
 }
 
+RowModel RowModel::AfterAKnock() const {
+  const auto by_turn = CorrectionBelief::ByTurn(camera_).bottomRows<kNumTerms>().eval();
+  const Information turned =
+      RightTurn::kKnockSigma_rad * RightTurn::kKnockSigma_rad * by_turn * by_turn.transpose();
+  RowModel after = *this;
+  after.information_ = (information_.inverse() + turned).inverse();
+  after.weighted_sum_ = after.information_ * coefficients_;
+  return after;
+}
+
 double RowModel::Predict(double u_right, double v_right) const {
   return coefficients_.dot(ImageBasis(camera_, {u_right, v_right}).values);
 }

@@ -12,8 +12,6 @@ namespace {
 
 /// Before the rows are learnt they may be off by this much more.
 constexpr double kUnknownRowsPx = 2;
-/// After so many pairs in a row whose rows do not agree they are learnt anew.
-constexpr int kMaxDisagreeing = 50;
 
 /// Where a smaller share of the left keypoints is matched it is worth a look: 0.17..0.44 where the
 /// eyes are swapped, 0.47 and more where they are in place, in the recordings of docs/stress.md.
@@ -193,10 +191,15 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   const RowModel before = row_model_;
   LearnRows(left, sightings);
   StereoPoints points = Triangulate(left, sightings);
-  // Pictures of two moments teach nothing, unless they stay as they are: a camera that moved.
-  const bool agrees = row_agreement_ >= kMinRowAgreement;
-  num_disagreeing_ = agrees ? 0 : num_disagreeing_ + 1;
-  if (!agrees && before.IsLearnt() && num_disagreeing_ < kMaxDisagreeing) row_model_ = before;
+  if (row_agreement_ >= kMinRowAgreement || !before.IsLearnt()) return points;
+  // Either the right camera was knocked, or these are pictures of two moments, which teach nothing.
+  const double agreement = row_agreement_;
+  row_model_ = before.AfterAKnock();
+  LearnRows(left, sightings);
+  StereoPoints points_if_knocked = Triangulate(left, sightings);
+  if (row_agreement_ >= kMinRowAgreement) return points_if_knocked;
+  row_model_ = before;
+  row_agreement_ = agreement;
   return points;
 }
 

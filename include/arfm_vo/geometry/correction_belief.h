@@ -6,6 +6,9 @@ namespace arfm_vo {
 
 /// How the right camera has turned against the left one.
 struct RightTurn {
+  /// How far a knock turns a camera, about each axis.
+  static constexpr double kKnockSigma_rad = 2e-3;
+
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< rad^2
 

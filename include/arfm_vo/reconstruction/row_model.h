@@ -23,6 +23,8 @@ class RowModel {
 
   /// Adds the samples of a pair; wrong ones among them lose their influence.
   void Update(const std::vector<RowSample>& samples);
+  /// What is known of the rows where the right camera may have been knocked since.
+  RowModel AfterAKnock() const;
   /// Expected v_right - v_left at a right pixel, px.
   double Predict(double u_right, double v_right) const;
   /// Robust standard deviation of the newest samples from the model, px; 0 before the first.

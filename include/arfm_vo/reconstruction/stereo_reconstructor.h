@@ -113,7 +113,6 @@ class StereoReconstructor {
   RowSearch row_search_;
   double row_agreement_ = 1;
   bool eyes_are_swapped_ = false;
-  int num_disagreeing_ = 0;  ///< pairs in a row whose rows do not agree
 };
 
 }  // namespace arfm_vo
