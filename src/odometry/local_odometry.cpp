@@ -95,10 +95,8 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     adjustment_.Finish(map_, covariance_);
-    const CorrectionBelief learnt =
-        turns_.Follow(update.correction, update.keyframes.back().id, camera_);
-    SetCorrection(learnt);
-    turns_.Interrupt(learnt, camera_);
+    SetCorrection(turns_.Follow(update.correction, update.keyframes.back().id, camera_));
+    turns_.Interrupt(correction_, camera_);
     ApplyMapUpdate(update, map_);
   }
 
