@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/base/median.h"
 #include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/pose/reprojection.h"
 
