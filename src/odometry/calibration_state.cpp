@@ -112,8 +112,8 @@ void CalibrationState::Tell() {
 
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
   const bool is_first_found = !is_open_ || is_found_;
-  const bool is_news = num_keyframes > std::max(num_learnt_, first_telling_ + 1);
-  if (!may_learn_ || !is_first_found || !is_news || num_keyframes < kWindow) return std::nullopt;
+  const bool is_news = num_keyframes > num_learnt_ && num_keyframes >= first_telling_ + kWindow;
+  if (!may_learn_ || !is_first_found || !is_news) return std::nullopt;
   return OpenToATurn();
 }
 

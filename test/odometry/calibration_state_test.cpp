@@ -53,8 +53,8 @@ TEST(CalibrationState, ATurnThatAPairHasToldEndsWhatEarlierKeyframesTell) {
   EXPECT_NEAR((state.correction().mean.coefficients_px - Yaw(1)).norm(), 0, 1e-9);
   EXPECT_EQ(state.first_telling(), 9);
   EXPECT_GT(state.correction().MaxColumnSigma(kCamera), 0.05);
-  EXPECT_FALSE(state.WindowPrior(10));
-  EXPECT_TRUE(state.WindowPrior(12));
+  EXPECT_FALSE(state.WindowPrior(12)) << "keyframe 8, of before, would be in it";
+  EXPECT_TRUE(state.WindowPrior(13));
   CalibrationState held(kCamera, false, kCalibration);
   held.Turn({{0, 1e-3, 0}, covariance}, 9);
   EXPECT_TRUE(held.correction().mean.IsZero());
