@@ -100,7 +100,7 @@ class ReplayTest(ReplayCase):
         self.assertEqual((tracked, lost), (pairs, 0), console)
 
     def test_an_interrupted_replay_ends_all_that_it_has_started(self):
-        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "rate:=0.1", limit_s=8)
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "rate:=0.1", limit_s=20)
         self.assertIn("[master] killing on exit", console)
 
     def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
