@@ -57,8 +57,8 @@ def node_faults():
         rows.append(ended(node, kill, node + " killed -9", stale, killed(node), 1))
         rows.append(Fault(node + " stopped (SIGSTOP) for 5 s", stop_and_continue(node, 5), away, limit_s=1))
     rows += [
-        Fault("pose_node killed -9 and started anew", kill_and_restart("pose_node"), "odometry has started anew or " + stale,
-              limit_s=1.0, mend=wait(2), ends_node=True),
+        Fault("pose_node killed -9 and started anew", kill_and_restart("pose_node"), "odometry has started anew", limit_s=1.0,
+              mend=wait(2), ends_node=True),
         Fault("arfm_node killed -9 and started anew", kill_and_restart("arfm_node"), "drives on or " + stale, limit_s=1.0,
               mend=wait(2), ends_node=True),
         Fault("ba_node killed -9 and started anew", kill_and_restart("ba_node"), "drives on or " + no_map, limit_s=1.1,
