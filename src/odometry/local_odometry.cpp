@@ -76,14 +76,14 @@ class LocalOdometry::Implementation {
     }
     update.stage_ms.emplace_back("track", stopwatch.LapMs());
     if (update.is_keyframe) {
-      if (is_right_good) {
-        frame.points =
-            Corrected(measured, camera_, correction_.mean, skew_.later_from_now()).points;
-      } else {
+      if (!is_right_good) {
         frame.points = TriangulateByMotion(
             camera_, correction_.mean, {frame.features, update.pose.camera_from_world},
             {newest_features_, map_.keyframes().back().camera_from_world},
             options_.tracker.matching.keypoint_sigma);
+      } else if (turns_.Before(map_.next_keyframe())) {
+        frame.points =
+            Corrected(measured, camera_, correction_.mean, skew_.later_from_now()).points;
       }
       RemoveFixed(update.pose.camera_from_world, frame);
       AddKeyframe(frame, images, update);
@@ -176,11 +176,10 @@ class LocalOdometry::Implementation {
 
   /// Whether the right camera has turned since the pair before; that is taken over.
   bool HasTurned(const TrackedFrame& tracked) {
-    const KeyframeId next = map_.keyframes().back().id + 1;
-    const auto turn = turns_.Look(tracked.turn_against_map, next);
+    const auto turn = turns_.Look(tracked.turn_against_map, map_.next_keyframe());
     if (!turn) return false;
     SetCorrection(correction_.After(*turn, camera_));
-    map_.ForgetRight(next);
+    map_.ForgetRight(map_.next_keyframe());
     return true;
   }
 

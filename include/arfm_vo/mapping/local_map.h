@@ -65,6 +65,7 @@ class LocalMap {
   const std::deque<Keyframe>& keyframes() const { return keyframes_; }
   const Landmarks& landmarks() const { return landmarks_; }
   const Keyframe* FindKeyframe(KeyframeId id) const;
+  KeyframeId next_keyframe() const { return next_keyframe_; }
   /// Those that no keyframe before the newest saw, sorted by id.
   std::vector<Landmark> NewestLandmarks() const;
 
