@@ -97,12 +97,13 @@ class Campaign:
         simulated_s = rospy.get_time()
         fault.inject(self)
         injected_s, way_m = self.began_s, self.began_way_m
-        told = [self.rover.status.reason]
         end_s = max(injected_s + fault.limit_s + WATCH_S, time.monotonic() + WATCH_S / 2)  # injecting may take long
         simulated_end_s = simulated_s + fault.limit_s + WATCH_S / 2
+        told, has_warned, end_way_m = [self.rover.status.reason], False, way_m
         looked_s, held_up_s = time.monotonic(), 0.0
-        end_way_m, has_warned = way_m, False
-        while looked_s < end_s or (not fault.ends_graph and looked_s < end_s + MAX_WAIT_S and rospy.get_time() < simulated_end_s):
+        awaited = {fault.promise} if fault.ends_node and fault.promise != "-" and " or " not in fault.promise else set()
+        while looked_s < end_s or (not fault.ends_graph and looked_s < end_s + MAX_WAIT_S and (
+                rospy.get_time() < simulated_end_s or not awaited <= set(told))):  # a node may be slow to start
             told.append(self.rover.status.reason)
             has_warned |= self.rover.status.state == DriveStatus.WARNING
             moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
@@ -111,8 +112,7 @@ class Campaign:
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s))
-        if fault.ends_graph:
-            pace = 1.0  # simulated time ends too
+        pace = 1.0 if fault.ends_graph else pace  # simulated time ends too
         row = {"name": fault.name, "promise": fault.promise, "limit_s": fault.limit_s / min(1.0, pace)}
         row["held_up_s"] = held_up_s
         row["moves"] = self.rover.moves()
