@@ -121,11 +121,18 @@ void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Ex
   const auto is_at_rest = [&](const Rigid3& pose) {
     return IsAtRest(camera_, tracked.matches, pose, map.keyframes().back().camera_from_world);
   };
+  const auto motion = [&](const Rigid3& pose) {
+    return expected.predicted ? expected.predicted->LogOdds(pose) : 0;
+  };
+  // What moves on its own goes on as smoothly, unless it has hidden the ground just now.
+  double smoothest = motion(tracked.pose.camera_from_world);
+  if (tracked.pose.rival) smoothest = std::max(smoothest, motion(*tracked.pose.rival));
+  const double if_neither =
+      std::log((1 - expected.just_hidden) * std::exp(smoothest) + expected.just_hidden);
   const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
-    const double by_motion =
-        (expected.predicted ? expected.predicted->LogOdds(pose) : 0) + (rests ? rest : 0);
+    const double other = motion(pose) - if_neither + (rests ? rest : 0);
     GroundBelief ground = tracked.matches.Weigh(camera_, tracked.agrees, flag,
-                                                {expected.log_odds, map.arrived()}, by_motion);
+                                                {expected.log_odds, map.arrived()}, other);
     ground.log_odds -= expected.log_odds;
     return ground;
   };

@@ -136,7 +136,7 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    const Expectation expected{predicted, verdict_.log_odds_of_ground(),
+    const Expectation expected{predicted, verdict_.log_odds_of_ground(), verdict_.just_hidden(),
                                verdict_.right_fault() == Reason::kNone, !correction_.IsExact(),
                                verdict_.IsUnsure()};
     TrackedFrame tracked = tracker_.Track(frame, images, map_, expected);

@@ -47,7 +47,8 @@ void Verdict::Look(const StereoFrame& frame) {
   right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
   fixed_.Advance(interval_s, kIsTakenAway_s, kIsFixed_s);
   another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
-  ground_.Advance(interval_s, kAnotherComes_s, kAnotherLeaves_s);
+  const double hidden = ground_.Advance(interval_s, kAnotherComes_s, kAnotherLeaves_s);
+  just_hidden_ = hidden / (1 - ground_.Probability());
   stamp_s_ = frame.stamp_s;
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {

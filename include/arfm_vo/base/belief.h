@@ -12,12 +12,15 @@ class Belief {
  public:
   explicit Belief(double probability) : log_odds_(std::log(probability / (1 - probability))) {}
 
-  /// Time passes: what holds may end, what does not may begin; expected times in seconds.
-  void Advance(double interval_s, double ends_after_s, double begins_after_s) {
+  /// Time passes: what holds may end, what does not may begin; expected times in seconds. Returns
+  /// the probability that it held and does no longer.
+  double Advance(double interval_s, double ends_after_s, double begins_after_s) {
+    const double before = Probability();
     const double settled = ends_after_s / (ends_after_s + begins_after_s);
     const double remembered = std::exp(-interval_s * (1 / ends_after_s + 1 / begins_after_s));
-    const double now = settled + remembered * (Probability() - settled);
+    const double now = settled + remembered * (before - settled);
     log_odds_ = std::log(now / (1 - now));
+    return before * (1 - settled) * (1 - remembered);
   }
   /// An observation that is exp(`log_ratio`) times likelier where it holds.
   void Add(double log_ratio) {

@@ -28,6 +28,8 @@ class Verdict {
   bool IsUnsure() const { return another_moves_.Probability() > kLikely; }
   /// That the poses up to here are the ground's and not of what moves on its own.
   double log_odds_of_ground() const { return ground_.log_odds(); }
+  /// Where they are not, the probability that they were until the pair before.
+  double just_hidden() const { return just_hidden_; }
 
   /// Judges the pair's pose: sets status, reason, odds and covariance of `update.pose`, which is
   /// the likelier of the two where there is a rival. Returns whether there is one.
@@ -58,6 +60,7 @@ class Verdict {
   Belief fixed_{0.01};          ///< something is fixed before the camera: so it is on few rigs
   Belief another_moves_{0.01};  ///< something large moves on its own
   Belief ground_{0.98};         ///< the poses up to here are the ground's
+  double just_hidden_ = 0;
   Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
 };
 
