@@ -37,9 +37,10 @@ MovingCells::MovingCells(const StereoCamera& camera, const Landmarks& landmarks,
   std::vector<Eigen::Vector2d> seen;
   for (const LandmarkObservation& observation : before->observations) {
     const auto landmark = landmarks.find(observation.landmark);
-    // What was found elsewhere has not vanished, and what moves on its own tells nothing.
+    // What was found elsewhere has not vanished; what was never found again, or moves on its own,
+    // tells nothing.
     if (landmark == landmarks.end() || FindObservation(contradicting, observation.landmark) ||
-        landmark->second.LogOddsOfGround() < 0) {
+        landmark->second.LogOddsOfGround() <= 0) {
       continue;
     }
     const Eigen::Vector3d x = frame.camera_from_world * landmark->second.x_in_world;
