@@ -24,11 +24,10 @@ constexpr double kHeldSigmaPx = 1e-3;
 /// How far from the correction a window looks for it, about each axis.
 constexpr double kTurnSigma_rad = 1e-3;
 
-/// The scatter before any windows have told it, and for how many of them that counts. Observations
+/// The scatter before anything has told it, and for how many squares that counts. Observations
 /// that tell of the correction also place the points that the odometry then goes by, so their
 /// errors count again (simulated_run_test: NEES).
-constexpr double kScatter = 3;
-constexpr int kNumScatter = 1;
+constexpr double kScatter = 3, kNumScatter = 3;
 
 /// Windows of a camera that stands lie within this quantile.
 constexpr double kStillProbability = 0.99;
@@ -59,7 +58,8 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       prior_(known),
       learnt_(known),
       correction_(known),
-      scatter_(kScatter) {
+      sum_squares_(kScatter * kNumScatter),
+      num_squares_(kNumScatter) {
   correction_.is_of_earlier_drive = false;
   if (!may_learn || !known.is_of_earlier_drive) return;
   prior_ = CorrectionBelief::OfCalibration(camera);
@@ -75,14 +75,15 @@ void CalibrationState::AddTurn(double turn_rad) {
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
   if (!is_open_) return std::nullopt;
   CorrectionBelief prior = prior_;
-  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_);
-  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_);
+  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / Scatter());
+  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / Scatter());
   return prior;
 }
 
 bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   if (result.correction_covariance.isZero(0)) return false;
   learnt_ = {result.correction, result.correction_covariance};
+  TakeNews(learnt_);
   is_open_ = learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
   is_found_ |= !is_open_;
   num_learnt_ = num_keyframes;
@@ -105,7 +106,7 @@ bool CalibrationState::Allows(const StereoCorrection& mean) const {
 }
 
 void CalibrationState::Tell() {
-  correction_ = {learnt_.mean, scatter_ * learnt_.covariance +
+  correction_ = {learnt_.mean, Scatter() * learnt_.covariance +
                                    CorrectionBelief::Isotropic(kModelSigmaPx).covariance +
                                    by_turn_ * turn_covariance_ * by_turn_.transpose()};
 }
@@ -120,6 +121,7 @@ std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes)
 void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
   if (!may_learn_) return;
   windows_.clear();
+  found_.reset();
   learnt_.mean.coefficients_px += by_turn_ * turn.turn_rad;
   turn_covariance_ += turn.covariance;
   first_telling_ = keyframe;
@@ -136,13 +138,28 @@ CorrectionBelief CalibrationState::OpenToATurn() const {
   return open;
 }
 
+void CalibrationState::TakeNews(const CorrectionBelief& newest) {
+  const std::optional<CorrectionBelief> before = std::exchange(found_, newest);
+  if (!before) return;
+  // The newest has all that the one before had and more: by what is less unknown it may move.
+  using Placing = CorrectionBelief::Placing;
+  constexpr int kNum = StereoCorrection::kNumPlacing;
+  const Eigen::LLT<Placing> factor(before->PlacingCovariance());
+  if (factor.info() != Eigen::Success) return;
+  const auto moved = (newest.mean.coefficients_px - before->mean.coefficients_px).head<kNum>();
+  const double num = kNum - factor.solve(newest.PlacingCovariance()).trace();
+  if (num <= 0) return;
+  sum_squares_ += moved.dot(factor.solve(moved.eval()));
+  num_squares_ += num;
+}
+
 void CalibrationState::TakeScatter(const Window& newest) {
   windows_.push_back(newest);
   if (windows_.size() <= kWindow) return;
   const Window before = windows_.front();
   windows_.pop_front();
-  const double apart = Square(newest.turn - before.turn, newest.covariance + before.covariance);
-  scatter_ += (apart - scatter_) / (kNumScatter + ++num_apart_);
+  sum_squares_ += 3 * Square(newest.turn - before.turn, newest.covariance + before.covariance);
+  num_squares_ += 3;
   Tell();
 }
 
@@ -156,13 +173,14 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
                       turn_of * window.correction_covariance * turn_of.transpose()};
   const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
   const Eigen::Matrix3d noise =
-      scatter_ * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
+      Scatter() * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
   const double ratio = Square(off, turn_covariance_ + noise);
   // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
   is_turning_ = ratio > limit;
   if (is_turning_) {
     windows_.clear();
+    found_.reset();
     turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();
     first_telling_ = num_keyframes - kWindow;
     is_open_ = false;

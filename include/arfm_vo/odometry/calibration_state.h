@@ -13,8 +13,9 @@ namespace arfm_vo {
 /// until its columns are known better than any single observation. From then on the newest
 /// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
 /// process noise is what the innovation asks for, and none where that is within its covariance
-/// (Jazwinski, Adaptive filtering, Automatica 1969). By how windows that share no keyframe scatter,
-/// which is out of sample, the covariance is wider than the residuals say.
+/// (Jazwinski, Adaptive filtering, Automatica 1969). The covariance is as wide as what comes says
+/// out of sample, not as the residuals say: by how far each adjustment moves what the one before
+/// has found, and how windows that share no keyframe scatter.
 class CalibrationState {
  public:
   static constexpr int kWindow = 4;  ///< keyframes
@@ -55,8 +56,12 @@ class CalibrationState {
     Eigen::Vector3d turn;        ///< rad, of the right camera
     Eigen::Matrix3d covariance;  ///< as its residuals say
   };
+  /// Takes how far the newest adjustment has moved what the one before has found.
+  void TakeNews(const CorrectionBelief& newest);
   /// Takes the scatter of a window and the newest that shares no keyframe with it.
   void TakeScatter(const Window& newest);
+  /// Mean square of errors in what the residuals say of them.
+  double Scatter() const { return sum_squares_ / num_squares_; }
   void Tell();
   /// As it is but for a turn of the right camera.
   CorrectionBelief OpenToATurn() const;
@@ -75,9 +80,10 @@ class CalibrationState {
   int first_telling_ = 0;
   double turned_rad_ = 0;       ///< since it was learnt
   int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
+  /// By the last adjustment, unless the camera has turned since.
+  std::optional<CorrectionBelief> found_;
   std::deque<Window> windows_;  ///< the newest ones, kWindow at most, one a keyframe
-  double scatter_;              ///< mean square of windows' turns in what their residuals say
-  int num_apart_ = 0;           ///< windows that told it
+  double sum_squares_, num_squares_;  ///< of errors, in what the residuals say of them
 };
 
 }  // namespace arfm_vo
