@@ -24,11 +24,6 @@ constexpr double kHeldSigmaPx = 1e-3;
 /// How far from the correction a window looks for it, about each axis.
 constexpr double kTurnSigma_rad = 1e-3;
 
-/// The scatter before anything has told it, and for how many squares that counts. Observations
-/// that tell of the correction also place the points that the odometry then goes by, so their
-/// errors count again (simulated_run_test: NEES).
-constexpr double kScatter = 3, kNumScatter = 3;
-
 /// Windows of a camera that stands lie within this quantile.
 constexpr double kStillProbability = 0.99;
 
@@ -57,9 +52,7 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       by_turn_(CorrectionBelief::ByTurn(camera)),
       prior_(known),
       learnt_(known),
-      correction_(known),
-      sum_squares_(kScatter * kNumScatter),
-      num_squares_(kNumScatter) {
+      correction_(known) {
   correction_.is_of_earlier_drive = false;
   if (!may_learn || !known.is_of_earlier_drive) return;
   prior_ = CorrectionBelief::OfCalibration(camera);
@@ -75,8 +68,8 @@ void CalibrationState::AddTurn(double turn_rad) {
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
   if (!is_open_) return std::nullopt;
   CorrectionBelief prior = prior_;
-  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / Scatter());
-  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / Scatter());
+  prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_of_windows_.value());
+  prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_of_windows_.value());
   return prior;
 }
 
@@ -106,7 +99,7 @@ bool CalibrationState::Allows(const StereoCorrection& mean) const {
 }
 
 void CalibrationState::Tell() {
-  correction_ = {learnt_.mean, Scatter() * learnt_.covariance +
+  correction_ = {learnt_.mean, scatter_.value() * learnt_.covariance +
                                    CorrectionBelief::Isotropic(kModelSigmaPx).covariance +
                                    by_turn_ * turn_covariance_ * by_turn_.transpose()};
 }
@@ -149,8 +142,7 @@ void CalibrationState::TakeNews(const CorrectionBelief& newest) {
   const auto moved = (newest.mean.coefficients_px - before->mean.coefficients_px).head<kNum>();
   const double num = kNum - factor.solve(newest.PlacingCovariance()).trace();
   if (num <= 0) return;
-  sum_squares_ += moved.dot(factor.solve(moved.eval()));
-  num_squares_ += num;
+  scatter_.Add(moved.dot(factor.solve(moved.eval())), num);
 }
 
 void CalibrationState::TakeScatter(const Window& newest) {
@@ -158,8 +150,9 @@ void CalibrationState::TakeScatter(const Window& newest) {
   if (windows_.size() <= kWindow) return;
   const Window before = windows_.front();
   windows_.pop_front();
-  sum_squares_ += 3 * Square(newest.turn - before.turn, newest.covariance + before.covariance);
-  num_squares_ += 3;
+  const double apart = 3 * Square(newest.turn - before.turn, newest.covariance + before.covariance);
+  scatter_.Add(apart, 3);
+  scatter_of_windows_.Add(apart, 3);
   Tell();
 }
 
@@ -173,7 +166,7 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
                       turn_of * window.correction_covariance * turn_of.transpose()};
   const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
   const Eigen::Matrix3d noise =
-      Scatter() * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
+      scatter_.value() * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
   const double ratio = Square(off, turn_covariance_ + noise);
   // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;

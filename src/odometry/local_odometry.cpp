@@ -136,8 +136,11 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    const Expectation expected{predicted, verdict_.log_odds_of_ground(), verdict_.just_hidden(),
-                               verdict_.right_fault() == Reason::kNone, !correction_.IsExact(),
+    const Expectation expected{predicted,
+                               verdict_.log_odds_of_ground(),
+                               verdict_.just_hidden(),
+                               verdict_.right_fault() == Reason::kNone,
+                               !correction_.IsExact(),
                                verdict_.IsUnsure()};
     TrackedFrame tracked = tracker_.Track(frame, images, map_, expected);
     if (HasTurned(tracked)) tracked = tracker_.Track(frame, images, map_, expected);

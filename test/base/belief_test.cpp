@@ -29,6 +29,12 @@ TEST(Belief, NoTimeChangesNothing) {
   EXPECT_NEAR(belief.Probability(), 0.3, 1e-12);
 }
 
+TEST(Belief, ItTellsHowLikelyItHasEnded) {
+  EXPECT_NEAR(Belief(0.8).Advance(1000, 1, 9), 0.8 * 0.9, 1e-9);
+  EXPECT_NEAR(Belief(0.8).Advance(1e-3, 10, 10), 0.8 * 1e-4, 1e-7);
+  EXPECT_EQ(Belief(0.8).Advance(0, 10, 10), 0);
+}
+
 TEST(Belief, ALimitOnlyLowersIt) {
   Belief belief(0.9);
   belief.Limit(10);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mapping/stereo_frames.h"
 
 namespace arfm_vo {
@@ -81,6 +83,14 @@ std::vector<Eigen::Vector3d> Grid(double hidden_px) {
   return points;
 }
 
+/// A frame has found all points of the newest keyframe again.
+void FindAgain(LocalMap& map) {
+  const LandmarkObservations seen = map.keyframes().back().observations;
+  std::vector<LandmarkId> expected;
+  for (const auto& observation : seen) expected.push_back(observation.landmark);
+  map.CountSightings(expected, seen);
+}
+
 TEST(LocalMap, DoubtsWhatAppearsWhereKnownPointsVanish) {
   for (const double hidden_px : {0., 400.}) {
     LocalMapOptions options = SmallMap();
@@ -91,6 +101,7 @@ TEST(LocalMap, DoubtsWhatAppearsWhereKnownPointsVanish) {
     for (const auto& observation : first.observations) {
       if (observation.pixels.x() >= hidden_px) tracked.push_back(observation);
     }
+    FindAgain(map);
     map.AddKeyframe(MakeFrame({{100, 250, 70}, {600, 250, 70}}), kImage, Rigid3(), tracked);
     for (const Landmark& landmark : map.NewestLandmarks()) {
       const bool is_hidden = landmark.keypoint.x < hidden_px;
@@ -101,6 +112,17 @@ TEST(LocalMap, DoubtsWhatAppearsWhereKnownPointsVanish) {
   }
 }
 
+TEST(LocalMap, WhatWasNeverFoundAgainTellsNothingOfWhatHidesIt) {
+  LocalMap map(kCamera, SmallMap());
+  LandmarkObservations tracked =
+      map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {}).observations;
+  tracked.erase(std::remove_if(tracked.begin(), tracked.end(),
+                               [](const auto& one) { return one.pixels.x() < 400; }),
+                tracked.end());
+  map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), tracked);
+  EXPECT_LT(map.arrived(), 0.01);
+}
+
 TEST(LocalMap, WhatIsFoundElsewhereHasNotVanished) {
   LocalMap map(kCamera, SmallMap());
   const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});
@@ -108,6 +130,7 @@ TEST(LocalMap, WhatIsFoundElsewhereHasNotVanished) {
   for (const auto& observation : first.observations) {
     (observation.pixels.x() < 400 ? elsewhere : tracked).push_back(observation);
   }
+  FindAgain(map);
   map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), tracked, elsewhere);
   EXPECT_LT(map.arrived(), 0.01);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace arfm_vo {
 namespace {
 
@@ -90,6 +92,31 @@ TEST(CalibrationState, WindowsThatScatterWidenTheCovariance) {
   EXPECT_EQ(loud.first_telling(), 0);
   EXPECT_EQ(loud.correction().mean.coefficients_px, Yaw(0));
   EXPECT_GT(loud.correction().covariance(0, 0), 1.2 * quiet.correction().covariance(0, 0));
+}
+
+/// By an adjustment that has all that the one before had and is twice as sure.
+TEST(CalibrationState, AdjustmentsThatMoveByMoreThanTheySayWidenTheCovariance) {
+  const auto known = [](double moved_px) {
+    CalibrationState state(kCamera, true, kCalibration);
+    StereoCorrection::Coefficients px = StereoCorrection::Coefficients::Zero();
+    state.Learn(Found(px, 0.2), 2);
+    px.head<StereoCorrection::kNumPlacing>().fill(moved_px);
+    state.Learn(Found(px, 0.1), 4);
+    return state.correction().covariance(0, 0);
+  };
+  // It moves by sqrt(0.2^2 - 0.1^2) as a rule: so of 3 squares that count 3 and 3/4 of 13 that
+  // count 1, and of as many that count 16.
+  const double usual_px = std::sqrt(0.03), model_px2 = 0.05 * 0.05, num = 3 + 0.75 * 13;
+  EXPECT_NEAR(known(usual_px), 0.1 * 0.1 * (9 + 0.75 * 13) / num + model_px2, 1e-9);
+  EXPECT_NEAR(known(4 * usual_px), 0.1 * 0.1 * (9 + 16 * 0.75 * 13) / num + model_px2, 1e-9);
+  EXPECT_LT(known(0), known(usual_px));
+}
+
+TEST(CalibrationState, AnAdjustmentAfterATurnIsNotComparedWithOneBefore) {
+  CalibrationState turned = Known(), known = Known();
+  turned.Turn({{0, 1e-3, 0}, 1e-8 * Eigen::Matrix3d::Identity()}, 9);
+  turned.Learn(Found(Yaw(1), 0.01), 12);
+  EXPECT_NEAR(turned.correction().covariance(0, 0), known.correction().covariance(0, 0), 1e-12);
 }
 
 double YawOf(const CalibrationState& state) {

@@ -59,6 +59,21 @@ TEST_F(FrameTrackerTest, IsNotMisledByAWrongPrediction) {
 }
 
 /// On the left of the picture points have agreed with poses before; the rest is new and moves.
+TEST_F(FrameTrackerTest, AJerkTellsThatTheGroundIsHiddenOnlyWhereItMayHaveBeenHiddenJustNow) {
+  const StereoImages images = wall_.Render(1, truth_);
+  const StereoFrame frame = frontend_.Process(images);
+  PredictedPose smooth(truth_), jerk(Rigid3(truth_.rotation, Eigen::Vector3d(0, 0, 0.5)));
+  for (PredictedPose* one : {&smooth, &jerk}) one->sigma_shift_m = one->sigma_turn_rad = 0.05;
+  const auto log_odds = [&](const PredictedPose& predicted, double just_hidden) {
+    Expectation expected{predicted};
+    expected.just_hidden = just_hidden;
+    return FrameTracker(camera_, {}).Track(frame, images, map_, expected).log_odds;
+  };
+  EXPECT_LT(log_odds(jerk, 1), log_odds(smooth, 1) - 3);
+  EXPECT_NEAR(log_odds(jerk, 0), log_odds(smooth, 0), 0.1);
+  EXPECT_NEAR(log_odds(jerk, 0.01), log_odds(smooth, 0.01), 0.8);
+}
+
 TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
   for (const int known_px : {70, 250}) {
     LandmarkObservations seen;

@@ -52,6 +52,22 @@ class CalibrationState {
 
  private:
   using Matrix = CorrectionBelief::Matrix;
+  /// The scatter before anything has told it, and for how many squares that counts. Observations
+  /// that tell of the correction also place the points that the odometry then goes by, so their
+  /// errors count again (simulated_run_test: NEES).
+  static constexpr double kScatter = 3, kNumScatter = 3;
+  /// Of errors in what the residuals say of them; before anything has told it as kScatter says.
+  class MeanSquare {
+   public:
+    void Add(double sum, double num) {
+      sum_ += sum;
+      num_ += num;
+    }
+    double value() const { return sum_ / num_; }
+
+   private:
+    double sum_ = kScatter * kNumScatter, num_ = kNumScatter;
+  };
   struct Window {
     Eigen::Vector3d turn;        ///< rad, of the right camera
     Eigen::Matrix3d covariance;  ///< as its residuals say
@@ -60,8 +76,6 @@ class CalibrationState {
   void TakeNews(const CorrectionBelief& newest);
   /// Takes the scatter of a window and the newest that shares no keyframe with it.
   void TakeScatter(const Window& newest);
-  /// Mean square of errors in what the residuals say of them.
-  double Scatter() const { return sum_squares_ / num_squares_; }
   void Tell();
   /// As it is but for a turn of the right camera.
   CorrectionBelief OpenToATurn() const;
@@ -78,12 +92,13 @@ class CalibrationState {
   CorrectionBelief correction_;                 ///< the same as it is told
   Eigen::Matrix3d turn_covariance_ = Eigen::Matrix3d::Zero();  ///< rad^2, of what has turned since
   int first_telling_ = 0;
-  double turned_rad_ = 0;       ///< since it was learnt
-  int num_learnt_ = 0;          ///< keyframes, the newest of which it was learnt from
+  double turned_rad_ = 0;  ///< since it was learnt
+  int num_learnt_ = 0;     ///< keyframes, the newest of which it was learnt from
   /// By the last adjustment, unless the camera has turned since.
   std::optional<CorrectionBelief> found_;
   std::deque<Window> windows_;  ///< the newest ones, kWindow at most, one a keyframe
-  double sum_squares_, num_squares_;  ///< of errors, in what the residuals say of them
+  MeanSquare scatter_;          ///< of adjustments and of windows
+  MeanSquare scatter_of_windows_;
 };
 
 }  // namespace arfm_vo
