@@ -136,12 +136,8 @@ class LocalOdometry::Implementation {
 
   void Continue(const StereoFrame& frame, const StereoImages& images,
                 const std::optional<PredictedPose>& predicted, OdometryUpdate& update) {
-    const Expectation expected{predicted,
-                               verdict_.log_odds_of_ground(),
-                               verdict_.just_hidden(),
-                               verdict_.right_fault() == Reason::kNone,
-                               !correction_.IsExact(),
-                               verdict_.IsUnsure()};
+    Expectation expected = verdict_.Expect(predicted);
+    expected.may_turn = !correction_.IsExact();
     TrackedFrame tracked = tracker_.Track(frame, images, map_, expected);
     if (HasTurned(tracked)) tracked = tracker_.Track(frame, images, map_, expected);
     update.pose = tracked.pose;

@@ -57,6 +57,13 @@ void Verdict::Look(const StereoFrame& frame) {
   right_fault_ = left_fault_ == Reason::kNone ? FaultOfRight(frame) : left_fault_;
 }
 
+Expectation Verdict::Expect(const std::optional<PredictedPose>& predicted) const {
+  Expectation expected{predicted, ground_.log_odds(), just_hidden_};
+  expected.use_right = right_fault_ == Reason::kNone;
+  expected.is_wary = IsUnsure();
+  return expected;
+}
+
 Reason Verdict::FaultOfLeft(const StereoFrame& frame) const {
   return frame.left_is_repeated ? Reason::kLeftRepeated : Reason::kNone;
 }

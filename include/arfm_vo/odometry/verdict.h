@@ -26,10 +26,8 @@ class Verdict {
   Reason right_fault() const { return right_fault_; }
   /// Whether to look for a rival even where most points agree.
   bool IsUnsure() const { return another_moves_.Probability() > kLikely; }
-  /// That the poses up to here are the ground's and not of what moves on its own.
-  double log_odds_of_ground() const { return ground_.log_odds(); }
-  /// Where they are not, the probability that they were until the pair before.
-  double just_hidden() const { return just_hidden_; }
+  /// What a pair is tracked by, where the motion before predicts it.
+  Expectation Expect(const std::optional<PredictedPose>& predicted) const;
 
   /// Judges the pair's pose: sets status, reason, odds and covariance of `update.pose`, which is
   /// the likelier of the two where there is a rival. Returns whether there is one.
