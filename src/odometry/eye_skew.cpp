@@ -1,10 +1,12 @@
 #include "arfm_vo/odometry/eye_skew.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "arfm_vo/base/median.h"
+#include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/odometry/odometry_update.h"
@@ -12,7 +14,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kFieldSigmaPx = 1, kSkewSigma_s = 0.05;  // before anything is known
+constexpr double kSkewSigma_s = 0.05;  ///< before anything is known
 constexpr double kMinRowSigmaPx = 0.1;
 /// Rows that are off by more are not those of one point.
 constexpr double kMaxRowPx = 3;
@@ -30,7 +32,11 @@ constexpr double kMaxShiftPx = 1;
 }  // namespace
 
 EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera) {
-  information_.setZero();
+  constexpr int kRows = StereoCorrection::kNumField;
+  prior_.topLeftCorner<kRows, kRows>() = CorrectionBelief::OfCalibration(camera)
+                                             .covariance.bottomRightCorner<kRows, kRows>()
+                                             .inverse();
+  prior_(kRows, kRows) = 1 / (kSkewSigma_s * kSkewSigma_s);
 }
 
 double EyeSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
@@ -87,10 +93,7 @@ void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px
 }
 
 void EyeSkewEstimator::Solve() {
-  Vector prior = Vector::Constant(1 / (kFieldSigmaPx * kFieldSigmaPx));
-  prior[kSize - 1] = 1 / (kSkewSigma_s * kSkewSigma_s);
-  Matrix information = information_;
-  information.diagonal() += prior;
+  const Matrix information = information_ + prior_;
   const auto decomposed = information.ldlt();
   solution_ = decomposed.solve(right_side_);
   // Rows of one frame err together, so that frames count, not points (the sandwich estimator).

@@ -61,7 +61,8 @@ class EyeSkewEstimator {
   void Solve();
 
   StereoCamera camera_;
-  Matrix information_;               ///< of the frames, without what is known before
+  Matrix prior_ = Matrix::Zero();        ///< information before anything is seen: the calibration's
+  Matrix information_ = Matrix::Zero();  ///< of the frames, without that
   Matrix scatter_ = Matrix::Zero();  ///< of the frames' scores, which rows that err together widen
   Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
