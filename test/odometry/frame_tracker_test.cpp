@@ -58,7 +58,6 @@ TEST_F(FrameTrackerTest, IsNotMisledByAWrongPrediction) {
   ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
 }
 
-/// On the left of the picture points have agreed with poses before; the rest is new and moves.
 TEST_F(FrameTrackerTest, AJerkTellsThatTheGroundIsHiddenOnlyWhereItMayHaveBeenHiddenJustNow) {
   const StereoImages images = wall_.Render(1, truth_);
   const StereoFrame frame = frontend_.Process(images);
@@ -74,6 +73,7 @@ TEST_F(FrameTrackerTest, AJerkTellsThatTheGroundIsHiddenOnlyWhereItMayHaveBeenHi
   EXPECT_NEAR(log_odds(jerk, 0.01), log_odds(smooth, 0.01), 0.8);
 }
 
+/// On the left of the picture points have agreed with poses before; the rest is new and moves.
 TEST_F(FrameTrackerTest, KnownPointsTellThePoseAndFewThatContradictItAreTold) {
   for (const int known_px : {70, 250}) {
     LandmarkObservations seen;
