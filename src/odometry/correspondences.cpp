@@ -34,10 +34,6 @@ double LogSum(double a, double b) {
   return std::isinf(smaller) ? larger : larger + std::log1p(std::exp(smaller - larger));
 }
 
-struct LogLikelihoods {
-  double if_ground = 0, if_not = 0;
-};
-
 /// Which landmarks agree with a pose.
 struct Agreement {
   std::vector<int> regions;        ///< [N] of Correspondences
@@ -166,8 +162,8 @@ LandmarkObservations Correspondences::Select(const std::vector<char>& flags, cha
 }
 
 GroundBelief Correspondences::Weigh(const StereoCamera& camera, const std::vector<char>& flags,
-                                    char flag, const GroundBelief& before,
-                                    double other_log_ratio) const {
+                                    char flag, const LogLikelihoods& if_none,
+                                    const LogLikelihoods& if_come) const {
   Agreement agreement;
   // (A correction may place what the border shows beyond it.)
   for (size_t i = 0; i < landmarks.size(); ++i) {
@@ -175,19 +171,15 @@ GroundBelief Correspondences::Weigh(const StereoCamera& camera, const std::vecto
     agreement.agrees.push_back(flags[i] == flag);
     agreement.is_explained.push_back(flags[i] != 0);
   }
-  const double of_ground = other_log_ratio + agreement.LogRatioOfSize();
-  const LogLikelihoods none = agreement.Weigh(landmarks, 0), some = agreement.Weigh(landmarks, 1);
-  // Logarithms of the probabilities that nothing, or something, has come, and the pose is the
-  // ground's or is not.
-  const double log_none = std::log(1 - before.arrived), log_some = std::log(before.arrived);
-  const double log_ground = of_ground + before.log_odds;
-  const double none_ground = log_none + none.if_ground + log_ground;
-  const double none_not = log_none + none.if_not;
-  const double some_ground = log_some + some.if_ground + log_ground;
-  const double some_not = log_some + some.if_not;
+  const double of_size = agreement.LogRatioOfSize();
+  const LogLikelihoods none = agreement.Weigh(landmarks, 0), come = agreement.Weigh(landmarks, 1);
+  const double none_ground = if_none.if_ground + none.if_ground + of_size;
+  const double none_not = if_none.if_not + none.if_not;
+  const double come_ground = if_come.if_ground + come.if_ground + of_size;
+  const double come_not = if_come.if_not + come.if_not;
   GroundBelief after;
-  after.log_odds = LogSum(none_ground, some_ground) - LogSum(none_not, some_not);
-  after.arrived = Logistic(LogSum(some_ground, some_not) - LogSum(none_ground, none_not));
+  after.log_odds = LogSum(none_ground, come_ground) - LogSum(none_not, come_not);
+  after.arrived = Logistic(LogSum(come_ground, come_not) - LogSum(none_ground, none_not));
   return after;
 }
 

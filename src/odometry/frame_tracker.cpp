@@ -127,13 +127,18 @@ void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Ex
   // What moves on its own goes on as smoothly, unless it has hidden the ground just now.
   double smoothest = motion(tracked.pose.camera_from_world);
   if (tracked.pose.rival) smoothest = std::max(smoothest, motion(*tracked.pose.rival));
-  const double if_neither =
-      std::log((1 - expected.just_hidden) * std::exp(smoothest) + expected.just_hidden);
   const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
-    const double other = motion(pose) - if_neither + (rests ? rest : 0);
+    const auto likely = [&](double probability, const GroundPrior& prior) {
+      const double hidden_before = 1 - prior.ground - prior.just_hidden;
+      const double if_not = hidden_before * std::exp(smoothest) + prior.just_hidden;
+      return LogLikelihoods{
+          std::log(probability * prior.ground) + motion(pose) + (rests ? rest : 0),
+          std::log(probability * if_not)};
+    };
     GroundBelief ground = tracked.matches.Weigh(camera_, tracked.agrees, flag,
-                                                {expected.log_odds, map.arrived()}, other);
-    ground.log_odds -= expected.log_odds;
+                                                likely(1 - map.arrived(), expected.if_none),
+                                                likely(map.arrived(), expected.if_come));
+    ground.log_odds -= std::log(expected.if_none.ground / (1 - expected.if_none.ground));
     return ground;
   };
   const Rigid3& pose = tracked.pose.camera_from_world;

@@ -40,6 +40,11 @@ Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
   return step * step.transpose();
 }
 
+GroundPrior Advance(double interval_s, double hidden_after_s, Belief& ground) {
+  const double just_hidden = ground.Advance(interval_s, hidden_after_s, kAnotherLeaves_s);
+  return {ground.Probability(), just_hidden};
+}
+
 }  // namespace
 
 void Verdict::Look(const StereoFrame& frame) {
@@ -47,8 +52,10 @@ void Verdict::Look(const StereoFrame& frame) {
   right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
   fixed_.Advance(interval_s, kIsTakenAway_s, kIsFixed_s);
   another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
-  const double hidden = ground_.Advance(interval_s, kAnotherComes_s, kAnotherLeaves_s);
-  just_hidden_ = hidden / (1 - ground_.Probability());
+  // What has come hides the ground at some moment of its stay.
+  Belief where_come = ground_;
+  if_come_ = Advance(interval_s, kAnotherLeaves_s, where_come);
+  if_none_ = Advance(interval_s, kAnotherComes_s, ground_);
   stamp_s_ = frame.stamp_s;
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {
@@ -58,7 +65,7 @@ void Verdict::Look(const StereoFrame& frame) {
 }
 
 Expectation Verdict::Expect(const std::optional<PredictedPose>& predicted) const {
-  Expectation expected{predicted, ground_.log_odds(), just_hidden_};
+  Expectation expected{predicted, if_none_, if_come_};
   expected.use_right = right_fault_ == Reason::kNone;
   expected.is_wary = IsUnsure();
   return expected;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <deque>
 
+#include "arfm_vo/base/belief.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -80,7 +82,15 @@ class GroundTest : public CorrespondencesTest {
       flags_.push_back(is_left ? 1 : 2);
     }
   }
-  double LogOdds(char flag) const { return found_.Weigh(camera_, flags_, flag, {}).log_odds; }
+  /// `log_odds` and `arrived` are believed before.
+  GroundBelief Weigh(char flag, double log_odds, double arrived) const {
+    const auto prior = [&](double probability) {
+      return LogLikelihoods{std::log(probability * Logistic(log_odds)),
+                            std::log(probability * Logistic(-log_odds))};
+    };
+    return found_.Weigh(camera_, flags_, flag, prior(1 - arrived), prior(arrived));
+  }
+  double LogOdds(char flag) const { return Weigh(flag, 0, 0).log_odds; }
 
   std::vector<char> flags_;
 };
@@ -112,7 +122,7 @@ class ArrivalTest : public GroundTest {
       if (!is_left) landmarks_[i].doubt = 3;
       flags_[i] = is_left ? left_agrees : right_agrees;
     }
-    return found_.Weigh(camera_, flags_, 1, {4, 0.9});
+    return Weigh(1, 4, 0.9);
   }
 };
 
@@ -139,7 +149,7 @@ TEST_F(ArrivalTest, AloneItTellsNothing) {
   AddGroups(0, 0);
   for (Landmark& landmark : landmarks_) landmark.doubt = 3;
   flags_.assign(landmarks_.size(), 1);
-  const GroundBelief after = found_.Weigh(camera_, flags_, 1, {0, 0.9});
+  const GroundBelief after = Weigh(1, 0, 0.9);
   EXPECT_NEAR(after.arrived, 0.9, 0.02);
   EXPECT_NEAR(after.log_odds, std::log(0.1 / 0.9), 0.3);
 }

@@ -64,8 +64,8 @@ TEST_F(FrameTrackerTest, AJerkTellsThatTheGroundIsHiddenOnlyWhereItMayHaveBeenHi
   PredictedPose smooth(truth_), jerk(Rigid3(truth_.rotation, Eigen::Vector3d(0, 0, 0.5)));
   for (PredictedPose* one : {&smooth, &jerk}) one->sigma_shift_m = one->sigma_turn_rad = 0.05;
   const auto log_odds = [&](const PredictedPose& predicted, double just_hidden) {
-    Expectation expected{predicted};
-    expected.just_hidden = just_hidden;
+    const GroundPrior prior{0.5, 0.5 * just_hidden};
+    const Expectation expected{predicted, prior, prior};
     return FrameTracker(camera_, {}).Track(frame, images, map_, expected).log_odds;
   };
   EXPECT_LT(log_odds(jerk, 1), log_odds(smooth, 1) - 3);

@@ -94,6 +94,18 @@ TEST_F(VerdictTest, WhatWasFollowedInDoubtStaysInDoubtForAWhile) {
   EXPECT_LT(num_pairs, 100);
 }
 
+/// Something large comes rarely. Where it has come, the ground may be hidden at any moment.
+TEST_F(VerdictTest, WhereSomethingHasComeTheGroundIsLikelierToBeHiddenJustNow) {
+  for (int i = 0; i < 10; ++i) {
+    Look();
+    Weigh();
+  }
+  const Expectation expected = verdict_.Expect(std::nullopt);
+  EXPECT_GT(expected.if_none.ground, expected.if_come.ground);
+  EXPECT_GT(expected.if_come.just_hidden, 100 * expected.if_none.just_hidden);
+  EXPECT_NEAR(expected.if_come.just_hidden, expected.if_none.ground * 0.1 / 2, 0.01);
+}
+
 TEST_F(VerdictTest, RowsThatDoNotAgreeTakeTheRightPictureAway) {
   for (int i = 0; i < 10; ++i) {
     Look();

@@ -19,6 +19,17 @@ struct GroundBelief {
   double log_odds = 0, arrived = 0;
 };
 
+/// The same before a frame, as probabilities; the rest: something else was followed already.
+struct GroundPrior {
+  double ground = 0.5;
+  double just_hidden = 0.5;  ///< the poses were the ground's until the frame before
+};
+
+/// Logarithms of how likely what is seen is, if a pose is the ground's and if it is not.
+struct LogLikelihoods {
+  double if_ground = 0, if_not = 0;
+};
+
 /// Landmarks and where the frame seems to see them.
 struct Correspondences {
   /// Landmarks near one another err, and move, together: an image counts as so many observations.
@@ -43,9 +54,9 @@ struct Correspondences {
   /// poses before have told of them and of those that do not agree, and by how much of the image
   /// they fill; the mean of each of kRegions counts once. Landmarks that came with something large
   /// are all its own or, if nothing came, all the ground's: so both cases are weighed as a whole.
-  /// `before`: what is believed without this frame; `other_log_ratio`: what else tells for ground.
+  /// `if_none`, `if_come`: of everything else, that nothing or something has come included.
   GroundBelief Weigh(const StereoCamera& camera, const std::vector<char>& flags, char flag,
-                     const GroundBelief& before, double other_log_ratio = 0) const;
+                     const LogLikelihoods& if_none, const LogLikelihoods& if_come) const;
 };
 
 }  // namespace arfm_vo

@@ -58,7 +58,7 @@ class Verdict {
   Belief fixed_{0.01};          ///< something is fixed before the camera: so it is on few rigs
   Belief another_moves_{0.01};  ///< something large moves on its own
   Belief ground_{0.98};         ///< the poses up to here are the ground's
-  double just_hidden_ = 0;      ///< see Expectation
+  GroundPrior if_none_, if_come_;  ///< see Expectation
   Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
 };
 
