@@ -89,15 +89,8 @@ TEST_F(KeyframeArchiveTest, HoldsNothingAfterClearOrWhereItIsSwitchedOff) {
   cleared.Clear();
   EXPECT_EQ(none.size() + cleared.size(), 0);
   EXPECT_FALSE(cleared.Find(SeeWall(1, 0), {}));
-  options.ratio = 0;
+  options.places.max_ratio = 0;
   EXPECT_THROW(KeyframeArchive(kCamera, options), std::invalid_argument);
-}
-
-/// The bound that a pose must reach can be reached: a sample of points that agree is drawn.
-TEST(RecognitionPose, DrawsEnoughSamplesForTheShareThatItAccepts) {
-  const PoseEstimatorOptions options = RecognitionPose();
-  const double good_sample = std::pow(options.min_inlier_share, options.sample_size);
-  EXPECT_GE(1 - std::pow(1 - good_sample, options.ransac.max_iterations), 0.99);
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ class LoopDetectorTest : public ::testing::Test {
 
   LoopDetectorTest() {
     options_.min_gap_keyframes = 6;
-    options_.search_interval_keyframes = 1;
-    options_.place_keyframes = 2;
+    options_.interval_keyframes = 1;
     for (int i = 0; i < 5; ++i) places_.push_back(MakePlace());
   }
 
@@ -61,10 +60,9 @@ class LoopDetectorTest : public ::testing::Test {
         MapStore::Point& point = map_.landmarks[id];
         point.x_in_world = believed.Inverse() * x;
         point.first_keyframe = keyframe;
-        point.laplacian_sign = place[i].sign;
-        point.descriptor = place[i].descriptor;
-        for (float& value : point.descriptor) value += static_cast<float>(Random(-0.02, 0.02));
-        point.descriptor = Normalised(point.descriptor);
+        std::vector<float> descriptor = place[i].descriptor;
+        for (float& value : descriptor) value += static_cast<float>(Random(-0.02, 0.02));
+        point.appearance = {Normalised(descriptor).data(), place[i].sign};
         next_landmark_ = id + 1;
       }
       MapStore::Point& point = map_.Find(id)->second;
@@ -162,21 +160,21 @@ TEST_F(LoopDetectorTest, WhatWasSeenJustLongEnoughAgoIs) {
 TEST_F(LoopDetectorTest, AFewPointsThatLookAlikeAreNoLoop) {
   Place place = MakePlace();
   std::copy(places_[0].begin(), places_[0].begin() + 40, place.begin());
-  options_.pose.min_inlier_share = 0.1;
-  options_.min_votes = 20;
+  options_.places.pose.min_inlier_share = 0.1;
+  options_.places.min_votes = 20;
   const auto loop = DriveOutAndReturn(place);
   ASSERT_TRUE(loop);
   EXPECT_GE(loop->same.size(), 30u);
   EXPECT_LE(loop->same.size(), 40u);
   map_ = {};
-  options_.min_votes = 41;
+  options_.places.min_votes = 41;
   EXPECT_FALSE(DriveOutAndReturn(place));
 }
 
 TEST_F(LoopDetectorTest, LooksAtEachSoManythKeyframe) {
-  options_.search_interval_keyframes = 3;
+  options_.interval_keyframes = 3;
   LoopDetector detector(camera_, options_);
-  DriveOut(detector);  // looks at 6, the first with an index, and 9
+  DriveOut(detector);  // looks at 6, the first with a place, and 9
   EXPECT_FALSE(Return(detector, places_[0]));
   EXPECT_FALSE(Return(detector, places_[0]));
   EXPECT_TRUE(Return(detector, places_[0]));
