@@ -28,7 +28,8 @@ class LoopDetectorTest : public ::testing::Test {
 
   LoopDetectorTest() {
     options_.min_gap_keyframes = 6;
-    options_.interval_keyframes = 1;
+    options_.search_interval_keyframes = 1;
+    options_.place_keyframes = 2;
     for (int i = 0; i < 5; ++i) places_.push_back(MakePlace());
   }
 
@@ -172,7 +173,7 @@ TEST_F(LoopDetectorTest, AFewPointsThatLookAlikeAreNoLoop) {
 }
 
 TEST_F(LoopDetectorTest, LooksAtEachSoManythKeyframe) {
-  options_.interval_keyframes = 3;
+  options_.search_interval_keyframes = 3;
   LoopDetector detector(camera_, options_);
   DriveOut(detector);  // looks at 6, the first with a place, and 9
   EXPECT_FALSE(Return(detector, places_[0]));
