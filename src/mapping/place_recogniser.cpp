@@ -1,13 +1,14 @@
 #include "arfm_vo/mapping/place_recogniser.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
 namespace {
 
+constexpr double kMaxDistance = 0.6;  ///< of the descriptors of one point
+constexpr double kMaxRatio = 0.85;  ///< distance of the nearest over that of the nearest elsewhere
+constexpr int kMinVotes = 12;       ///< points of a view that look like those of a place
+constexpr int kMaxTries = 3;        ///< places, those with most votes first, that are verified
 /// Points of a place nearer to each other than this share of their distance are one.
 constexpr double kSamePoint = 0.1;
 /// What a pose's covariance is at least.
@@ -17,13 +18,13 @@ double Square(double x) { return x * x; }
 
 }  // namespace
 
-void PlaceRecogniserOptions::Check() const {
-  Require(max_distance > 0 && max_distance <= 2, "places: max_distance must be in (0, 2]");
-  Require(max_ratio > 0 && max_ratio <= 1, "places: max_ratio must be in (0, 1]");
-  Require(min_votes >= 1, "places: min_votes must be at least 1");
-  Require(max_tries >= 1, "places: max_tries must be at least 1");
-  index.Check();
-  pose.Check();
+PoseEstimatorOptions RecognitionPose() {
+  PoseEstimatorOptions options;
+  options.min_inliers = 25;
+  options.min_inlier_share = 0.25;
+  options.sample_size = 4;
+  options.ransac.max_iterations = 1800;  // finds a quarter that agrees at a probability of 0.999
+  return options;
 }
 
 std::vector<SeenPoint> PointsSeen(const StereoCamera& camera, const StereoCorrection& correction,
@@ -42,24 +43,15 @@ std::vector<SeenPoint> PointsSeen(const StereoCamera& camera, const StereoCorrec
   return view;
 }
 
-PlaceRecogniser::PlaceRecogniser(const StereoCamera& camera, const PlaceRecogniserOptions& options)
-    : camera_(camera), options_(options), index_(options.index) {
-  camera.Check();
-  options.Check();
-}
-
 void PlaceRecogniser::Add(Place place) {
-  const int number = static_cast<int>(places_.size()), size = static_cast<int>(place.size());
-  if (size >= options_.pose.min_inliers) {
-    if (index_.size() == 0) {
-      std::vector<Appearance> appearances;
-      for (const PlacePoint& point : place) appearances.push_back(point.appearance);
-      index_.Train(appearances);
-    }
-    for (int i = 0; i < size; ++i) {
-      index_.Add(place[i].appearance);
-      indexed_.emplace_back(number, i);
-    }
+  if (!index_ && static_cast<int>(place.size()) >= RecognitionPose().min_inliers) {
+    std::vector<Appearance> training;
+    for (const PlacePoint& point : place) training.push_back(point.appearance);
+    index_.emplace(training);
+  }
+  for (size_t i = 0; index_ && i < place.size(); ++i) {
+    index_->Add(place[i].appearance);
+    indexed_.emplace_back(places_.size(), i);
   }
   places_.push_back(std::move(place));
 }
@@ -67,45 +59,45 @@ void PlaceRecogniser::Add(Place place) {
 std::optional<RecognisedPlace> PlaceRecogniser::Find(const std::vector<SeenPoint>& view,
                                                      const Revise& revise) const {
   std::optional<RecognisedPlace> best;
-  for (const int place : FindMostAlike(view, revise)) {
+  if (!index_) return best;
+  std::vector<std::pair<int, int>> votes = CountVotes(view, revise);
+  std::sort(votes.begin(), votes.end());
+  votes.resize(std::min<size_t>(votes.size(), kMaxTries));
+  for (const auto& [minus_votes, place] : votes) {
+    if (-minus_votes < kMinVotes) break;
     const auto found = Verify(place, view, revise);
     if (found && (!best || found->pose.num_inliers > best->pose.num_inliers)) best = found;
   }
   return best;
 }
 
-/// A point seen votes for the places of all those that cannot be told apart from the nearest.
-std::vector<int> PlaceRecogniser::FindMostAlike(const std::vector<SeenPoint>& view,
-                                                const Revise& revise) const {
-  std::vector<int> votes(places_.size(), 0), last_voter(places_.size(), -1);
-  for (int seen = 0; seen < static_cast<int>(view.size()); ++seen) {
+/// (Minus the votes for it, place): a point seen votes for the places of all those that cannot be
+/// told apart from the nearest.
+std::vector<std::pair<int, int>> PlaceRecogniser::CountVotes(const std::vector<SeenPoint>& view,
+                                                             const Revise& revise) const {
+  std::vector<std::pair<int, int>> votes;
+  for (size_t i = 0; i < places_.size(); ++i) votes.emplace_back(0, i);
+  for (const SeenPoint& seen : view) {
     std::vector<std::pair<float, int>> alike;
-    double allowed = Square(options_.max_distance);
-    for (const int candidate : index_.FindCandidates(view[seen].appearance)) {
-      const auto [place, point] = indexed_[candidate];
-      const float squared =
-          places_[place][point].appearance.SquaredDistance(view[seen].appearance);
-      if (squared < allowed) alike.emplace_back(squared, candidate);
+    for (const int candidate : index_->FindCandidates(seen.appearance)) {
+      const auto& [place, point] = indexed_[candidate];
+      const float squared = places_[place][point].appearance.SquaredDistance(seen.appearance);
+      if (squared < Square(kMaxDistance)) alike.emplace_back(squared, candidate);
     }
     std::sort(alike.begin(), alike.end());
+    double allowed = Square(kMaxDistance);
+    std::vector<int> voted;
     for (const auto& [squared, candidate] : alike) {
       if (squared > allowed) break;
-      const auto [place, point] = indexed_[candidate];
+      const auto& [place, point] = indexed_[candidate];
       PlacePoint revised = places_[place][point];
-      if (last_voter[place] == seen || !revise(place, revised)) continue;
-      ++votes[place];
-      last_voter[place] = seen;
-      allowed = std::min(allowed, squared / Square(options_.max_ratio));
+      if (std::count(voted.begin(), voted.end(), place) || !revise(place, revised)) continue;
+      voted.push_back(place);
+      --votes[place].first;
+      allowed = std::min(allowed, squared / Square(kMaxRatio));
     }
   }
-  std::vector<int> most_alike;
-  for (int place = 0; place < static_cast<int>(votes.size()); ++place) {
-    if (votes[place] >= options_.min_votes) most_alike.push_back(place);
-  }
-  std::stable_sort(most_alike.begin(), most_alike.end(),
-                   [&](int a, int b) { return votes[a] > votes[b]; });
-  most_alike.resize(std::min<size_t>(most_alike.size(), options_.max_tries));
-  return most_alike;
+  return votes;
 }
 
 /// (Of the place, of the view): each point seen with the one that it looks like, if it looks like
@@ -119,12 +111,12 @@ std::vector<std::pair<int, int>> PlaceRecogniser::Match(const Place& place,
     }
   }
   const Eigen::VectorXf least = squared.rowwise().minCoeff();
-  const double distinct = 1 / Square(options_.max_ratio);
+  const double distinct = 1 / Square(kMaxRatio);
   std::vector<std::pair<int, int>> matches;
   for (int j = 0; j < squared.cols(); ++j) {
     int found = 0;
     const double nearest = squared.col(j).minCoeff(&found);
-    if (nearest >= Square(options_.max_distance) || nearest > distinct * least[found]) continue;
+    if (nearest >= Square(kMaxDistance) || nearest > distinct * least[found]) continue;
     const Eigen::Vector3d& x = place[found].x_in_place;
     bool is_unique = true;
     for (int i = 0; i < squared.rows() && is_unique; ++i) {
@@ -143,7 +135,7 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
   for (PlacePoint point : places_[place]) {
     if (revise(place, point)) known.push_back(point);
   }
-  if (static_cast<int>(known.size()) < options_.pose.min_inliers) return std::nullopt;
+  if (known.empty()) return std::nullopt;
   const std::vector<std::pair<int, int>> matches = Match(known, view);
   std::vector<PointObservation> observations;
   for (const auto& [point, seen] : matches) {
@@ -152,7 +144,7 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
   }
   std::vector<char> is_inlier;
   RecognisedPlace found{place, {}, {}};
-  found.pose = EstimatePose(camera_, observations, std::nullopt, options_.pose, &is_inlier);
+  found.pose = EstimatePose(camera_, observations, std::nullopt, RecognitionPose(), &is_inlier);
   if (!found.pose.IsTracked()) return std::nullopt;
   found.pose.covariance.diagonal().head<3>().array() += Square(kMinSigma_rad);
   found.pose.covariance.diagonal().tail<3>().array() += Square(kMinSigma_m);

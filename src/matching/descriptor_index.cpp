@@ -7,6 +7,10 @@
 namespace arfm_vo {
 namespace {
 
+constexpr int kTables = 8;      ///< each finds others
+constexpr int kBits = 14;       ///< of a table's key; more: fewer candidates, fewer finds
+constexpr int kMaxPerKey = 32;  ///< that a table keeps of one key, drawn at random among all
+
 Eigen::VectorXf Descriptor(const Appearance& appearance) {
   using Steps = Eigen::Matrix<int8_t, Appearance::kLength, 1>;
   return Eigen::Map<const Steps>(appearance.descriptor.data()).cast<float>();
@@ -14,37 +18,24 @@ Eigen::VectorXf Descriptor(const Appearance& appearance) {
 
 }  // namespace
 
-void DescriptorIndexOptions::Check() const {
-  Require(tables >= 1 && tables <= 64, "index.tables must be in 1..64");
-  Require(bits >= 1 && bits <= 30, "index.bits must be in 1..30");
-  Require(max_per_key >= 1, "index.max_per_key must be at least 1");
-}
-
-DescriptorIndex::DescriptorIndex(const DescriptorIndexOptions& options)
-    : options_(options),
-      planes_(options.tables * options.bits, Appearance::kLength),
-      tables_(options.tables) {
-  options.Check();
+DescriptorIndex::DescriptorIndex(const std::vector<Appearance>& training)
+    : planes_(kTables * kBits, Appearance::kLength), tables_(kTables) {
+  Require(!training.empty(), "descriptor index: nothing to be trained on");
   for (Eigen::Index i = 0; i < planes_.size(); ++i) {
     double sum = -2;  // of four: as good as normal here
     for (int k = 0; k < 4; ++k) sum += RandomUnit(engine_);
     planes_.data()[i] = static_cast<float>(sum);
   }
-}
-
-void DescriptorIndex::Train(const std::vector<Appearance>& appearances) {
-  Require(offsets_.size() == 0, "descriptor index: trained twice");
-  Require(!appearances.empty(), "descriptor index: nothing to be trained on");
   Eigen::VectorXf middle = Eigen::VectorXf::Zero(Appearance::kLength);
-  for (const Appearance& appearance : appearances) middle += Descriptor(appearance);
-  offsets_ = planes_ * middle / static_cast<float>(appearances.size());
+  for (const Appearance& appearance : training) middle += Descriptor(appearance);
+  offsets_ = planes_ * middle / static_cast<float>(training.size());
 }
 
 std::vector<uint32_t> DescriptorIndex::Keys(const Appearance& appearance) const {
   const Eigen::VectorXf sides = planes_ * Descriptor(appearance) - offsets_;
-  std::vector<uint32_t> keys(options_.tables, appearance.laplacian_sign > 0);
+  std::vector<uint32_t> keys(kTables, appearance.laplacian_sign > 0);
   for (int i = 0; i < sides.size(); ++i) {
-    uint32_t& key = keys[i / options_.bits];
+    uint32_t& key = keys[i / kBits];
     key = key << 1 | (sides[i] > 0);
   }
   return keys;
@@ -52,10 +43,10 @@ std::vector<uint32_t> DescriptorIndex::Keys(const Appearance& appearance) const 
 
 void DescriptorIndex::Add(const Appearance& appearance) {
   const std::vector<uint32_t> keys = Keys(appearance);
-  for (int table = 0; table < options_.tables; ++table) {
+  for (int table = 0; table < kTables; ++table) {
     Bucket& bucket = tables_[table][keys[table]];
     ++bucket.num_seen;
-    if (static_cast<int>(bucket.numbers.size()) < options_.max_per_key) {
+    if (static_cast<int>(bucket.numbers.size()) < kMaxPerKey) {
       bucket.numbers.push_back(size_);
       continue;
     }
@@ -69,7 +60,7 @@ void DescriptorIndex::Add(const Appearance& appearance) {
 std::vector<int> DescriptorIndex::FindCandidates(const Appearance& appearance) const {
   const std::vector<uint32_t> keys = Keys(appearance);
   std::vector<int> found;
-  for (int table = 0; table < options_.tables; ++table) {
+  for (int table = 0; table < kTables; ++table) {
     const auto bucket = tables_[table].find(keys[table]);
     if (bucket == tables_[table].end()) continue;
     found.insert(found.end(), bucket->second.numbers.begin(), bucket->second.numbers.end());

@@ -4,40 +4,29 @@
 #include <limits>
 #include <utility>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/odometry/drift_estimator.h"
 
 namespace arfm_vo {
 
-void KeyframeArchiveOptions::Check() const {
-  Require(max_keyframes >= 0, "archive.max_keyframes must not be negative");
-  places.Check();
-}
-
-KeyframeArchive::KeyframeArchive(const StereoCamera& camera, const KeyframeArchiveOptions& options)
-    : camera_(camera), options_(options) {
-  camera.Check();
-  options.Check();
-}
-
 void KeyframeArchive::Add(const Keyframe& keyframe, const LocalMap& map,
                           const Eigen::Matrix<double, 6, 6>& covariance) {
-  if (options_.max_keyframes == 0) return;
+  if (max_keyframes_ == 0) return;
   View view{keyframe.id, keyframe.camera_from_world, covariance, 0, {}};
   std::vector<double> distances_m;
   for (const LandmarkObservation& observation : keyframe.observations) {
     const auto found = map.landmarks().find(observation.landmark);
     if (found == map.landmarks().end() || found->second.num_keyframes < 2) continue;
     const Landmark& landmark = found->second;
-    view.place.push_back({landmark.id, keyframe.camera_from_world * landmark.x_in_world,
+    view.place.push_back({landmark.id,
+                          keyframe.camera_from_world * landmark.x_in_world,
                           {landmark.descriptor.data(), landmark.keypoint.laplacian_sign}});
     distances_m.push_back(view.place.back().x_in_place.norm());
   }
-  if (static_cast<int>(distances_m.size()) < options_.places.pose.min_inliers) return;
+  if (static_cast<int>(distances_m.size()) < RecognitionPose().min_inliers) return;
   view.distance_m = std::max(Median(std::move(distances_m)), camera_.baseline_m);
   views_.push_back(std::move(view));
-  if (size() > options_.max_keyframes) DropLeastMissed();
+  if (size() > max_keyframes_) DropLeastMissed();
   recogniser_.reset();
 }
 
@@ -56,7 +45,7 @@ void KeyframeArchive::DropLeastMissed() {
     for (size_t j = 0; j < views_.size(); ++j) {
       if (i != j) nearest = std::min(nearest, Difference(views_[i], views_[j]));
     }
-    const double age = views_.back().keyframe - views_[i].keyframe + options_.max_keyframes;
+    const double age = views_.back().keyframe - views_[i].keyframe + max_keyframes_;
     if (nearest / age >= least) continue;
     least = nearest / age;
     least_missed = i;
@@ -67,15 +56,14 @@ void KeyframeArchive::DropLeastMissed() {
 std::optional<ArchivedPlace> KeyframeArchive::Find(const StereoFrame& frame,
                                                    const StereoCorrection& correction) {
   if (!recogniser_) {
-    recogniser_.emplace(camera_, options_.places);
+    recogniser_.emplace(camera_);
     for (const View& view : views_) recogniser_->Add(view.place);
   }
   const auto found = recogniser_->Find(PointsSeen(camera_, correction, frame));
   if (!found) return std::nullopt;
   const View& view = views_[found->place];
   ArchivedPlace archived{found->pose, found->pose.covariance};
-  archived.covariance_from_start +=
-      CarryCovariance(found->pose.camera_from_world, view.covariance);
+  archived.covariance_from_start += CarryCovariance(found->pose.camera_from_world, view.covariance);
   archived.pose.camera_from_world = found->pose.camera_from_world * view.camera_from_world;
   return archived;
 }

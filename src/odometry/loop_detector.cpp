@@ -13,11 +13,10 @@ void LoopOptions::Check() const {
   Require(min_gap_keyframes >= 1, "loops.min_gap_keyframes must be at least 1");
   Require(search_interval_keyframes >= 1, "loops.search_interval_keyframes must be at least 1");
   Require(place_keyframes >= 1, "loops.place_keyframes must be at least 1");
-  places.Check();
 }
 
 LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& options)
-    : camera_(camera), options_(options), recogniser_(camera, options.places) {
+    : camera_(camera), options_(options), recogniser_(camera) {
   options.Check();
 }
 
@@ -56,7 +55,8 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
   // The map may have learnt where a landmark is, that it is another one, or that it is in view.
   const auto revise = [&](int place, PlacePoint& point) {
     const auto landmark = map.Find(point.id);
-    if (landmark == map.landmarks.end() || landmark->second.last_keyframe > newest_old) return false;
+    if (landmark == map.landmarks.end() || landmark->second.last_keyframe > newest_old)
+      return false;
     const Keyframe& keyframe = map.keyframes[place * options_.place_keyframes];
     point.id = landmark->first;
     point.x_in_place = keyframe.camera_from_world * landmark->second.x_in_world;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "matching/random_features.h"
 
@@ -64,7 +63,7 @@ class PlaceRecogniserTest : public ::testing::Test {
   std::optional<RecognisedPlace> Find(
       const std::vector<SeenPoint>& view,
       const PlaceRecogniser::Revise& revise = [](int, PlacePoint&) { return true; }) {
-    PlaceRecogniser recogniser(camera_, options_);
+    PlaceRecogniser recogniser(camera_);
     LandmarkId next = 0;
     for (const Points& points : places_) {
       Place place;
@@ -78,7 +77,6 @@ class PlaceRecogniserTest : public ::testing::Test {
 
   RandomEngine engine_{7};
   StereoCamera camera_{400, 400, 320, 240, 0.2, 640, 480};
-  PlaceRecogniserOptions options_;
   std::vector<Points> places_;
   const Rigid3 aside_{ExpSO3({0.01, 0.1, -0.02}), Eigen::Vector3d(0.3, -0.05, 0.2)};
 };
@@ -107,8 +105,7 @@ TEST_F(PlaceRecogniserTest, APoseIsNeverMoreCertainThanThePlaceItself) {
 TEST_F(PlaceRecogniserTest, DoesNotFindAnUnknownPlaceNorOneOfTooFewPoints) {
   EXPECT_FALSE(Find(See(MakePlace())));
   EXPECT_FALSE(Find({}));
-  places_[0].resize(24);
-  options_.min_votes = 1;
+  for (Points& points : places_) points.resize(24);
   EXPECT_FALSE(Find(See(places_[0])));
 }
 
@@ -126,17 +123,15 @@ TEST_F(PlaceRecogniserTest, DarkOnBrightIsNotBrightOnDark) {
   EXPECT_FALSE(Find(See(points)));
 }
 
-/// Of the points that are known again, as many as votes are asked for.
 TEST_F(PlaceRecogniserTest, AFewPointsThatLookAlikeAreNoPlace) {
   Points points = MakePlace();
   std::copy(places_[0].begin(), places_[0].begin() + 40, points.begin());
-  options_.pose.min_inlier_share = 0.1;
-  options_.min_votes = 20;
   const auto found = Find(See(points));
   ASSERT_TRUE(found);
   EXPECT_GE(found->same.size(), 30u);
   EXPECT_LE(found->same.size(), 40u);
-  options_.min_votes = 41;
+  points = MakePlace();
+  std::copy(places_[0].begin(), places_[0].begin() + 24, points.begin());
   EXPECT_FALSE(Find(See(points)));
 }
 
@@ -181,23 +176,9 @@ TEST_F(PlaceRecogniserTest, PointsAreLookedForWhereTheyAreNow) {
   EXPECT_FALSE(Find(view, [](int place, PlacePoint&) { return place != 2; }));
 }
 
-TEST_F(PlaceRecogniserTest, RefusesWrongOptions) {
-  const PlaceRecogniserOptions right = options_;
-  const auto refuses = [&](const auto& spoil) {
-    options_ = right;
-    spoil(options_);
-    EXPECT_THROW(Find({}), std::invalid_argument);
-  };
-  refuses([](auto& o) { o.max_distance = 0; });
-  refuses([](auto& o) { o.max_ratio = 1.1; });
-  refuses([](auto& o) { o.min_votes = 0; });
-  refuses([](auto& o) { o.max_tries = 0; });
-  refuses([](auto& o) { o.index.tables = 0; });
-}
-
 /// The bound that a pose must reach can be reached: a sample of points that agree is drawn.
-TEST(PlaceRecogniserOptions, DrawsEnoughSamplesForTheShareThatItAccepts) {
-  const PoseEstimatorOptions options = PlaceRecogniserOptions().pose;
+TEST(RecognitionPose, DrawsEnoughSamplesForTheShareThatItAccepts) {
+  const PoseEstimatorOptions options = RecognitionPose();
   const double good_sample = std::pow(options.min_inlier_share, options.sample_size);
   EXPECT_GE(1 - std::pow(1 - good_sample, options.ransac.max_iterations), 0.99);
 }

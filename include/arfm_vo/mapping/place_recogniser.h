@@ -14,25 +14,8 @@
 
 namespace arfm_vo {
 
-struct PlaceRecogniserOptions {
-  double max_distance = 0.6;  ///< of the descriptors of one point
-  double max_ratio = 0.85;    ///< distance of the nearest over that of the nearest elsewhere
-  int min_votes = 12;         ///< points of a view that look like those of a place
-  int max_tries = 3;          ///< places, those with most votes first, that are verified
-  DescriptorIndexOptions index;
-  PoseEstimatorOptions pose = DefaultPose();
-
-  /// A place is not known again by a few points that fit by chance.
-  static PoseEstimatorOptions DefaultPose() {
-    PoseEstimatorOptions options;
-    options.min_inliers = 25;
-    options.min_inlier_share = 0.25;
-    options.sample_size = 4;
-    options.ransac.max_iterations = 1800;  // finds a quarter that agrees at a probability of 0.999
-    return options;
-  }
-  void Check() const;
-};
+/// How a place is verified: it is not known again by a few points that fit by chance.
+PoseEstimatorOptions RecognitionPose();
 
 /// A point that a place shows.
 struct PlacePoint {
@@ -67,7 +50,7 @@ class PlaceRecogniser {
   /// Brings a point of a place up to date; false: it is not to be looked for.
   using Revise = std::function<bool(int place, PlacePoint& point)>;
 
-  PlaceRecogniser(const StereoCamera& camera, const PlaceRecogniserOptions& options);
+  explicit PlaceRecogniser(const StereoCamera& camera) : camera_(camera) { camera.Check(); }
 
   /// The next place, which is known by its number from 0 on.
   void Add(Place place);
@@ -76,16 +59,16 @@ class PlaceRecogniser {
       const Revise& revise = [](int, PlacePoint&) { return true; }) const;
 
  private:
-  std::vector<int> FindMostAlike(const std::vector<SeenPoint>& view, const Revise& revise) const;
+  std::vector<std::pair<int, int>> CountVotes(const std::vector<SeenPoint>& view,
+                                              const Revise& revise) const;
   std::vector<std::pair<int, int>> Match(const Place& place,
                                          const std::vector<SeenPoint>& view) const;
   std::optional<RecognisedPlace> Verify(int place, const std::vector<SeenPoint>& view,
                                         const Revise& revise) const;
 
   StereoCamera camera_;
-  PlaceRecogniserOptions options_;
   std::vector<Place> places_;
-  DescriptorIndex index_;
+  std::optional<DescriptorIndex> index_;      ///< made for the first place that has enough points
   std::vector<std::pair<int, int>> indexed_;  ///< [index_] (place, point)
 };
 

@@ -10,24 +10,14 @@
 
 namespace arfm_vo {
 
-struct DescriptorIndexOptions {
-  int tables = 8;        ///< each finds others
-  int bits = 14;         ///< of a table's key; more: fewer candidates, fewer finds
-  int max_per_key = 32;  ///< appearances that a table keeps of one key, drawn at random among all
-
-  void Check() const;
-};
-
 /// Finds among very many appearances those like a given one, by hashing with random hyperplanes
-/// through the middle of the first ones (Charikar, STOC 2002). A search finds at most
-/// tables * max_per_key however many there are. Grows one by one; the same calls give the same
-/// answers.
+/// through the middle of some (Charikar, STOC 2002). A search finds at most 256 however many there
+/// are. Grows one by one; the same calls give the same answers.
 class DescriptorIndex {
  public:
-  explicit DescriptorIndex(const DescriptorIndexOptions& options = {});
+  /// `training`: where the middle is taken from; not empty.
+  explicit DescriptorIndex(const std::vector<Appearance>& training);
 
-  /// Takes the middle from these. To be called once, before the first Add.
-  void Train(const std::vector<Appearance>& appearances);
   /// The next one, which is known by its number from 0 on.
   void Add(const Appearance& appearance);
   int size() const { return size_; }
@@ -36,16 +26,14 @@ class DescriptorIndex {
   std::vector<int> FindCandidates(const Appearance& appearance) const;
 
  private:
-  /// What hashed to one key.
-  struct Bucket {
+  struct Bucket {  ///< what hashed to one key
     std::vector<int> numbers;
     int num_seen = 0;  ///< kept or not
   };
   std::vector<uint32_t> Keys(const Appearance& appearance) const;
 
-  DescriptorIndexOptions options_;
   Eigen::MatrixXf planes_;   ///< [tables * bits x 64]
-  Eigen::VectorXf offsets_;  ///< of the planes; empty: not trained
+  Eigen::VectorXf offsets_;  ///< of the planes
   RandomEngine engine_{1};
   int size_ = 0;
   std::vector<std::unordered_map<uint32_t, Bucket>> tables_;

@@ -8,17 +8,6 @@
 
 namespace arfm_vo {
 
-struct KeyframeArchiveOptions {
-  int max_keyframes = 32;  ///< 0: none, and no recovery beyond the local map
-  PlaceRecogniserOptions places;
-
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_keyframes", max_keyframes);
-  }
-};
-
 /// Where a frame was taken that the archive knows.
 struct ArchivedPlace {
   PoseEstimate pose;
@@ -30,7 +19,8 @@ struct ArchivedPlace {
 /// bounded number, spread over different views, denser in the recent past.
 class KeyframeArchive {
  public:
-  KeyframeArchive(const StereoCamera& camera, const KeyframeArchiveOptions& options);
+  KeyframeArchive(const StereoCamera& camera, int max_keyframes)
+      : camera_(camera), max_keyframes_(max_keyframes) {}
 
   /// Takes up a keyframe of `map`, newer than all before, with the landmarks that others see too.
   /// `covariance` is the keyframe's against the first camera of all.
@@ -40,7 +30,7 @@ class KeyframeArchive {
   std::optional<ArchivedPlace> Find(const StereoFrame& frame, const StereoCorrection& correction);
 
   int size() const { return static_cast<int>(views_.size()); }
-  void Clear() { *this = KeyframeArchive(camera_, options_); }
+  void Clear() { *this = KeyframeArchive(camera_, max_keyframes_); }
 
  private:
   struct View {
@@ -54,7 +44,7 @@ class KeyframeArchive {
   void DropLeastMissed();
 
   StereoCamera camera_;
-  KeyframeArchiveOptions options_;
+  int max_keyframes_;
   std::vector<View> views_;                    ///< by keyframe
   std::optional<PlaceRecogniser> recogniser_;  ///< of `views_`, where one was needed since
 };
