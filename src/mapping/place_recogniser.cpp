@@ -149,7 +149,8 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
   found.pose.covariance.diagonal().head<3>().array() += Square(kMinSigma_rad);
   found.pose.covariance.diagonal().tail<3>().array() += Square(kMinSigma_m);
   for (size_t i = 0; i < matches.size(); ++i) {
-    if (is_inlier[i] == 1) found.same.emplace_back(known[matches[i].first].id, matches[i].second);
+    const auto& [point, seen] = matches[i];
+    if (is_inlier[i] == 1) found.same.emplace_back(known[point].id, view[seen].id);
   }
   return found;
 }

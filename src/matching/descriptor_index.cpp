@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/random.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr int kTables = 8;      ///< each finds others
 constexpr int kBits = 14;       ///< of a table's key; more: fewer candidates, fewer finds
-constexpr int kMaxPerKey = 32;  ///< that a table keeps of one key, drawn at random among all
+constexpr int kMaxPerKey = 32;  ///< that a search takes from a table, spread over old and new
 
 Eigen::VectorXf Descriptor(const Appearance& appearance) {
   using Steps = Eigen::Matrix<int8_t, Appearance::kLength, 1>;
@@ -21,9 +22,10 @@ Eigen::VectorXf Descriptor(const Appearance& appearance) {
 DescriptorIndex::DescriptorIndex(const std::vector<Appearance>& training)
     : planes_(kTables * kBits, Appearance::kLength), tables_(kTables) {
   Require(!training.empty(), "descriptor index: nothing to be trained on");
+  RandomEngine engine(1);
   for (Eigen::Index i = 0; i < planes_.size(); ++i) {
     double sum = -2;  // of four: as good as normal here
-    for (int k = 0; k < 4; ++k) sum += RandomUnit(engine_);
+    for (int k = 0; k < 4; ++k) sum += RandomUnit(engine);
     planes_.data()[i] = static_cast<float>(sum);
   }
   Eigen::VectorXf middle = Eigen::VectorXf::Zero(Appearance::kLength);
@@ -43,17 +45,7 @@ std::vector<uint32_t> DescriptorIndex::Keys(const Appearance& appearance) const 
 
 void DescriptorIndex::Add(const Appearance& appearance) {
   const std::vector<uint32_t> keys = Keys(appearance);
-  for (int table = 0; table < kTables; ++table) {
-    Bucket& bucket = tables_[table][keys[table]];
-    ++bucket.num_seen;
-    if (static_cast<int>(bucket.numbers.size()) < kMaxPerKey) {
-      bucket.numbers.push_back(size_);
-      continue;
-    }
-    // Each of num_seen is kept with the same probability (reservoir sampling, Vitter 1985).
-    const uint32_t place = RandomBelow(static_cast<uint32_t>(bucket.num_seen), engine_);
-    if (place < bucket.numbers.size()) bucket.numbers[place] = size_;
-  }
+  for (int table = 0; table < kTables; ++table) tables_[table][keys[table]].push_back(size_);
   ++size_;
 }
 
@@ -61,9 +53,12 @@ std::vector<int> DescriptorIndex::FindCandidates(const Appearance& appearance) c
   const std::vector<uint32_t> keys = Keys(appearance);
   std::vector<int> found;
   for (int table = 0; table < kTables; ++table) {
-    const auto bucket = tables_[table].find(keys[table]);
-    if (bucket == tables_[table].end()) continue;
-    found.insert(found.end(), bucket->second.numbers.begin(), bucket->second.numbers.end());
+    const auto numbers = tables_[table].find(keys[table]);
+    if (numbers == tables_[table].end()) continue;
+    const size_t step = (numbers->second.size() + kMaxPerKey - 1) / kMaxPerKey;
+    for (size_t i = table % step; i < numbers->second.size(); i += step) {
+      found.push_back(numbers->second[i]);
+    }
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

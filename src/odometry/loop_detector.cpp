@@ -22,7 +22,7 @@ LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& option
 
 /// The landmarks that those up to `keyframe` saw first, if others saw them too.
 void LoopDetector::AddPlace(const MapStore& map, int keyframe) {
-  const int first = std::max(0, keyframe + 1 - 2 * options_.place_keyframes);
+  const int first = std::max(0, keyframe + 1 - 3 * options_.place_keyframes);
   const Rigid3& place_from_map = map.keyframes[keyframe].camera_from_world;
   Place place;
   const auto end = map.landmarks.lower_bound(map.keyframes[keyframe + 1].first_landmark);
@@ -41,12 +41,11 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
   if (newest_old >= 0 && newest_old % options_.place_keyframes == 0) AddPlace(map, newest_old);
   if (newest % options_.search_interval_keyframes != 0) return std::nullopt;
   std::vector<SeenPoint> view;
-  std::vector<LandmarkId> ids;
   for (const LandmarkObservation& seen : map.keyframes.back().observations) {
     const auto landmark = map.Find(seen.landmark);
     if (landmark == map.landmarks.end()) continue;
-    ids.push_back(landmark->first);
-    auto& [appearance, observation] = view.emplace_back();
+    auto& [id, appearance, observation] = view.emplace_back();
+    id = landmark->first;
     appearance = landmark->second.appearance;
     observation.pixels = NominalPixels(camera_, correction, seen.pixels);
     observation.has_right = seen.has_right;
@@ -64,11 +63,9 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
   };
   const auto found = recogniser_.Find(view, revise);
   if (!found) return std::nullopt;
-  Loop loop{{found->place * options_.place_keyframes, newest, found->pose.camera_from_world,
-             found->pose.covariance.inverse()},
-            {}};
-  for (const auto& [old, seen] : found->same) loop.same.emplace_back(old, ids[seen]);
-  return loop;
+  const int place = found->place * options_.place_keyframes;
+  const PoseEstimate& pose = found->pose;
+  return Loop{{place, newest, pose.camera_from_world, pose.covariance.inverse()}, found->same};
 }
 
 }  // namespace arfm_vo

@@ -52,7 +52,8 @@ class PlaceRecogniserTest : public ::testing::Test {
   std::vector<SeenPoint> See(const Points& points) {
     std::vector<SeenPoint> view;
     for (const Point& point : points) {
-      auto& [appearance, observation] = view.emplace_back();
+      auto& [id, appearance, observation] = view.emplace_back();
+      id = static_cast<LandmarkId>(view.size()) - 1;
       appearance = Look(point);
       observation.pixels = camera_.ProjectStereo(aside_ * point.x_in_place);
     }

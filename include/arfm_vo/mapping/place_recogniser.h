@@ -27,6 +27,7 @@ using Place = std::vector<PlacePoint>;
 
 /// A point that the camera sees now.
 struct SeenPoint {
+  LandmarkId id = 0;  ///< where it is a landmark
   Appearance appearance;
   PointObservation observation;  ///< where; its x_in_world is not known
 };
@@ -39,7 +40,7 @@ struct RecognisedPlace {
   /// World: the place's camera. The covariance is at least that of a place, whose points err
   /// together.
   PoseEstimate pose;
-  std::vector<std::pair<LandmarkId, int>> same;  ///< the place's points, and which of those seen
+  std::vector<std::pair<LandmarkId, LandmarkId>> same;  ///< (of the place, seen)
 };
 
 /// Finds the place that a view shows among places seen before, wherever the camera is believed to

@@ -5,7 +5,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "arfm_vo/base/random.h"
 #include "arfm_vo/matching/appearance.h"
 
 namespace arfm_vo {
@@ -26,17 +25,12 @@ class DescriptorIndex {
   std::vector<int> FindCandidates(const Appearance& appearance) const;
 
  private:
-  struct Bucket {  ///< what hashed to one key
-    std::vector<int> numbers;
-    int num_seen = 0;  ///< kept or not
-  };
   std::vector<uint32_t> Keys(const Appearance& appearance) const;
 
   Eigen::MatrixXf planes_;   ///< [tables * bits x 64]
   Eigen::VectorXf offsets_;  ///< of the planes
-  RandomEngine engine_{1};
   int size_ = 0;
-  std::vector<std::unordered_map<uint32_t, Bucket>> tables_;
+  std::vector<std::unordered_map<uint32_t, std::vector<int>>> tables_;
 };
 
 }  // namespace arfm_vo

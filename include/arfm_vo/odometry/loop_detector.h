@@ -15,7 +15,7 @@ struct LoopOptions {
   int max_keyframes = 5000;           ///< global.max_keyframes where loops are looked for
   int min_gap_keyframes = 30;         ///< newer keyframes are no loop
   int search_interval_keyframes = 3;  ///< each so manyth keyframe is looked at
-  int place_keyframes = 10;           ///< at each so manyth one a place ends, of twice as many
+  int place_keyframes = 10;  ///< at each so manyth one a place ends, of three times as many
 
   void Check() const;
   template <class Visitor>
