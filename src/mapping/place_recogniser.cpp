@@ -16,6 +16,33 @@ constexpr double kMinSigma_rad = 2e-4, kMinSigma_m = 5e-3;
 
 double Square(double x) { return x * x; }
 
+/// (Of the place, of the view): each point seen with the one that it looks like, if it looks like
+/// no other that lies elsewhere, and no other point seen looks more like that one.
+std::vector<std::pair<int, int>> Match(const Place& place, const std::vector<SeenPoint>& view) {
+  Eigen::MatrixXf squared(place.size(), view.size());
+  for (size_t j = 0; j < view.size(); ++j) {
+    for (size_t i = 0; i < place.size(); ++i) {
+      squared(i, j) = place[i].appearance.SquaredDistance(view[j].appearance);
+    }
+  }
+  const Eigen::VectorXf least = squared.rowwise().minCoeff();
+  const double distinct = 1 / Square(kMaxRatio);
+  std::vector<std::pair<int, int>> matches;
+  for (int j = 0; j < squared.cols(); ++j) {
+    int found = 0;
+    const double nearest = squared.col(j).minCoeff(&found);
+    if (nearest >= Square(kMaxDistance) || nearest > distinct * least[found]) continue;
+    const Eigen::Vector3d& x = place[found].x_in_place;
+    bool is_unique = true;
+    for (int i = 0; i < squared.rows() && is_unique; ++i) {
+      is_unique = squared(i, j) >= distinct * nearest ||
+                  (place[i].x_in_place - x).norm() <= kSamePoint * x.norm();
+    }
+    if (is_unique) matches.emplace_back(found, j);
+  }
+  return matches;
+}
+
 }  // namespace
 
 PoseEstimatorOptions RecognitionPose() {
@@ -50,7 +77,7 @@ void PlaceRecogniser::Add(Place place) {
     index_.emplace(training);
   }
   for (size_t i = 0; index_ && i < place.size(); ++i) {
-    index_->Add(place[i].appearance);
+    index_->Add(static_cast<int>(indexed_.size()), place[i].appearance);
     indexed_.emplace_back(places_.size(), i);
   }
   places_.push_back(std::move(place));
@@ -60,23 +87,22 @@ std::optional<RecognisedPlace> PlaceRecogniser::Find(const std::vector<SeenPoint
                                                      const Revise& revise) const {
   std::optional<RecognisedPlace> best;
   if (!index_) return best;
-  std::vector<std::pair<int, int>> votes = CountVotes(view, revise);
-  std::sort(votes.begin(), votes.end());
-  votes.resize(std::min<size_t>(votes.size(), kMaxTries));
-  for (const auto& [minus_votes, place] : votes) {
-    if (-minus_votes < kMinVotes) break;
-    const auto found = Verify(place, view, revise);
+  std::vector<int> votes = CountVotes(view, revise);
+  for (int tries = 0; tries < kMaxTries; ++tries) {
+    const auto most = std::max_element(votes.begin(), votes.end());
+    if (*most < kMinVotes) break;
+    const auto found = Verify(static_cast<int>(most - votes.begin()), view, revise);
     if (found && (!best || found->pose.num_inliers > best->pose.num_inliers)) best = found;
+    *most = 0;
   }
   return best;
 }
 
-/// (Minus the votes for it, place): a point seen votes for the places of all those that cannot be
-/// told apart from the nearest.
-std::vector<std::pair<int, int>> PlaceRecogniser::CountVotes(const std::vector<SeenPoint>& view,
-                                                             const Revise& revise) const {
-  std::vector<std::pair<int, int>> votes;
-  for (size_t i = 0; i < places_.size(); ++i) votes.emplace_back(0, i);
+/// [places] A point seen votes for the places of all those that cannot be told apart from the
+/// nearest.
+std::vector<int> PlaceRecogniser::CountVotes(const std::vector<SeenPoint>& view,
+                                             const Revise& revise) const {
+  std::vector<int> votes(places_.size(), 0);
   for (const SeenPoint& seen : view) {
     std::vector<std::pair<float, int>> alike;
     for (const int candidate : index_->FindCandidates(seen.appearance)) {
@@ -93,39 +119,11 @@ std::vector<std::pair<int, int>> PlaceRecogniser::CountVotes(const std::vector<S
       PlacePoint revised = places_[place][point];
       if (std::count(voted.begin(), voted.end(), place) || !revise(place, revised)) continue;
       voted.push_back(place);
-      --votes[place].first;
+      ++votes[place];
       allowed = std::min(allowed, squared / Square(kMaxRatio));
     }
   }
   return votes;
-}
-
-/// (Of the place, of the view): each point seen with the one that it looks like, if it looks like
-/// no other that lies elsewhere, and no other point seen looks more like that one.
-std::vector<std::pair<int, int>> PlaceRecogniser::Match(const Place& place,
-                                                        const std::vector<SeenPoint>& view) const {
-  Eigen::MatrixXf squared(place.size(), view.size());
-  for (size_t j = 0; j < view.size(); ++j) {
-    for (size_t i = 0; i < place.size(); ++i) {
-      squared(i, j) = place[i].appearance.SquaredDistance(view[j].appearance);
-    }
-  }
-  const Eigen::VectorXf least = squared.rowwise().minCoeff();
-  const double distinct = 1 / Square(kMaxRatio);
-  std::vector<std::pair<int, int>> matches;
-  for (int j = 0; j < squared.cols(); ++j) {
-    int found = 0;
-    const double nearest = squared.col(j).minCoeff(&found);
-    if (nearest >= Square(kMaxDistance) || nearest > distinct * least[found]) continue;
-    const Eigen::Vector3d& x = place[found].x_in_place;
-    bool is_unique = true;
-    for (int i = 0; i < squared.rows() && is_unique; ++i) {
-      is_unique = squared(i, j) >= distinct * nearest ||
-                  (place[i].x_in_place - x).norm() <= kSamePoint * x.norm();
-    }
-    if (is_unique) matches.emplace_back(found, j);
-  }
-  return matches;
 }
 
 std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,

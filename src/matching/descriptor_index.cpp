@@ -43,10 +43,9 @@ std::vector<uint32_t> DescriptorIndex::Keys(const Appearance& appearance) const 
   return keys;
 }
 
-void DescriptorIndex::Add(const Appearance& appearance) {
+void DescriptorIndex::Add(int number, const Appearance& appearance) {
   const std::vector<uint32_t> keys = Keys(appearance);
-  for (int table = 0; table < kTables; ++table) tables_[table][keys[table]].push_back(size_);
-  ++size_;
+  for (int table = 0; table < kTables; ++table) tables_[table][keys[table]].push_back(number);
 }
 
 std::vector<int> DescriptorIndex::FindCandidates(const Appearance& appearance) const {

@@ -11,7 +11,6 @@ namespace arfm_vo {
 
 void KeyframeArchive::Add(const Keyframe& keyframe, const LocalMap& map,
                           const Eigen::Matrix<double, 6, 6>& covariance) {
-  if (max_keyframes_ == 0) return;
   View view{keyframe.id, keyframe.camera_from_world, covariance, 0, {}};
   std::vector<double> distances_m;
   for (const LandmarkObservation& observation : keyframe.observations) {

@@ -15,11 +15,6 @@ void LoopOptions::Check() const {
   Require(place_keyframes >= 1, "loops.place_keyframes must be at least 1");
 }
 
-LoopDetector::LoopDetector(const StereoCamera& camera, const LoopOptions& options)
-    : camera_(camera), options_(options), recogniser_(camera) {
-  options.Check();
-}
-
 /// The landmarks that those up to `keyframe` saw first, if others saw them too.
 void LoopDetector::AddPlace(const MapStore& map, int keyframe) {
   const int first = std::max(0, keyframe + 1 - 3 * options_.place_keyframes);
@@ -63,9 +58,9 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
   };
   const auto found = recogniser_.Find(view, revise);
   if (!found) return std::nullopt;
-  const int place = found->place * options_.place_keyframes;
-  const PoseEstimate& pose = found->pose;
-  return Loop{{place, newest, pose.camera_from_world, pose.covariance.inverse()}, found->same};
+  return Loop{{found->place * options_.place_keyframes, newest, found->pose.camera_from_world,
+               found->pose.covariance.inverse()},
+              found->same};
 }
 
 }  // namespace arfm_vo

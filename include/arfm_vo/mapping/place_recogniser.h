@@ -53,17 +53,15 @@ class PlaceRecogniser {
 
   explicit PlaceRecogniser(const StereoCamera& camera) : camera_(camera) { camera.Check(); }
 
-  /// The next place, which is known by its number from 0 on.
+  /// The next place, which is known by its number from 0 on. Some must have 25 points.
   void Add(Place place);
+  /// Nothing where no place shows the view.
   std::optional<RecognisedPlace> Find(
       const std::vector<SeenPoint>& view,
       const Revise& revise = [](int, PlacePoint&) { return true; }) const;
 
  private:
-  std::vector<std::pair<int, int>> CountVotes(const std::vector<SeenPoint>& view,
-                                              const Revise& revise) const;
-  std::vector<std::pair<int, int>> Match(const Place& place,
-                                         const std::vector<SeenPoint>& view) const;
+  std::vector<int> CountVotes(const std::vector<SeenPoint>& view, const Revise& revise) const;
   std::optional<RecognisedPlace> Verify(int place, const std::vector<SeenPoint>& view,
                                         const Revise& revise) const;
 

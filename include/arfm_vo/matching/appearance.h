@@ -21,8 +21,8 @@ struct Appearance {
   /// Of a descriptor [64] of unit length.
   Appearance(const float* unit_descriptor, int8_t laplacian_sign) : laplacian_sign(laplacian_sign) {
     for (int i = 0; i < kLength; ++i) {
-      const float steps = std::clamp(kSteps * unit_descriptor[i], -kSteps, kSteps);
-      descriptor[i] = static_cast<int8_t>(std::lround(steps));
+      const float x = std::clamp(unit_descriptor[i], -1.0f, 1.0f);
+      descriptor[i] = static_cast<int8_t>(std::lround(kSteps * x));
     }
   }
 

@@ -17,10 +17,8 @@ class DescriptorIndex {
   /// `training`: where the middle is taken from; not empty.
   explicit DescriptorIndex(const std::vector<Appearance>& training);
 
-  /// The next one, which is known by its number from 0 on.
-  void Add(const Appearance& appearance);
-  int size() const { return size_; }
-
+  /// `number`: what it is known by, larger than all before.
+  void Add(int number, const Appearance& appearance);
   /// Numbers of those that share a key with `appearance`, its sign in it; sorted, each once.
   std::vector<int> FindCandidates(const Appearance& appearance) const;
 
@@ -29,7 +27,6 @@ class DescriptorIndex {
 
   Eigen::MatrixXf planes_;   ///< [tables * bits x 64]
   Eigen::VectorXf offsets_;  ///< of the planes
-  int size_ = 0;
   std::vector<std::unordered_map<uint32_t, std::vector<int>>> tables_;
 };
 

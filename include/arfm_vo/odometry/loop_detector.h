@@ -35,7 +35,8 @@ struct Loop {
 /// Looks for the newest keyframe of a map among those that are old enough.
 class LoopDetector {
  public:
-  LoopDetector(const StereoCamera& camera, const LoopOptions& options);
+  LoopDetector(const StereoCamera& camera, const LoopOptions& options)
+      : camera_(camera), options_(options), recogniser_(camera) {}
 
   /// Looks whether the newest keyframe of `map` closes a loop. Call it after each keyframe.
   std::optional<Loop> Detect(const MapStore& map, const StereoCorrection& correction);
