@@ -52,12 +52,11 @@ std::vector<int> DescriptorIndex::FindCandidates(const Appearance& appearance) c
   const std::vector<uint32_t> keys = Keys(appearance);
   std::vector<int> found;
   for (int table = 0; table < kTables; ++table) {
-    const auto numbers = tables_[table].find(keys[table]);
-    if (numbers == tables_[table].end()) continue;
-    const size_t step = (numbers->second.size() + kMaxPerKey - 1) / kMaxPerKey;
-    for (size_t i = table % step; i < numbers->second.size(); i += step) {
-      found.push_back(numbers->second[i]);
-    }
+    const auto bucket = tables_[table].find(keys[table]);
+    if (bucket == tables_[table].end()) continue;
+    const std::vector<int>& numbers = bucket->second;
+    const size_t step = (numbers.size() + kMaxPerKey - 1) / kMaxPerKey;
+    for (size_t i = table % step; i < numbers.size(); i += step) found.push_back(numbers[i]);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
