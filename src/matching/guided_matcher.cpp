@@ -4,13 +4,28 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/matching/descriptor_distance.h"
 #include "arfm_vo/matching/keypoint_grid.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr float kSmallestScale = 1.2f;
+
+/// Squared Euclidean distance of two descriptors of 64 floats.
+float SquaredDescriptorDistance(const float* a, const float* b) {
+  constexpr int kLanes = 16;  // independent sums, so that the compiler may vectorise
+  float sums[kLanes] = {};
+  for (int k = 0; k < 64; k += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float difference = a[k + lane] - b[k + lane];
+      sums[lane] += difference * difference;
+    }
+  }
+  for (int width = kLanes / 2; width > 0; width /= 2) {
+    for (int lane = 0; lane < width; ++lane) sums[lane] += sums[lane + width];
+  }
+  return sums[0];
+}
 
 /// Looks at a pair of descriptors once for both directions.
 void AddPair(const float* first_descriptor, int first, const cv::Mat& second_descriptors,

@@ -62,9 +62,7 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
     MapStore::Point& point = store_.landmarks[landmark.id];
     point.x_in_world = map_from_odom_ * landmark.x_in_world;
     point.first_keyframe = newest;
-    if (!options_.loops.enabled) continue;
-    point.laplacian_sign = landmark.keypoint.laplacian_sign;
-    point.descriptor.assign(landmark.descriptor.begin(), landmark.descriptor.end());
+    point.appearance = {landmark.descriptor.data(), landmark.keypoint.laplacian_sign};
   }
   for (const LandmarkObservation& observation : keyframe.observations) {
     const auto landmark = store_.Find(observation.landmark);
@@ -122,7 +120,6 @@ void GlobalMap::Close(const Loop& loop) {
     old->second.num_observations += seen->second.num_observations;
     old->second.last_keyframe = seen->second.last_keyframe;
     seen->second.num_observations = 0;
-    seen->second.descriptor.clear();
   }
 }
 

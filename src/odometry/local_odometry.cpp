@@ -21,10 +21,10 @@ void LocalOdometryOptions::Check() const {
   map.Check();
   bundle.Check();
   standstill.Check();
-  archive.Check();
   Require(bundle.num_keyframes <= map.max_keyframes,
           "odometry.bundle.num_keyframes must not exceed odometry.map.max_keyframes");
   Require(min_points_to_start >= 4, "odometry.min_points_to_start must be at least 4");
+  Require(archived_keyframes >= 0, "odometry.archived_keyframes must not be negative");
   Require(restart_after_lost_s >= 0, "odometry.restart_after_lost_s must not be negative");
 }
 
@@ -37,7 +37,7 @@ class LocalOdometry::Implementation {
         tracker_(camera, options.tracker),
         map_(camera, options.map),
         standstill_(options.standstill),
-        archive_(camera, options.archive),
+        archive_(camera, options.archived_keyframes),
         verdict_(camera.baseline_m),
         turns_(correction, camera),
         skew_(camera) {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 
-#include "arfm_vo/base/random.h"
+#include "matching/random_features.h"
 
 namespace arfm_vo {
 namespace {
@@ -15,14 +15,9 @@ using Descriptor = std::vector<float>;  // [64]
 
 /// A unit vector about `middle`, moved by `spread` at random.
 Descriptor DrawAbout(const Descriptor& middle, double spread, RandomEngine& engine) {
-  Descriptor descriptor(64);
-  double squares = 0;
-  for (int i = 0; i < 64; ++i) {
-    const double moved = middle[i] + spread * (2 * RandomUnit(engine) - 1);
-    descriptor[i] = static_cast<float>(moved);
-    squares += moved * moved;
-  }
-  for (float& x : descriptor) x = static_cast<float>(x / std::sqrt(squares));
+  Descriptor descriptor = middle;
+  for (float& x : descriptor) x += static_cast<float>(spread * (2 * RandomUnit(engine) - 1));
+  Normalise(descriptor.data());
   return descriptor;
 }
 
@@ -31,24 +26,28 @@ class DescriptorIndexTest : public ::testing::Test {
   DescriptorIndexTest() {
     // As SURF's are: all in one corner of the sphere.
     const Descriptor corner(64, 0.125f);
-    Descriptor training;
+    std::vector<Appearance> training;
     for (int i = 0; i < 2000; ++i) {
       known_.push_back(DrawAbout(corner, 0.25, engine_));
-      training.insert(training.end(), known_.back().begin(), known_.back().end());
+      training.emplace_back(known_.back().data(), 1);
     }
-    index_.Train(training);
-    for (int i = 0; i < 2000; ++i) index_.Add(10 * i, known_[i].data());
+    index_.emplace(training);
+    for (int i = 0; i < 2000; ++i) index_->Add(i, training[i]);
+  }
+
+  std::vector<int> Find(const Descriptor& descriptor, int8_t sign = 1) const {
+    return index_->FindCandidates({descriptor.data(), sign});
   }
 
   RandomEngine engine_{5};
   std::vector<Descriptor> known_;
-  DescriptorIndex index_;
+  std::optional<DescriptorIndex> index_;
 };
 
 TEST_F(DescriptorIndexTest, FindsWhatItHolds) {
   for (int i = 0; i < 2000; i += 100) {
-    const auto ids = index_.FindCandidates(known_[i].data());
-    EXPECT_TRUE(std::binary_search(ids.begin(), ids.end(), 10 * i)) << i;
+    const auto found = Find(known_[i]);
+    EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i)) << i;
   }
 }
 
@@ -56,51 +55,39 @@ TEST_F(DescriptorIndexTest, FindsMostOfWhatIsNearAndLittleElse) {
   int num_found = 0;
   size_t num_candidates = 0;
   for (int i = 0; i < 2000; i += 10) {
-    const auto ids = index_.FindCandidates(DrawAbout(known_[i], 0.05, engine_).data());
-    num_found += std::binary_search(ids.begin(), ids.end(), 10 * i);
-    num_candidates += ids.size();
+    const auto found = Find(DrawAbout(known_[i], 0.05, engine_));
+    num_found += std::binary_search(found.begin(), found.end(), i);
+    num_candidates += found.size();
   }
   EXPECT_GT(num_found, 140);               // of 200
   EXPECT_LT(num_candidates, 200u * 200u);  // a tenth of all
 }
 
-TEST_F(DescriptorIndexTest, FindsTheNearestThatIsAccepted) {
-  const auto any = [](int64_t) { return true; };
-  EXPECT_EQ(index_.FindNearest(known_[7].data(), 0.5, any), 70);
-  const auto other = [](int64_t id) { return id != 70; };
-  EXPECT_NE(index_.FindNearest(known_[7].data(), 2, other), 70);
-  EXPECT_EQ(index_.FindNearest(known_[7].data(), 0.1, other), std::nullopt);
-}
-
-TEST_F(DescriptorIndexTest, FindsNothingAcrossTheSphere) {
+TEST_F(DescriptorIndexTest, FindsNothingOfTheOtherSignNorAcrossTheSphere) {
   Descriptor opposite = known_[7];
   for (float& x : opposite) x = -x;
-  EXPECT_EQ(index_.FindNearest(opposite.data(), 0.6, [](int64_t) { return true; }), std::nullopt);
+  const auto across = Find(opposite);
+  EXPECT_FALSE(std::binary_search(across.begin(), across.end(), 7));
+  EXPECT_TRUE(Find(known_[7], -1).empty());
 }
 
-/// Were all landmarks alike, a search would still look at tables * max_per_key of them at most,
+/// Were all landmarks alike, a search would still look at 8 tables * 32 of them at most,
 /// from early and late alike.
 TEST(CrowdedDescriptorIndex, BoundsASearchAndKeepsOldAndNew) {
-  DescriptorIndexOptions options;
-  options.max_per_key = 50;
-  DescriptorIndex index(options);
-  const Descriptor one(64, 0.125f);
-  index.Train(one);
+  const Appearance one(Descriptor(64, 0.125f).data(), 1);
+  DescriptorIndex index({one});
   constexpr int kCount = 20000;
-  for (int i = 0; i < kCount; ++i) index.Add(i, one.data());
-  EXPECT_EQ(index.size(), kCount);
-  const auto ids = index.FindCandidates(one.data());
-  EXPECT_LE(ids.size(), 400u);
-  EXPECT_GT(ids.size(), 300u);  // the tables draw apart from each other
+  for (int i = 0; i < kCount; ++i) index.Add(i, one);
+  const auto ids = index.FindCandidates(one);
+  EXPECT_LE(ids.size(), 256u);
+  EXPECT_GT(ids.size(), 200u);  // the tables draw apart from each other
   const auto middle = std::lower_bound(ids.begin(), ids.end(), kCount / 2);
   EXPECT_GT(middle - ids.begin(), 100);
   EXPECT_GT(ids.end() - middle, 100);
 }
 
-TEST_F(DescriptorIndexTest, RefusesToBeTrainedTwiceOrOnNothing) {
-  EXPECT_THROW(index_.Train(known_[0]), std::invalid_argument);
-  DescriptorIndex fresh;
-  EXPECT_THROW(fresh.Train({}), std::invalid_argument);
+TEST_F(DescriptorIndexTest, RefusesToBeTrainedOnNothing) {
+  EXPECT_THROW(DescriptorIndex({}), std::invalid_argument);
 }
 
 }  // namespace

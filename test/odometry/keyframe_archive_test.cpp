@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "arfm_vo/base/random.h"
 
@@ -59,7 +58,7 @@ class KeyframeArchiveTest : public ::testing::Test {
 };
 
 TEST_F(KeyframeArchiveTest, FindsWhereAFrameWasTaken) {
-  KeyframeArchive archive(kCamera, {});
+  KeyframeArchive archive(kCamera, 32);
   for (int i = 0; i < 5; ++i) Visit(i, 100 * i, archive, map_);
   const auto place = archive.Find(SeeWall(3, 0.5), {});
   ASSERT_TRUE(place);
@@ -70,9 +69,7 @@ TEST_F(KeyframeArchiveTest, FindsWhereAFrameWasTaken) {
 }
 
 TEST_F(KeyframeArchiveTest, KeepsABoundedNumberOfDifferentViews) {
-  KeyframeArchiveOptions options;
-  options.max_keyframes = 4;
-  KeyframeArchive archive(kCamera, options);
+  KeyframeArchive archive(kCamera, 4);
   Visit(1, 100, archive, map_);
   for (int i = 0; i < 10; ++i) Visit(2, 200 + 0.1 * i, archive, map_);  // ten times the same
   Visit(3, 300, archive, map_);
@@ -81,23 +78,12 @@ TEST_F(KeyframeArchiveTest, KeepsABoundedNumberOfDifferentViews) {
 }
 
 TEST_F(KeyframeArchiveTest, HoldsNothingAfterClearOrWhereItIsSwitchedOff) {
-  KeyframeArchiveOptions options;
-  options.max_keyframes = 0;
-  KeyframeArchive none(kCamera, options), cleared(kCamera, {});
+  KeyframeArchive none(kCamera, 0), cleared(kCamera, 32);
   Visit(1, 100, none, map_);
   Visit(1, 100, cleared, map_);
   cleared.Clear();
   EXPECT_EQ(none.size() + cleared.size(), 0);
   EXPECT_FALSE(cleared.Find(SeeWall(1, 0), {}));
-  options.ratio = 0;
-  EXPECT_THROW(KeyframeArchive(kCamera, options), std::invalid_argument);
-}
-
-/// The bound that a pose must reach can be reached: a sample of points that agree is drawn.
-TEST(RecognitionPose, DrawsEnoughSamplesForTheShareThatItAccepts) {
-  const PoseEstimatorOptions options = RecognitionPose();
-  const double good_sample = std::pow(options.min_inlier_share, options.sample_size);
-  EXPECT_GE(1 - std::pow(1 - good_sample, options.ransac.max_iterations), 0.99);
 }
 
 }  // namespace

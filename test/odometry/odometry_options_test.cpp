@@ -34,7 +34,8 @@ TEST(LocalOdometryOptions, EachPartIsCheckedAndNamesItsKey) {
               HasSubstr("odometry.map.max_keyframes"));
   EXPECT_THAT(Refusal([](auto& o) { o.standstill.max_rotation_rad = 0; }),
               HasSubstr("standstill.max_rotation_rad"));
-  EXPECT_THAT(Refusal([](auto& o) { o.archive.max_tries = 0; }), HasSubstr("archive.max_tries"));
+  EXPECT_THAT(Refusal([](auto& o) { o.archived_keyframes = -1; }),
+              HasSubstr("odometry.archived_k"));
   EXPECT_THAT(Refusal([](auto& o) { o.min_points_to_start = 3; }),
               HasSubstr("min_points_to_start"));
   EXPECT_THAT(Refusal([](auto& o) { o.restart_after_lost_s = -1; }),

@@ -168,7 +168,7 @@ TEST(Recovery, FindsAPlaceAgainThatLeftTheLocalMap) {
 
 TEST(Recovery, WithoutTheArchiveSuchAPlaceStaysUnknown) {
   OdometryOptions options;
-  options.odometry.archive.max_keyframes = 0;
+  options.odometry.archived_keyframes = 0;
   const SimulatedRun run = DriveAndBeCarriedBack(options);
   EXPECT_EQ(run.num_untracked, 2);  // then a new map is begun, elsewhere
   EXPECT_EQ(run.epoch, 2u);

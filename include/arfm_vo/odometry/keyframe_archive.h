@@ -3,27 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/mapping/local_map.h"
-#include "arfm_vo/odometry/recognition_pose.h"
-#include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/mapping/place_recogniser.h"
 
 namespace arfm_vo {
-
-struct KeyframeArchiveOptions {
-  int max_keyframes = 32;  ///< 0: none, and no recovery beyond the local map
-  int max_tries = 3;       ///< keyframes, those most alike first, in which a frame is looked for
-  double ratio = 0.8;      ///< nearest / second-nearest distance
-  double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
-  PoseEstimatorOptions pose = RecognitionPose();
-
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_keyframes", max_keyframes);
-    visit("max_tries", max_tries);
-  }
-};
 
 /// Where a frame was taken that the archive knows.
 struct ArchivedPlace {
@@ -32,41 +15,38 @@ struct ArchivedPlace {
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// Keyframes that left the local map, as a place to look for a frame that the map does not know:
-/// what they saw, without pictures. A bounded number, spread over different views, denser in the
-/// recent past.
+/// Keyframes that left the local map, as places to look for a frame that the map does not know. A
+/// bounded number, spread over different views, denser in the recent past.
 class KeyframeArchive {
  public:
-  KeyframeArchive(const StereoCamera& camera, const KeyframeArchiveOptions& options);
+  KeyframeArchive(const StereoCamera& camera, int max_keyframes)
+      : camera_(camera), max_keyframes_(max_keyframes) {}
 
   /// Takes up a keyframe of `map`, newer than all before, with the landmarks that others see too.
   /// `covariance` is the keyframe's against the first camera of all.
   void Add(const Keyframe& keyframe, const LocalMap& map,
            const Eigen::Matrix<double, 6, 6>& covariance);
   /// Nothing where no keyframe shows the frame's view.
-  std::optional<ArchivedPlace> Find(const StereoFrame& frame,
-                                    const StereoCorrection& correction) const;
+  std::optional<ArchivedPlace> Find(const StereoFrame& frame, const StereoCorrection& correction);
 
   int size() const { return static_cast<int>(views_.size()); }
-  void Clear() { views_.clear(); }
+  void Clear() { *this = KeyframeArchive(camera_, max_keyframes_); }
 
  private:
   struct View {
     KeyframeId keyframe = 0;
     Rigid3 camera_from_world;
     Eigen::Matrix<double, 6, 6> covariance;
-    double distance_m = 1;                    ///< of the landmarks, the median
-    std::vector<Eigen::Vector3d> x_in_world;  ///< [N]
-    Features looks;                           ///< [N]
+    double distance_m = 1;  ///< of the landmarks, the median
+    Place place;
   };
   static double Difference(const View& a, const View& b);
   void DropLeastMissed();
-  std::vector<PointObservation> Match(const StereoFrame& frame, const StereoCorrection& correction,
-                                      const View& view) const;
 
   StereoCamera camera_;
-  KeyframeArchiveOptions options_;
-  std::vector<View> views_;  ///< by keyframe
+  int max_keyframes_;
+  std::vector<View> views_;                    ///< by keyframe
+  std::optional<PlaceRecogniser> recogniser_;  ///< of `views_`, where one was needed since
 };
 
 }  // namespace arfm_vo

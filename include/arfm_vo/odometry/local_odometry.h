@@ -23,9 +23,9 @@ struct LocalOdometryOptions {
   LocalMapOptions map;
   LocalBundleOptions bundle;
   StandstillOptions standstill;
-  KeyframeArchiveOptions archive;
   bool predict_motion = true;       ///< constant velocity; never required
   int min_points_to_start = 30;     ///< stereo points of the first frame
+  int archived_keyframes = 32;      ///< to look in after a loss; 0: none, beyond the local map
   double restart_after_lost_s = 3;  ///< without a pose: then a new map is begun; 0: never
 
   void Check() const;
@@ -36,9 +36,9 @@ struct LocalOdometryOptions {
     visit("map", map);
     visit("bundle", bundle);
     visit("standstill", standstill);
-    visit("archive", archive);
     visit("predict_motion", predict_motion);
     visit("min_points_to_start", min_points_to_start);
+    visit("archived_keyframes", archived_keyframes);
     visit("restart_after_lost_s", restart_after_lost_s);
   }
 };

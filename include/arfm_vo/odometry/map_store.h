@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arfm_vo/mapping/keyframe.h"
+#include "arfm_vo/matching/appearance.h"
 
 namespace arfm_vo {
 
@@ -16,8 +17,7 @@ struct MapStore {
     int last_keyframe = 0;
     int row = -1;             ///< in the bundle problem being solved
     LandmarkId same_as = -1;  ///< an older landmark that it turned out to be; -1: none
-    int8_t laplacian_sign = 1;
-    std::vector<float> descriptor;  ///< [64]; empty where loops are not looked for
+    Appearance appearance;
   };
   std::vector<Keyframe> keyframes;  ///< world: the map
   std::map<LandmarkId, Point> landmarks;
