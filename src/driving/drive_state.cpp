@@ -75,7 +75,7 @@ const char* ToString(StopReason reason) {
     case StopReason::kOutsideFence:
       return "rover is outside the fence";
     case StopReason::kOperatorLost:
-      return "no operator heartbeat";
+      return "operator does not answer";
     case StopReason::kHeldUp:
       return "chassis_node was held up";
     case StopReason::kRemoteLost:

@@ -230,6 +230,7 @@ PilotStatus Pilot::Status() const {
   status.has_goal = route_.has_value();
   status.motion = motion_;
   status.slip = slip_.Estimate();
+  status.operator_round_trip_s = operator_.RoundTrip();
   status.is_tilt_near_limit = pose_.IsTiltNearLimit();
   if (route_) {
     status.phase = route_->Phase();

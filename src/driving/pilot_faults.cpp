@@ -25,7 +25,7 @@ bool IsJump(StopReason reason) {
 std::optional<Fault> Pilot::FindStartFault(double now_s) const {
   if (!emergency_sources_.empty())
     return Fault{StopReason::kEmergencyStop, Join(emergency_sources_)};
-  if (operator_.IsMissing(now_s)) return Fault{StopReason::kOperatorLost, ""};
+  if (operator_.IsMissing()) return Fault{StopReason::kOperatorLost, operator_.DescribeRefused()};
   return ToFault(chassis_.FindFault(now_s));
 }
 

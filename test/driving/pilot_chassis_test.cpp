@@ -54,7 +54,7 @@ TEST_F(PilotTest, ASilentChassisBlocks) {
   StartDriving();
   for (int i = 0; i < 30; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
     pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);
@@ -66,7 +66,7 @@ TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
   StartDriving();
   for (int i = 0; i < 27; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObserveTracks(now_s_, 0, 0);
     pilot_.Tick(now_s_);
     if (i == 23) {
@@ -94,7 +94,7 @@ TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
     now_s_ += 0.1;
     pilot_.ObserveChassis(now_s_, chassis_);
     pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
     pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);

@@ -106,7 +106,7 @@ TEST_F(PilotTest, AnUncertainHeadingPauses) {
 TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
   pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
   pilot_.ObserveTracks(now_s_, 0, 0);
-  pilot_.ObserveOperator(now_s_);
+  Attend(pilot_.operator_watch(), now_s_);
   pilot_.ObserveEpoch(1, now_s_);
   pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
   pilot_.Start(now_s_);
@@ -117,7 +117,7 @@ TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
 TEST_F(PilotTest, APoseWithoutEpochIsNotDrivenBy) {
   pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
   pilot_.ObserveTracks(now_s_, 0, 0);
-  pilot_.ObserveOperator(now_s_);
+  Attend(pilot_.operator_watch(), now_s_);
   pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
   pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
   pilot_.Start(now_s_);

@@ -133,7 +133,7 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
   for (int i = 0; i < 500; ++i) {
     pilot_.SetVelocity(now_s_, {0.1, 0});
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObserveChassis(now_s_, chassis_);
     const int way_mm = static_cast<int>(std::lround(1000 * way_m));
     pilot_.ObserveTracks(now_s_, way_mm, way_mm);

@@ -1,10 +1,11 @@
 """Wrong operators, goals, velocities and poses: messages and services."""
+import collections
 import subprocess
 import threading
 import time
 
 import rospy
-from arfm_vo.msg import OdometryStatus
+from arfm_vo.msg import OdometryStatus, OperatorChallenge
 from fault import BRIEFLY_UNCERTAIN, Fault
 from geometry_msgs.msg import PoseStamped, Twist
 from machine_faults import unburden
@@ -15,11 +16,29 @@ NAN = float("nan")
 
 
 def operator_faults():
-    def operator(is_there):
+    def link(change):
         def act(campaign):
-            campaign.rover.has_operator = is_there
-            time.sleep(0.5 if is_there else 0)
+            campaign.rover.link = change
+            time.sleep(0.5 if change is sound else 0)
         return act
+
+    def sound(challenge):
+        return challenge
+
+    def foreign(challenge):
+        return OperatorChallenge("another rover", challenge.sequence, challenge.number)
+
+    def late(seconds, queue=collections.deque()):
+        def answer(challenge):
+            queue.append((time.monotonic() + seconds, challenge))
+            return queue.popleft()[1] if queue[0][0] <= time.monotonic() else None
+        return answer
+
+    def first(challenge, heard=[]):
+        heard.append(challenge)
+        return heard[0]
+
+    silent = "operator does not answer"
 
     def second_velocity(campaign):
         """Of another node, as fast as the first; it begins when its first message comes."""
@@ -50,7 +69,11 @@ def operator_faults():
         Fault("stop service called", lambda c: c.rover.call("chassis_node/stop"), "stopped by hand"),
         no_frame,
         Fault("two nodes publish cmd_vel", second_velocity, "two nodes command velocities", unburden, by_velocity=True),
-        Fault("operator heartbeat ceases", operator(False), "no operator heartbeat", operator(True), 0.9),
+        Fault("operator does not answer: the link is cut", link(lambda challenge: None), silent, link(sound), 0.9),
+        Fault("operator's answers come 8 s late", link(late(8)), silent, link(sound), 0.9),
+        Fault("operator's answers are all the same", link(first), silent, link(sound), 0.9),
+        Fault("operator answers another rover", link(foreign), silent, link(sound), 0.9),
+        Fault("every other answer of the operator is lost", link(lambda c: c if c.sequence % 2 else None), "drives on", link(sound)),
         Fault("software emergency stop", emergency(True), "software emergency stop is set", emergency(False)),
         Fault("another publisher clears the emergency stop", foreign_release, "software emergency stop is set",
               emergency(False)),

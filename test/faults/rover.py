@@ -13,11 +13,11 @@ import roslib.packages
 import rosnode
 import rospy
 import rosservice
-from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus
+from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus, OperatorChallenge
 from geometry_msgs.msg import PoseStamped, Twist
 from ports import find_free_port
 from sight import Sight
-from std_msgs.msg import Bool, Empty
+from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
@@ -68,24 +68,23 @@ class Rover:
         rospy.Subscriber("status", OdometryStatus, lambda status: self.odometry_texts.append(status.text))
         self.tap = tap
         self.status, self.reports = None, []
-        self.has_operator = True
         self.is_homeward = False  # far from where it began, and turned round
         self.speed_mps = None  # of cmd_vel, where the rover is driven by it
         self.commands_s, self.warnings_s = [], []  # by the steady clock; of a warning its begin and its end
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         self.emergency = rospy.Publisher("emergency_stop", Bool, queue_size=1)
-        self.heartbeats = rospy.Publisher("operator_heartbeat", Empty, queue_size=1)
+        self.answers = rospy.Publisher("operator_answer", OperatorChallenge, queue_size=10)
+        self.link = lambda challenge: challenge  # what becomes of a challenge on its way to the operator and back; None: lost
+        rospy.Subscriber("operator_challenge", OperatorChallenge, self.answer, queue_size=1)
         self.velocities = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         rospy.Subscriber("drive_status", DriveStatus, self.take_status)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
-        for act in self.beat, self.steer:
-            threading.Thread(target=act, daemon=True).start()
+        threading.Thread(target=self.steer, daemon=True).start()
 
-    def beat(self):
-        while True:
-            if self.has_operator and not rospy.is_shutdown():
-                self.heartbeats.publish(Empty())
-            time.sleep(0.4)
+    def answer(self, challenge):
+        answer = self.link(challenge)
+        if answer is not None:
+            self.answers.publish(answer)
 
     def steer(self):
         while True:

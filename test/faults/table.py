@@ -14,7 +14,7 @@ def table(rows):
              if not row["drives_on"] and row["promise"] != EITHER]
     lines = ["# Faults in the running graph", "",
              "Made by `scripts/measure.sh fault_campaign`: `simulation.launch` as a user starts it, in real time, with an operator",
-             "heartbeat; the bus runs through a tap that notes every command by the steady clock. The rover drives at",
+             "who answers; the bus runs through a tap that notes every command by the steady clock. The rover drives at",
              "0.1 m/s when the fault comes. *Stop* is from the fault to the last frame that moves; the way is that of the",
              "tracks, their own inertia included, until it moves on by good poses, with a warning, or until",
              "%g s after the limit. *Wrong way* is the part of it in which the newest pose that tf told was more than %.2f m or" %

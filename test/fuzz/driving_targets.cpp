@@ -142,9 +142,10 @@ class FuzzedDrive {
       pilot_.ObserveChassis(now_s_, chassis_);
       pilot_.ObserveTracks(now_s_, static_cast<int>(left_mm_), static_cast<int>(right_mm_));
     }
-    if (has_operator_) {
+    const auto challenge = pilot_.operator_watch().Advance(now_s_, 1);
+    if (has_operator_ && challenge) {
       heard_s_ = now_s_;
-      pilot_.ObserveOperator(now_s_);
+      pilot_.operator_watch().ObserveAnswer(now_s_, *challenge);
     }
     if (++num_ticks_ % 5 != 0) return;
     pilot_.ObserveEpoch(epoch_, now_s_);

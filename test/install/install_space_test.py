@@ -75,7 +75,7 @@ class InstallSpaceTest(unittest.TestCase):
         for name in ("share/arfm_vo/config/arfm.yaml", "share/arfm_vo/config/odometry.rviz",
                      "share/arfm_vo/urdf/rover.urdf", "include/arfm_vo/geometry/rigid3.h",
                      "include/arfm_vo/OdometryStatus.h", "lib/arfm_vo/drive_to.py",
-                     "lib/arfm_vo/operator_heartbeat.py"):
+                     "lib/arfm_vo/operator_answer.py"):
             self.assertTrue(os.path.exists(self.installed(*name.split("/"))), name)
         self.run_installed("/usr/bin/python3", "-c", "import arfm_vo.msg; arfm_vo.msg.DriveStatus()")
 

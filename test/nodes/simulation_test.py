@@ -2,6 +2,7 @@
 """The simulated rover sees, pans its head and drives to a goal by sight alone, through all the nodes."""
 import math
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -16,7 +17,7 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Empty
+from std_msgs.msg import Bool
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
@@ -172,17 +173,20 @@ class SimulationTest(unittest.TestCase):
             errand.run(3, 0, 0, timeout_s=PATIENCE_S)
         self.wait(lambda: told[-1].state == DriveStatus.STANDBY and not told[-1].has_goal, "the stop")
 
-    def test_an_operator_beats_until_the_terminal_is_gone_and_stops_the_rover(self):
-        beats_s = []
-        rospy.Subscriber("operator_heartbeat", Empty, lambda _: beats_s.append(time.monotonic()))
-        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator_heartbeat.py"], stdin=subprocess.PIPE,
+    def test_an_operator_answers_until_stopped_or_the_terminal_is_gone_and_stops_the_rover(self):
+        told = []
+        rospy.Subscriber("drive_status", DriveStatus, told.append)
+        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator_answer.py"], stdin=subprocess.PIPE,
                                     stdout=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(operator.wait)
-        self.addCleanup(operator.terminate)
-        self.wait(lambda: len(beats_s) >= 5, "heartbeats")
-        self.assertLess((beats_s[4] - beats_s[0]) / 4, 0.8)
+        self.addCleanup(operator.kill)
+        self.wait(lambda: told and told[-1].operator_round_trip_s < 0.5, "answers in time")
+        for number, is_answered in (signal.SIGSTOP, False), (signal.SIGCONT, True):
+            operator.send_signal(number)
+            self.wait(lambda: (told[-1].operator_round_trip_s < 0.5) == is_answered, "what signal %d does" % number)
         said, _ = operator.communicate("\n", timeout=PATIENCE_S)  # Enter, then the terminal is gone
         self.assertEqual(said.count("stop: stopped"), 2, said)
+        self.wait(lambda: math.isnan(told[-1].operator_round_trip_s), "the end of the answers")
 
 
 if __name__ == "__main__":

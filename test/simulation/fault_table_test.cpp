@@ -72,10 +72,10 @@ std::vector<Fault> OperatorFaults() {
        [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", true); },
        "its source clears the emergency stop",
        [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", false); }},
-      {"operator heartbeat ceases", [](SimulatedDrive& d) { d.has_operator_ = false; },
+      {"operator does not answer", [](SimulatedDrive& d) { d.has_operator_ = false; },
        "the operator is back", [](SimulatedDrive& d) { d.has_operator_ = true; },
-       "no heartbeat for 0.9 s",
-       [](const SimulatedDrive& d, double) { return d.Now() - d.LastHeartbeat() > 0.9; }},
+       "no answer for 0.9 s",
+       [](const SimulatedDrive& d, double) { return d.Now() - d.LastAnswer() > 0.9; }},
       {"goal cancelled", [](SimulatedDrive& d) { d.pilot().CancelRoute(); }, "", kNothing},
       {"velocity commands cease", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", kNothing,
        "0.15 s", TimeSince(0.15), Stopper::kDriver, true},
@@ -358,7 +358,8 @@ std::string Milliseconds(double duration_s) {
 std::string Table() {
   std::ostringstream text;
   text << "# Faults, and how the rover stops\n\n"
-       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is injected into a "
+       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is "
+          "injected into a "
           "simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real chassis, on a "
           "simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the moment it "
           "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
@@ -423,7 +424,8 @@ TEST(FaultTable, TheDocumentIsWhatTheTestMeasured) {
   std::ifstream file(ARFM_VO_SOURCE_DIR "/docs/faults.md");
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), Table()) << "docs/faults.md is out of date: run scripts/measure.sh fault_table";
+  EXPECT_EQ(text.str(), Table())
+      << "docs/faults.md is out of date: run scripts/measure.sh fault_table";
 }
 
 }  // namespace

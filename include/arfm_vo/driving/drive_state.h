@@ -41,7 +41,7 @@ enum class StopReason {
   kMapStale,           ///< map -> odom is no longer told
   kTilt,
   kOutsideFence,
-  kOperatorLost,      ///< no operator heartbeat
+  kOperatorLost,      ///< nobody answers the challenges in time
   kHeldUp,            ///< chassis_node itself did not run for too long
   kRemoteLost,        ///< the chassis has lost its remote control
   kForeignCommands,   ///< another driver sends motion commands on the bus

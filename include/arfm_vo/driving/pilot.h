@@ -41,7 +41,9 @@ class Pilot {
   /// while the rover moves and without a pose.
   Reply SetDatum();
 
-  void ObserveOperator(double now_s) { operator_.ObserveHeartbeat(now_s); }
+  /// Keeps a clock of its own, which runs where that of driving stands.
+  OperatorWatch& operator_watch() { return operator_; }
+  const OperatorWatch& operator_watch() const { return operator_; }
   void ObservePose(double now_s, const PoseObservation& pose) { pose_.Observe(now_s, pose); }
   void ObserveNoPose(StopReason reason = StopReason::kPoseMissing) { pose_.ObserveNone(reason); }
   /// Says whether it was taken: one from the future is not.

@@ -41,6 +41,8 @@ DriveStatus ToMessage(const PilotStatus& status) {
   message.heading_error_rad = status.heading_error_rad;
   message.forward_mps = status.motion.forward_mps;
   message.turn_radps = status.motion.turn_radps;
+  message.operator_round_trip_s =
+      status.operator_round_trip_s.value_or(std::numeric_limits<double>::quiet_NaN());
   return message;
 }
 
