@@ -142,7 +142,7 @@ void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {
 void Pilot::ObserveTracks(double now_s, int left_mm, int right_mm) {
   tracks_.Add(now_s, left_mm, right_mm);
   motion_watch_.ObserveWays(now_s, *tracks_.At(now_s));
-  chassis_.ObserveTrackOdometer(now_s);
+  chassis_.ObserveFeedback(now_s, FeedbackKind::kOdometer);
 }
 
 void Pilot::Report(GoalOutcome outcome, const Fault& fault) {

@@ -10,10 +10,6 @@ std::string Join(const std::set<std::string>& names) {
   return text;
 }
 
-std::optional<Fault> ToFault(const std::optional<StopReason>& reason) {
-  return reason ? std::optional(Fault{*reason, ""}) : std::nullopt;
-}
-
 /// What a pose of another epoch looks like.
 bool IsJump(StopReason reason) {
   return reason == StopReason::kPoseContradiction || reason == StopReason::kSliding ||
@@ -26,7 +22,7 @@ std::optional<Fault> Pilot::FindStartFault(double now_s) const {
   if (!emergency_sources_.empty())
     return Fault{StopReason::kEmergencyStop, Join(emergency_sources_)};
   if (operator_.IsMissing()) return Fault{StopReason::kOperatorLost, operator_.DescribeRefused()};
-  return ToFault(chassis_.FindFault(now_s));
+  return chassis_.FindFault(now_s);
 }
 
 std::optional<Fault> Pilot::FindBlockingFault(double now_s) const {

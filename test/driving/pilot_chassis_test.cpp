@@ -92,7 +92,8 @@ TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
   StartDriving();
   for (int i = 0; i < 100 && State() == DriveState::kDriving; ++i) {
     now_s_ += 0.1;
-    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+    pilot_.chassis_watch().Observe(now_s_, chassis_);
     pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
     Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
@@ -118,7 +119,7 @@ TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
 
 TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   StartDriving();
-  pilot_.ObserveForeignCommand(now_s_);
+  pilot_.chassis_watch().ObserveForeignCommand(now_s_);
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(Reason(), StopReason::kForeignCommands);
   EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);

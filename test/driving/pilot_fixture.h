@@ -25,10 +25,11 @@ class PilotTest : public ::testing::Test {
 
   void Observe() {
     if (bus_up_) {
-      pilot_.ObserveChassis(now_s_, chassis_);
+      pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+      pilot_.chassis_watch().Observe(now_s_, chassis_);
       pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     }
-    pilot_.ObserveBus(bus_up_);
+    pilot_.chassis_watch().ObserveBus(bus_up_);
     const auto challenge = pilot_.operator_watch().Advance(now_s_, 1);
     if (has_operator_ && challenge) pilot_.operator_watch().ObserveAnswer(now_s_, *challenge);
     pilot_.ObserveEpoch(1, now_s_ - 0.1);

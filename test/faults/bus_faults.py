@@ -59,7 +59,7 @@ def clear(campaign):
 def fuzz(campaign):
     engine = random.Random(1)
     for _ in range(3000):
-        identifier = engine.randrange(0x400, 0x800)
+        identifier = engine.randrange(0x422, 0x800)
         campaign.tap.inject(bus.make_frame(identifier, engine.randbytes(engine.randrange(9))))
 
 
@@ -100,30 +100,40 @@ def bus_faults():
     def changed(change):
         return lambda campaign: campaign.obey(change() if isinstance(change, type) else change)
 
+    def silence(identifier):
+        return changed(lambda frame: None if frame.id == identifier else frame)
+
+    def command(identifier):
+        return lambda campaign: campaign.tap.inject(bus.make_frame(identifier, [0] * 8))
+
     def held(size):
         return lambda campaign: campaign.obey(Hold(size))
     state = bus.SYSTEM_STATE
     return [
         Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),
         Fault("chassis fault", changed(set_byte(state, 0, 2)), "chassis reports a fault", clear),
-        Fault("under-voltage fault", changed(set_byte(state, 4, 1)), "chassis reports a fault", clear),
+        Fault("battery fault or motor driver (byte 4)", changed(set_byte(state, 4, 1)), "chassis reports a fault", clear),
+        Fault("battery fault (byte 5)", changed(set_byte(state, 5, 1)), "chassis reports a fault", clear),
+        Fault("motor 1 does not communicate (byte 5)", changed(set_byte(state, 5, 8)), "chassis reports a fault", clear),
+        Fault("steering encoder (byte 5)", changed(set_byte(state, 5, 128)), "chassis reports a fault", clear),
         Fault("remote control takes over", changed(set_byte(state, 1, 3)), "remote control has the rover", heal),
-        Fault("remote control is lost", changed(set_byte(state, 4, 4)), "chassis has lost its remote control", heal),
+        Fault("remote control is lost (byte 4)", changed(set_byte(state, 4, 4)), "chassis has lost its remote control", heal),
+        Fault("remote control is lost (byte 5)", changed(set_byte(state, 5, 4)), "chassis has lost its remote control", heal),
         Fault("chassis falls into standby", changed(set_byte(state, 1, 0)), "chassis takes no commands over CAN", heal),
         Fault("chassis falls silent", changed(lambda frame: None), "chassis is silent", heal, 0.5),
-        Fault("track odometer falls silent", changed(lambda frame: None if frame.id == bus.ODOMETER else frame),
-              "chassis is silent", heal, 0.5),
-        Fault("system state falls silent", changed(lambda frame: None if frame.id == state else frame),
-              "chassis is silent", heal, 0.5),
-        Fault("motor driver reports a fault", changed(set_byte(bus.MOTOR_STATUS[0], 5, 0x44)),
-              "motor or its driver reports a fault", heal),
+        *(Fault(name + " falls silent", silence(identifier), "chassis is silent", heal, 0.5) for name, identifier in (
+            ("track odometer", bus.ODOMETER), ("system state", state), ("motion feedback", bus.MOTION_STATE),
+            ("left motor", 0x251), ("right motor's driver", bus.MOTOR_STATUS[1]))),
+        *(Fault(name, changed(set_byte(bus.MOTOR_STATUS[side], 5, bits)), "motor or its driver reports a fault", heal)
+          for name, side, bits in (("motor driver reports an overload", 0, 0x44), ("motor is too hot", 1, 0x42),
+                                   ("motor driver is too hot", 0, 0x48))),
         Fault("tracks run away at 0.2 m/s", changed(run_away), "tracks run faster than commanded", heal, 0.2),
         Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
         Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
               "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
-        Fault("another driver sends 0x111", lambda c: c.tap.inject(bus.make_frame(0x111, [0] * 8)),
-              "another driver commands the chassis", lambda c: time.sleep(1.2)),
+        *(Fault("another driver sends 0x%03X" % identifier, command(identifier), "another driver commands the chassis",
+                lambda c: time.sleep(1.2)) for identifier in (0x111, 0x131, 0x421)),
         Fault("CAN adapter is pulled and comes back as can1 (another UDP port)", come_back_as_another, "CAN bus is down or chassis is silent",
               come_back_as_itself, 0.5, is_well=is_not_startable),
         Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),

@@ -209,11 +209,10 @@ std::vector<Fault> ChassisFaults() {
       {"emergency stop button (0x211)",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(true); }, "release the button",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(false); }},
-      {"chassis fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
-       "clear_errors", clear},
-      {"under-voltage fault (0x211)",
-       [](SimulatedDrive& d) { d.chassis().SetFault(kUnderVoltageFault); }, "charge, clear_errors",
-       clear},
+      {"battery fault (0x211, byte 5)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
+       "charge, clear_errors", clear},
+      {"battery fault or motor driver (0x211, byte 4)",
+       [](SimulatedDrive& d) { d.chassis().SetFault(0x0100); }, "clear_errors", clear},
       {"remote control takes over (0x211)",
        [](SimulatedDrive& d) {
          d.chassis().TakeRemoteControl({0.05, 0});
@@ -229,9 +228,11 @@ std::vector<Fault> ChassisFaults() {
       {"chassis loses power (silent)", [](SimulatedDrive& d) { d.chassis().SetPower(false); },
        "switch it on", power_on, "silent for 0.5 s", TimeSince(0.5)},
       {"track odometer falls silent",
-       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(true); }, "mend it",
-       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(false); }, "silent for 0.5 s",
-       TimeSince(0.5)},
+       [](SimulatedDrive& d) { d.chassis().Silence(FeedbackKind::kOdometer); }, "mend it",
+       [](SimulatedDrive& d) { d.chassis().Silence({}); }, "silent for 0.5 s", TimeSince(0.5)},
+      {"motion feedback falls silent (0x221)",
+       [](SimulatedDrive& d) { d.chassis().Silence(FeedbackKind::kMotion); }, "mend it",
+       [](SimulatedDrive& d) { d.chassis().Silence({}); }, "silent for 0.5 s", TimeSince(0.5)},
   };
 }
 

@@ -41,7 +41,7 @@ class Pilot {
   /// while the rover moves and without a pose.
   Reply SetDatum();
 
-  /// Keeps a clock of its own, which runs where that of driving stands.
+  /// Has a clock of its own, which runs where that of driving stands.
   OperatorWatch& operator_watch() { return operator_; }
   const OperatorWatch& operator_watch() const { return operator_; }
   void ObservePose(double now_s, const PoseObservation& pose) { pose_.Observe(now_s, pose); }
@@ -52,12 +52,9 @@ class Pilot {
   }
   /// Of the odometry, with a pair of `taken_s`. Another than before drops the goal and blocks.
   void ObserveEpoch(uint32_t epoch, double taken_s);
-  void ObserveChassis(double now_s, const ChassisStatus& status) {
-    chassis_.Observe(now_s, status);
-  }
   void ObserveTracks(double now_s, int left_mm, int right_mm);
-  void ObserveBus(bool is_up) { chassis_.ObserveBus(is_up); }
-  void ObserveForeignCommand(double now_s) { chassis_.ObserveForeignCommand(now_s); }
+  /// Of the bus, of other drivers, and of the age of all other feedback.
+  ChassisWatch& chassis_watch() { return chassis_; }
   /// What the chassis measures of its own motion.
   MotionWatch& motion_watch() { return motion_watch_; }
 

@@ -160,10 +160,19 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
     diagnostics.add("mode", ToString(system->mode));
     diagnostics.add("battery_v", system->battery_v);
     diagnostics.addf("error_bits", "0x%04X", system->error_bits);
-    if (system->error_bits & kUnderVoltageWarning)
+    diagnostics.add("errors", DescribeErrors(system->error_bits));
+    if (system->error_bits & kBatteryWarning)
       diagnostics.mergeSummary(Diagnostics::WARN, "battery is low");
     if (system->error_bits & kRemoteLost)
       diagnostics.mergeSummary(Diagnostics::WARN, "remote control is lost");
+  }
+  for (const auto& driver : link.Readings().drivers) {
+    if (!driver) continue;
+    const std::string side = driver->side == ChassisSide::kLeft ? "left " : "right ";
+    diagnostics.add(side + "motor, degrees Celsius", driver->motor_celsius);
+    diagnostics.add(side + "motor driver, degrees Celsius", driver->driver_celsius);
+    if (const std::string faults = DescribeMotorDriver(*driver); !faults.empty())
+      diagnostics.mergeSummary(Diagnostics::ERROR, "motor, " + faults);
   }
   const ChassisTraffic& traffic = link.Traffic();
   diagnostics.add("frames sent", traffic.num_sent);
@@ -171,7 +180,7 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
   diagnostics.add("frames dropped, queue full", traffic.num_send_busy);
   diagnostics.add("frames dropped, bus down", traffic.num_send_down);
   diagnostics.add("frames unreadable", traffic.num_unreadable);
-  diagnostics.add("motion commands of other drivers", traffic.num_foreign_commands);
+  diagnostics.add("commands of other drivers", traffic.num_foreign_commands);
   diagnostics.add("error frames", traffic.num_error_frames);
   diagnostics.add("bus-off events", traffic.num_bus_off);
 }
