@@ -84,6 +84,8 @@ const char* ToString(StopReason reason) {
       return "another driver commands the chassis";
     case StopReason::kRunaway:
       return "tracks run faster than commanded";
+    case StopReason::kMotionAtRest:
+      return "rover moves without a command";
     case StopReason::kTrackJammed:
       return "a track is jammed";
     case StopReason::kFeedbackFrozen:

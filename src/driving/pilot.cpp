@@ -217,6 +217,7 @@ DriveCommand Pilot::Tick(double now_s) {
   const bool is_lamp_on = state_ == DriveState::kWarning || state_ == DriveState::kDriving;
   const DriveCommand command{has_started_, state_ != DriveState::kStandby,
                              kinematics_.ChassisMotionFor(motion), is_lamp_on};
+  motion_watch_.ObserveRest(now_s, motion.IsZero() && chassis_.IsNobodyElses());
   if (has_started_ && chassis_.IsOurs())
     motion_watch_.ObserveCommand(now_s, command.chassis_motion);
   return command;

@@ -60,6 +60,13 @@ void Pilot::Block(const Fault& fault) {
   velocity_s_ = kNeverCommanded_s;
 }
 
+void Pilot::TellMotionAtRest(const Fault& fault) {
+  if (reason_ == StopReason::kRunaway) return;  // says it already
+  if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) return Block(fault);
+  reason_ = fault.reason;
+  detail_ = fault.detail;
+}
+
 void Pilot::Distrust(const Fault& fault) {
   const bool keeps_route =
       fault.reason == StopReason::kMapStep || fault.reason == StopReason::kHeldUp;
@@ -91,6 +98,7 @@ void Pilot::JudgePose(double now_s) {
 }
 
 void Pilot::UpdateState(double now_s) {
+  if (const auto fault = motion_watch_.FindMotionAtRest(now_s)) TellMotionAtRest(*fault);
   if (state_ == DriveState::kStandby && IsInLongStandby())
     EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
   if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;

@@ -127,6 +127,42 @@ TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
 }
 
+TEST_F(PilotTest, ACreepAtRestBlocksUntilStart) {
+  Start();
+  Run(2);
+  ASSERT_EQ(State(), DriveState::kReady);
+  for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);  // 25 mm/s
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_EQ(Reason(), StopReason::kMotionAtRest);
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_FALSE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(2);
+  EXPECT_EQ(State(), DriveState::kReady);
+}
+
+TEST_F(PilotTest, ACreepInStandbyIsToldAndTakesNoCommandOfTheChassis) {
+  Run(2);
+  for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);
+  EXPECT_EQ(State(), DriveState::kStandby);
+  EXPECT_EQ(Reason(), StopReason::kMotionAtRest);
+  EXPECT_FALSE(Run(kTick_s).may_speak);
+}
+
+TEST_F(PilotTest, ACreepOfABlockedRoverIsToldAndOneByTheRemoteControlIsNot) {
+  for (const bool is_remote : {true, false}) {
+    pilot_ = Pilot(Options());
+    chassis_ = {};
+    StartDriving();
+    chassis_.is_emergency_stop = true;
+    if (is_remote) chassis_.authority = ChassisAuthority::kRemoteControl;
+    Run(2);
+    for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);
+    EXPECT_EQ(State(), DriveState::kBlocked);
+    EXPECT_EQ(Reason(), is_remote ? StopReason::kChassisEmergency : StopReason::kMotionAtRest);
+  }
+}
+
 TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
   Run(0.2);
   EXPECT_FALSE(pilot_.Status().is_tilt_near_limit);

@@ -35,6 +35,20 @@ class Hold:
         return frame
 
 
+def creep(campaign):
+    """The rover is told to stand, and both tracks creep on at 25 mm/s by the odometer."""
+    campaign.rover.call("chassis_node/cancel")
+    time.sleep(1.5)
+    begin_s = time.monotonic()
+
+    def change(frame):
+        if frame.id == bus.ODOMETER:
+            ways_mm = (way_mm + int(25 * (time.monotonic() - begin_s)) for way_mm in struct.unpack(">ii", frame.bytes))
+            frame.bytes[:] = struct.pack(">ii", *ways_mm)
+        return frame
+    campaign.obey(change)
+
+
 class Repeat:
     """Every message is as its first."""
 
@@ -131,6 +145,7 @@ def bus_faults():
         Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
         Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
               "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
+        Fault("rover creeps at rest", creep, "rover moves without a command", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
         *(Fault("another driver sends 0x%03X" % identifier, command(identifier), "another driver commands the chassis",
                 lambda c: time.sleep(1.2)) for identifier in (0x111, 0x131, 0x421)),

@@ -99,6 +99,8 @@ def chassis():
         Protection("frozen feedback stops", motion, "counted_s_ && now_s - *counted_s_ > options_.max_frozen_s", "false"),
         Protection("a motor's current is limited", motion,
                    "current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s", "false"),
+        Protection("motion at rest is told", motion,
+                   "!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s", "true"),
         Protection("a jammed track stops", motion, "return FindJam();", "return std::nullopt;"),
         Protection("a goal's distance is limited", limits, "!(distance_m <= options_.max_distance_m)", "false"),
         Protection("a goal lies inside the fence", limits,

@@ -77,6 +77,10 @@ class ChassisWatch {
   std::optional<Fault> FindFault(double now_s) const;
 
   bool IsOurs() const { return status_ && status_->authority == ChassisAuthority::kUs; }
+  /// Nobody else drives it, as far as it says.
+  bool IsNobodyElses() const {
+    return status_ && (IsOurs() || status_->authority == ChassisAuthority::kNobody);
+  }
   bool IsRemote() const {
     return status_ && status_->authority == ChassisAuthority::kRemoteControl;
   }

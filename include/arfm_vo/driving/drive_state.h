@@ -46,6 +46,7 @@ enum class StopReason {
   kRemoteLost,        ///< the chassis has lost its remote control
   kForeignCommands,   ///< another driver sends motion commands on the bus
   kRunaway,           ///< the tracks run faster than commanded
+  kMotionAtRest,      ///< the tracks run and nobody has commanded it
   kTrackJammed,       ///< a track is commanded to run and stands
   kFeedbackFrozen,    ///< the chassis repeats itself
   kMotorFault,        ///< a motor driver reports a fault, or a motor draws too much

@@ -75,6 +75,7 @@ class Pilot {
   void GoOn(double now_s);
   void Distrust(const Fault& fault);
   void Block(const Fault& fault);
+  void TellMotionAtRest(const Fault& fault);
   void Pause(double now_s, StopReason reason);
   void EndRoute(GoalOutcome outcome, const Fault& fault = {});
   void Report(GoalOutcome outcome, const Fault& fault);

@@ -20,7 +20,8 @@ const char* ToString(ControlMode mode) {
 }
 
 int LevelOf(const PilotStatus& status) {
-  if (status.state == DriveState::kBlocked) return Diagnostics::ERROR;
+  if (status.state == DriveState::kBlocked || status.reason == StopReason::kMotionAtRest)
+    return Diagnostics::ERROR;
   const bool is_well = status.state == DriveState::kDriving || status.state == DriveState::kReady;
   return is_well ? Diagnostics::OK : Diagnostics::WARN;
 }
