@@ -1,29 +1,16 @@
 #!/usr/bin/python3
 """Answers a rover's challenges while a person attends it in this terminal, on the person's own machine, without ROS.
 
-Usage: operator_answer.py [--rover NAME] [COMMAND ...]
 COMMAND starts the relay on the rover, such as: ssh rover '. ws/devel/setup.sh; rosrun arfm_vo operator_answer.py --relay'
 (default: here). Enter stops the rover; so do Ctrl-C, a closed or stopped terminal and a lost link.
 """
 import argparse
+import itertools
 import os
 import select
 import signal
 import subprocess
 import sys
-
-
-def has_terminal():
-    """Nobody can press Enter where another program reads the terminal."""
-    return not os.isatty(0) or os.tcgetpgrp(0) == os.getpgrp()
-
-
-def tell(line):
-    """Shows what is no challenge, and says whether it was none."""
-    is_news = not line.startswith(b"challenge ")
-    if is_news:
-        print(line.decode(), end="", flush=True)
-    return is_news
 
 
 def attend(relay, name):
@@ -35,21 +22,28 @@ def attend(relay, name):
             if not os.read(0, 4096):
                 return "the terminal is gone"
             relay.stdin.write(b"stop\n")
-        if relay.stdout not in readable:
-            continue
-        line = relay.stdout.readline()
-        if not line:
+        line = relay.stdout.readline() if relay.stdout in readable else None
+        if line == b"":
             return "the relay has ended"
-        if tell(line):
+        if line is None or tell(line):
             continue
         heard = line.decode().rstrip("\n").split(" ", 3)[3]
         if rover is None:
             rover = heard
             print("attends %s: Enter stops it, Ctrl-C ends the watch" % rover, flush=True)
-        if heard == rover and has_terminal():
+        # (Nobody can press Enter where another program reads the terminal.)
+        if heard == rover and (not os.isatty(0) or os.tcgetpgrp(0) == os.getpgrp()):
             relay.stdin.write(line)
         elif heard != rover and name is None:
             return "there is another rover, %s: name yours with --rover" % heard
+
+
+def tell(line):
+    """Shows what is no challenge, and says whether it was none."""
+    if line.startswith(b"challenge "):
+        return False
+    print(line.decode(), end="", flush=True)
+    return True
 
 
 def relay():
@@ -57,24 +51,19 @@ def relay():
     import rospy
     from arfm_vo.msg import OperatorChallenge
     from std_srvs.srv import Trigger
-
-    def stop():
-        try:
-            print("stop:", rospy.ServiceProxy("chassis_node/stop", Trigger)().message, flush=True)
-        except rospy.ServiceException as error:
-            print("stop: no answer: %s" % error, flush=True)
-
     rospy.init_node("operator", anonymous=True, disable_signals=True)
     answers = rospy.Publisher("operator_answer", OperatorChallenge, queue_size=1, tcp_nodelay=True)
     rospy.Subscriber("operator_challenge", OperatorChallenge, queue_size=1, tcp_nodelay=True, callback=lambda challenge: print(
         "challenge %d %d %s" % (challenge.sequence, challenge.number, challenge.rover), flush=True))
-    for line in iter(sys.stdin.readline, ""):
+    for line in itertools.chain(iter(sys.stdin.readline, ""), ["stop"]):
         words = line.rstrip("\n").split(" ", 3)
         if words[0] == "challenge":
             answers.publish(sequence=int(words[1]), number=int(words[2]), rover=words[3])
-        else:
-            stop()
-    stop()
+            continue
+        try:
+            print("stop:", rospy.ServiceProxy("chassis_node/stop", Trigger)().message, flush=True)
+        except rospy.ServiceException as error:
+            print("stop: no answer: %s" % error, flush=True)
 
 
 def main():
@@ -92,7 +81,7 @@ def main():
     try:
         print("ends:", attend(process, arguments.rover))
     except (KeyboardInterrupt, OSError) as error:
-        print("ends:", error or "interrupted")
+        print("ends:", str(error) or "interrupted")
     process.stdin.close()  # the relay stops the rover then, and says so
     while select.select([process.stdout], [], [], 3)[0]:
         line = process.stdout.readline()

@@ -16,10 +16,9 @@ def set_byte(identifier, index, value):
     return change
 
 
-def run_away(frame):
-    if frame.id == bus.MOTION_STATE:
-        frame.bytes[:4] = struct.pack(">hh", 200, 0)
-    return frame
+def tell_speed(speed_mmps):
+    motion = bus.make_frame(bus.MOTION_STATE, struct.pack(">hh", speed_mmps, 0))
+    return lambda frame: motion if frame.id == bus.MOTION_STATE else frame
 
 
 class Hold:
@@ -36,17 +35,10 @@ class Hold:
 
 
 def creep(campaign):
-    """The rover is told to stand, and both tracks creep on at 25 mm/s by the odometer."""
+    """The rover is told to stand, and both tracks creep on at 25 mm/s."""
     campaign.rover.call("chassis_node/cancel")
     time.sleep(1.5)
-    begin_s = time.monotonic()
-
-    def change(frame):
-        if frame.id == bus.ODOMETER:
-            ways_mm = (way_mm + int(25 * (time.monotonic() - begin_s)) for way_mm in struct.unpack(">ii", frame.bytes))
-            frame.bytes[:] = struct.pack(">ii", *ways_mm)
-        return frame
-    campaign.obey(change)
+    campaign.obey(tell_speed(25))
 
 
 class Repeat:
@@ -97,10 +89,6 @@ def come_back_as_itself(campaign):
     time.sleep(1)
 
 
-def is_not_startable(campaign):
-    return not campaign.rover.call("chassis_node/start").success
-
-
 def storm(campaign):
     """The bus goes off and comes back 50 times."""
     for _ in range(50):
@@ -114,43 +102,33 @@ def bus_faults():
     def changed(change):
         return lambda campaign: campaign.obey(change() if isinstance(change, type) else change)
 
-    def silence(identifier):
-        return changed(lambda frame: None if frame.id == identifier else frame)
-
-    def command(identifier):
-        return lambda campaign: campaign.tap.inject(bus.make_frame(identifier, [0] * 8))
-
     def held(size):
         return lambda campaign: campaign.obey(Hold(size))
     state = bus.SYSTEM_STATE
     return [
         Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),
         Fault("chassis fault", changed(set_byte(state, 0, 2)), "chassis reports a fault", clear),
-        Fault("battery fault or motor driver (byte 4)", changed(set_byte(state, 4, 1)), "chassis reports a fault", clear),
-        Fault("battery fault (byte 5)", changed(set_byte(state, 5, 1)), "chassis reports a fault", clear),
-        Fault("motor 1 does not communicate (byte 5)", changed(set_byte(state, 5, 8)), "chassis reports a fault", clear),
-        Fault("steering encoder (byte 5)", changed(set_byte(state, 5, 128)), "chassis reports a fault", clear),
+        *(Fault("error bits 0x%02X in byte %d" % (bits, byte), changed(set_byte(state, byte, bits)), "chassis reports a fault", clear)
+          for byte, bits in ((4, 1), (4, 2), (5, 1), (5, 8), (5, 128))),
         Fault("remote control takes over", changed(set_byte(state, 1, 3)), "remote control has the rover", heal),
-        Fault("remote control is lost (byte 4)", changed(set_byte(state, 4, 4)), "chassis has lost its remote control", heal),
-        Fault("remote control is lost (byte 5)", changed(set_byte(state, 5, 4)), "chassis has lost its remote control", heal),
+        *(Fault("remote control is lost (byte %d)" % byte, changed(set_byte(state, byte, 4)), "chassis has lost its remote control", heal)
+          for byte in (4, 5)),
         Fault("chassis falls into standby", changed(set_byte(state, 1, 0)), "chassis takes no commands over CAN", heal),
         Fault("chassis falls silent", changed(lambda frame: None), "chassis is silent", heal, 0.5),
-        *(Fault(name + " falls silent", silence(identifier), "chassis is silent", heal, 0.5) for name, identifier in (
-            ("track odometer", bus.ODOMETER), ("system state", state), ("motion feedback", bus.MOTION_STATE),
-            ("left motor", 0x251), ("right motor's driver", bus.MOTOR_STATUS[1]))),
-        *(Fault(name, changed(set_byte(bus.MOTOR_STATUS[side], 5, bits)), "motor or its driver reports a fault", heal)
-          for name, side, bits in (("motor driver reports an overload", 0, 0x44), ("motor is too hot", 1, 0x42),
-                                   ("motor driver is too hot", 0, 0x48))),
-        Fault("tracks run away at 0.2 m/s", changed(run_away), "tracks run faster than commanded", heal, 0.2),
+        *(Fault("0x%03X falls silent" % silent, changed(lambda frame, silent=silent: None if frame.id == silent else frame),
+                "chassis is silent", heal, 0.5) for silent in (bus.ODOMETER, state, bus.MOTION_STATE, 0x251, bus.MOTOR_STATUS[1])),
+        *(Fault(name, changed(set_byte(bus.MOTOR_STATUS[0], 5, bits)), "motor or its driver reports a fault", heal) for name, bits in (
+            ("motor driver reports an overload", 0x44), ("motor is too hot", 0x42), ("motor driver is too hot", 0x48))),
+        Fault("tracks run away at 0.2 m/s", changed(tell_speed(200)), "tracks run faster than commanded", heal, 0.2),
         Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
         Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
               "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
         Fault("rover creeps at rest", creep, "rover moves without a command", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
-        *(Fault("another driver sends 0x%03X" % identifier, command(identifier), "another driver commands the chassis",
-                lambda c: time.sleep(1.2)) for identifier in (0x111, 0x131, 0x421)),
+        *(Fault("another driver sends 0x%03X" % sent, lambda c, sent=sent: c.tap.inject(bus.make_frame(sent, [0] * 8)),
+                "another driver commands the chassis", lambda c: time.sleep(1.2)) for sent in (0x111, 0x131, 0x421)),
         Fault("CAN adapter is pulled and comes back as can1 (another UDP port)", come_back_as_another, "CAN bus is down or chassis is silent",
-              come_back_as_itself, 0.5, is_well=is_not_startable),
+              come_back_as_itself, 0.5, is_well=lambda c: not c.rover.call("chassis_node/start").success),
         Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),
         Fault("3000 fuzzed frames of foreign identifiers", fuzz, "drives on"),
         Fault("flood of 20000 foreign frames", flood, "drives on"),

@@ -14,7 +14,7 @@ import rosnode
 import rospy
 import rosservice
 from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus, OperatorChallenge
-from geometry_msgs.msg import PoseStamped, Twist
+from geometry_msgs.msg import PoseStamped, Twist, Vector3
 from ports import find_free_port
 from sight import Sight
 from std_msgs.msg import Bool
@@ -74,7 +74,7 @@ class Rover:
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         self.emergency = rospy.Publisher("emergency_stop", Bool, queue_size=1)
         self.answers = rospy.Publisher("operator_answer", OperatorChallenge, queue_size=10)
-        self.link = lambda challenge: challenge  # what becomes of a challenge on its way to the operator and back; None: lost
+        self.link, self.heard = lambda heard: heard[-1], []  # the operator's answer, of the challenges; None: none
         rospy.Subscriber("operator_challenge", OperatorChallenge, self.answer, queue_size=1)
         self.velocities = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         rospy.Subscriber("drive_status", DriveStatus, self.take_status)
@@ -82,16 +82,15 @@ class Rover:
         threading.Thread(target=self.steer, daemon=True).start()
 
     def answer(self, challenge):
-        answer = self.link(challenge)
+        self.heard.append(challenge)
+        answer = self.link(self.heard)
         if answer is not None:
             self.answers.publish(answer)
 
     def steer(self):
         while True:
             if self.speed_mps is not None:
-                twist = Twist()
-                twist.linear.x = self.speed_mps
-                self.velocities.publish(twist)
+                self.velocities.publish(Twist(linear=Vector3(self.speed_mps, 0, 0)))
             time.sleep(0.04)
 
     @staticmethod
@@ -166,8 +165,7 @@ class Rover:
         """Started, and at full speed to a goal 6 m ahead, or by cmd_vel."""
         self.speed_mps = None
         ready = (DriveStatus.READY, DriveStatus.DRIVING)
-        if not self.wait(lambda: self.status and self.status.state in ready or
-                         (self.start() and time.sleep(1))):
+        if not self.wait(lambda: self.status and self.status.state in ready or (self.start() and time.sleep(1))):
             return False
         if by_velocity:
             self.call("chassis_node/cancel")
@@ -213,8 +211,7 @@ def program_of(node):
 def start_again(node):
     """The node with the parameters that it had."""
     remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
-    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
-                            stderr=subprocess.DEVNULL)
+    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def has_service(name):

@@ -95,8 +95,7 @@ def topic_faults():
     settle = lambda c: time.sleep(1)  # noqa: E731
     rows = [Fault("flood of the newest message of " + topic, flood(topic, kind, samples), EITHER, settle, is_load=True)
             for topic, kind in topics]
-    rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle)
-             for topic, kind in topics if has_floats(kind)]
+    rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle) for topic, kind in topics if has_floats(kind)]
     driven_by = [(topic, kind) for topic, kind in topics if topic in ("/operator_answer", "/goal", "/tf", "/odom")]
     return rows + [
         Fault("stop service called in a flood of goals, poses and answers", stop_in_a_flood(driven_by, samples),

@@ -99,8 +99,7 @@ def chassis():
         Protection("frozen feedback stops", motion, "counted_s_ && now_s - *counted_s_ > options_.max_frozen_s", "false"),
         Protection("a motor's current is limited", motion,
                    "current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s", "false"),
-        Protection("motion at rest is told", motion,
-                   "!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s", "true"),
+        Protection("motion at rest is told", motion, "!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s", "true"),
         Protection("a jammed track stops", motion, "return FindJam();", "return std::nullopt;"),
         Protection("a goal's distance is limited", limits, "!(distance_m <= options_.max_distance_m)", "false"),
         Protection("a goal lies inside the fence", limits,
@@ -145,8 +144,8 @@ def nodes():
         Protection("velocities are told by their nodes", node,
                    "driver_.pilot().SetVelocity(clock_.Now(), motion, event.getPublisherName())",
                    "driver_.pilot().SetVelocity(clock_.Now(), motion)", NODE),
-        Protection("an operator's time is the wall's", node, "      ros::SteadyTime::now().toSec(), uint64_t{random_()}",
-                   "      clock_.Now(), uint64_t{random_()}", ("clock_stall",)),
+        Protection("an operator's time is the wall's", node, "ChallengeOperator(ros::SteadyTime::now().toSec());", "ChallengeOperator(now_s);",
+                   ("clock_stall",)),
         Protection("errors are cleared at rest only", node, 'if (!is_at_rest) return {false, "not sent: the rover moves"};', "", NODE),
         Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(header, ros::Time::now());", "", NODE),
         Protection("an old goal, as a latched one, is refused", "src/ros/rover/chassis_inputs.cpp", "age_s <= max_age_s", "true", ros),
@@ -169,4 +168,13 @@ def nodes():
     ]
 
 
-PROTECTIONS = pose_watch() + pilot_faults() + pilot() + chassis() + bus() + nodes()
+def operator_watch():
+    file = "src/driving/operator_watch.cpp"
+    return [Protection(name, file, old, new) for name, old, new in (
+        ("a late answer does not count", "sent == sent_.end() || steady_s - sent->sent_s > options_.max_round_trip_s", "sent == sent_.end()"),
+        ("a repeated answer does not count", "if (sent->is_answered) return ++answers_.num_repeated, false;", ""),
+        ("a foreign answer does not count", "if (!is_ours) return ++answers_.num_foreign, false;", ""),
+        ("an answer is as old as its challenge", "std::max(answered_s_, sent->sent_s)", "steady_s"))]
+
+
+PROTECTIONS = operator_watch() + pose_watch() + pilot_faults() + pilot() + chassis() + bus() + nodes()

@@ -46,8 +46,7 @@ class Head:
         self.eye = None
         self.commands = rospy.Publisher("/head/cmd", JointState, queue_size=1, latch=True)
         self.subscribers = [
-            rospy.Subscriber("/head/settled", Bool, self.take_settled),
-            rospy.Subscriber("/joint_states", JointState, self.take_angles),
+            rospy.Subscriber("/head/settled", Bool, self.take_settled), rospy.Subscriber("/joint_states", JointState, self.take_angles),
             rospy.Subscriber("/stereo/ground_truth", PoseStamped, self.take_eye)]
 
     def take_settled(self, message):
@@ -64,8 +63,7 @@ class Head:
 
     def is_at(self, pan_rad, tilt_rad):
         return self.is_settled and all(
-            abs(self.angles.get(name, math.inf) - angle) < 0.01
-            for name, angle in (("pan", pan_rad), ("tilt", tilt_rad)))
+            abs(self.angles.get(name, math.inf) - angle) < 0.01 for name, angle in (("pan", pan_rad), ("tilt", tilt_rad)))
 
 
 class SimulationTest(unittest.TestCase):
@@ -111,8 +109,7 @@ class SimulationTest(unittest.TestCase):
         self.assertGreater(len(self.poses), 10)
         ways = [way_between(first.position, pose.position) for pose in self.poses]
         turns = [turn_between(first.orientation, pose.orientation) for pose in self.poses]
-        print("head: %d poses, base moves %.1f mm and turns %.2f deg at most" %
-              (len(ways), 1000 * max(ways), math.degrees(max(turns))))
+        print("head: %d poses, base moves %.1f mm and turns %.2f deg at most" % (len(ways), 1000 * max(ways), math.degrees(max(turns))))
         self.assertLess(max(ways), 0.03)
         self.assertLess(math.degrees(max(turns)), 1)
 

@@ -19,8 +19,7 @@ namespace {
 using Action = std::function<void(SimulatedDrive&)>;
 using Condition = std::function<bool(const SimulatedDrive&, double injected_s)>;
 
-/// Who brings the rover to a stand.
-enum class Stopper { kDriver, kChassisTimeout };
+enum class Stopper { kDriver, kChassisTimeout };  ///< who brings the rover to a stand
 
 struct Fault {
   std::string name;
@@ -152,22 +151,21 @@ std::vector<Fault> WrongPoseFaults() {
     d.told_from_true_ = d.map_from_odom_ = Rigid3();
     d.each_tick_ = [] {};
   };
-  const auto keep = [](SimulatedDrive&) {};
   const auto tilt = [](SimulatedDrive& d) {
     d.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
   };
   return {
       {"odometry restarts elsewhere, unannounced",
-       [](SimulatedDrive& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", keep},
-      {"odometry announces a new epoch", [](SimulatedDrive& d) { ++d.epoch_; }, "", keep},
+       [](SimulatedDrive& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", kNothing},
+      {"odometry announces a new epoch", [](SimulatedDrive& d) { ++d.epoch_; }, "", kNothing},
       {"odometry restarts elsewhere with a new epoch",
        [](SimulatedDrive& d) {
          ++d.epoch_;
          d.told_from_true_ = PlaceAt(9, 0);
        },
-       "", keep},
+       "", kNothing},
       {"map -> odom jumps by 0.5 m", [](SimulatedDrive& d) { d.map_from_odom_ = PlaceAt(0, 0.5); },
-       "", keep},
+       "", kNothing},
       {"map -> odom is no longer told (ba_node is gone)",
        [](SimulatedDrive& d) {
          d.is_tf_missing_ = true;
@@ -205,14 +203,15 @@ std::vector<Fault> MotionFaults() {
 std::vector<Fault> ChassisFaults() {
   const auto power_on = [](SimulatedDrive& d) { d.chassis().SetPower(true); };
   const auto clear = [](SimulatedDrive& d) { d.driver().link().SendClearErrors(); };
+  const auto silence = [](std::optional<FeedbackKind> kind) {
+    return [kind](SimulatedDrive& d) { d.chassis().Silence(kind); };
+  };
   return {
       {"emergency stop button (0x211)",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(true); }, "release the button",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(false); }},
-      {"battery fault (0x211, byte 5)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
+      {"battery fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
        "charge, clear_errors", clear},
-      {"battery fault or motor driver (0x211, byte 4)",
-       [](SimulatedDrive& d) { d.chassis().SetFault(0x0100); }, "clear_errors", clear},
       {"remote control takes over (0x211)",
        [](SimulatedDrive& d) {
          d.chassis().TakeRemoteControl({0.05, 0});
@@ -227,12 +226,10 @@ std::vector<Fault> ChassisFaults() {
        "", kNothing},
       {"chassis loses power (silent)", [](SimulatedDrive& d) { d.chassis().SetPower(false); },
        "switch it on", power_on, "silent for 0.5 s", TimeSince(0.5)},
-      {"track odometer falls silent",
-       [](SimulatedDrive& d) { d.chassis().Silence(FeedbackKind::kOdometer); }, "mend it",
-       [](SimulatedDrive& d) { d.chassis().Silence({}); }, "silent for 0.5 s", TimeSince(0.5)},
-      {"motion feedback falls silent (0x221)",
-       [](SimulatedDrive& d) { d.chassis().Silence(FeedbackKind::kMotion); }, "mend it",
-       [](SimulatedDrive& d) { d.chassis().Silence({}); }, "silent for 0.5 s", TimeSince(0.5)},
+      {"track odometer falls silent", silence(FeedbackKind::kOdometer), "mend it", silence({}),
+       "silent for 0.5 s", TimeSince(0.5)},
+      {"motion feedback falls silent (0x221)", silence(FeedbackKind::kMotion), "mend it",
+       silence({}), "silent for 0.5 s", TimeSince(0.5)},
   };
 }
 

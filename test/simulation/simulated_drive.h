@@ -90,18 +90,14 @@ class SimulatedDrive {
     ++now_ms_;
     if (now_ms_ % kChassisPeriod_ms == 0) chassis_->Tick(Now());
     if (now_ms_ % kPosePeriod_ms == 0) See();
-    if (driver_) Answer();
+    const auto challenge = driver_ ? pilot().operator_watch().Advance(Now(), 1) : std::nullopt;
+    if (challenge && has_operator_ && pilot().operator_watch().ObserveAnswer(Now(), *challenge))
+      answered_s_ = Now();
     if (now_ms_ % kDriverPeriod_ms == 3 && driver_ && !is_driver_hung_) {
       each_tick_();
       if (driver_) driver_->Tick(Now());
     }
     Listen();
-  }
-
-  void Answer() {
-    const auto challenge = pilot().operator_watch().Advance(Now(), 1);
-    if (!challenge || !has_operator_) return;
-    if (pilot().operator_watch().ObserveAnswer(Now(), *challenge)) answered_s_ = Now();
   }
 
   void See() {

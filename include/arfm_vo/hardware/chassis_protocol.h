@@ -16,8 +16,7 @@ enum class ControlMode : uint8_t { kStandby = 0, kCan = 1, kUart = 2, kRemote = 
 enum class VehicleState : uint8_t { kOk = 0, kEmergencyStop = 1, kFault = 2 };
 enum class ChassisSide : uint8_t { kLeft = 0, kRight = 1 };
 
-/// Bits of SystemState::error_bits. ugv_sdk has these in the low byte, a manual of the family in
-/// the high one, where ugv_sdk has other faults: both readings count.
+/// Bits of SystemState::error_bits, by ugv_sdk (low byte) and a manual of the family (high byte).
 constexpr uint16_t kBatteryWarning = 0x0202, kRemoteLost = 0x0404;
 /// All other bits are faults.
 constexpr uint16_t kErrorBitsNoFault = 0x0002 | kRemoteLost;

@@ -114,17 +114,17 @@ void ChassisNode::Tick() {
   const double now_s = clock_.Now();
   if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
   last_tick_s_ = now_s;
-  ChallengeOperator();
+  // Not by driving time: simulated time may stand still, or run slowly.
+  ChallengeOperator(ros::SteadyTime::now().toSec());
   Look(now_s);
   driver_.Tick(now_s);
   publisher_.Publish(now_s, driver_);
   updater_.update();
 }
 
-void ChassisNode::ChallengeOperator() {
-  // Not by driving time: simulated time may stand still, or run slowly.
-  const auto challenge = driver_.pilot().operator_watch().Advance(
-      ros::SteadyTime::now().toSec(), uint64_t{random_()} << 32 | random_());
+void ChassisNode::ChallengeOperator(double steady_s) {
+  const auto challenge =
+      driver_.pilot().operator_watch().Advance(steady_s, uint64_t{random_()} << 32 | random_());
   if (!challenge) return;
   OperatorChallenge message;
   message.rover = challenge->rover;

@@ -68,7 +68,7 @@ class ChassisNode {
   Reply ClearErrors();
   void SetPace(ros::NodeHandle& node);
   void Tick();
-  void ChallengeOperator();
+  void ChallengeOperator(double steady_s);
   void Look(double now_s);
   void Report(Diagnostics& diagnostics) const;
 
