@@ -54,6 +54,7 @@ bool Pilot::IsMovedByAnother(double now_s, const std::string& source) const {
 
 void Pilot::Block(const Fault& fault) {
   if (route_) Report(GoalOutcome::kBlocked, fault);
+  if (state_ != DriveState::kBlocked) waiting_since_s_ = last_tick_s_;
   state_ = DriveState::kBlocked;
   reason_ = fault.reason;
   detail_ = fault.detail;
@@ -89,6 +90,16 @@ void Pilot::Pause(double now_s, StopReason reason) {
     Block({StopReason::kPoseLost, std::string("(") + ToString(reason) + ")"});
 }
 
+/// After a long standby or block the world is another; says whether it is one.
+bool Pilot::DropOldRoute() {
+  const bool is_blocked = state_ == DriveState::kBlocked;
+  if ((state_ != DriveState::kStandby && !is_blocked) || !waiting_since_s_) return false;
+  if (last_tick_s_ - *waiting_since_s_ <= options_.goal_limits.max_standby_s) return false;
+  EndRoute(GoalOutcome::kCancelled,
+           is_blocked ? Fault{reason_, detail_} : Fault{StopReason::kNotStarted, ""});
+  return true;
+}
+
 void Pilot::JudgePose(double now_s) {
   if (const auto fault = pose_.Judge(now_s, tracks_)) Distrust(*fault);
   predicted_ = pose_.HasPose() ? std::optional(PredictPose(now_s)) : std::nullopt;
@@ -99,8 +110,7 @@ void Pilot::JudgePose(double now_s) {
 
 void Pilot::UpdateState(double now_s) {
   if (const auto fault = motion_watch_.FindMotionAtRest(now_s)) TellMotionAtRest(*fault);
-  if (state_ == DriveState::kStandby && IsInLongStandby())
-    EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
+  DropOldRoute();
   if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;
   if (const auto fault = FindBlockingFault(now_s)) return Block(*fault);
   if (!chassis_.IsOurs()) return;  // arming

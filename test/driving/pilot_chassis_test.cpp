@@ -163,6 +163,22 @@ TEST_F(PilotTest, ACreepOfABlockedRoverIsToldAndOneByTheRemoteControlIsNot) {
   }
 }
 
+TEST_F(PilotTest, AGoalThatWaitedLongBehindABlockIsNotDrivenToLater) {
+  for (const double wait_s : {9.0, 11.0}) {
+    pilot_ = Pilot(Options());
+    chassis_ = {};
+    StartDriving();
+    chassis_.is_emergency_stop = true;
+    Run(wait_s);
+    pilot_.TakeResults();
+    chassis_.is_emergency_stop = false;
+    Run(0.2);
+    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+    EXPECT_EQ(Run(2).chassis_motion.forward_mps > 0.09, wait_s < 10) << wait_s;
+    EXPECT_EQ(pilot_.Status().has_goal, wait_s < 10) << wait_s;
+  }
+}
+
 TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
   Run(0.2);
   EXPECT_FALSE(pilot_.Status().is_tilt_near_limit);

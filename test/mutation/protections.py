@@ -46,6 +46,7 @@ def pilot_faults():
         ("the emergency stop stops", "!emergency_sources_.empty()", "false"),
         ("tilt stops", 'if (pose_.IsTilted()) return Fault{StopReason::kTilt, ""};', ""),
         ("a velocity is forgotten in time", "now_s - velocity_s_ <= options_.velocity_timeout_s", "true"),
+        ("a goal that waited long is dropped", "last_tick_s_ - *waiting_since_s_ <= options_.goal_limits.max_standby_s", "true"),
         ("slip stops", 'if (slip_.IsExcessive()) return Fault{StopReason::kSlip, ""};', ""),
         ("no progress stops", 'if (progress_.IsStalled()) return Fault{StopReason::kNoProgress, ""};', ""),
         ("outside the fence stops", "predicted_ && !goal_limits_.IsInsideFence(predicted_->x_m, predicted_->y_m)", "false"),
@@ -67,7 +68,7 @@ def pilot():
         ("no goals while blocked", 'if (state_ == DriveState::kBlocked)\n'
          '    return {false, "goal refused: the rover is blocked: " + InWords({reason_, detail_})};', ""),
         ("no goals in a long standby",
-         'if (IsInLongStandby()) return {false, "goal refused: the rover is in standby; start it first"};', ""),
+         'if (DropOldRoute()) return {false, "goal refused: the rover is in standby; start it first"};', ""),
         ("a late tick is no leap of the speed", "std::clamp(now_s - last_tick_s_, 0.0, kMaxTick_s)", "now_s - last_tick_s_"),
         ("a pilot that was held up blocks", 'if (was_held_up) Distrust({StopReason::kHeldUp, ""});', ""),
         ("the velocity is forgotten at a stop", "reason_ = StopReason::kStopped;\n  detail_.clear();\n"
@@ -169,8 +170,7 @@ def nodes():
 
 
 def operator_watch():
-    file = "src/driving/operator_watch.cpp"
-    return [Protection(name, file, old, new) for name, old, new in (
+    return [Protection(name, "src/driving/operator_watch.cpp", old, new) for name, old, new in (
         ("a late answer does not count", "sent == sent_.end() || steady_s - sent->sent_s > options_.max_round_trip_s", "sent == sent_.end()"),
         ("a repeated answer does not count", "if (sent->is_answered) return ++answers_.num_repeated, false;", ""),
         ("a foreign answer does not count", "if (!is_ours) return ++answers_.num_foreign, false;", ""),

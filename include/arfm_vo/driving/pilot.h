@@ -81,7 +81,7 @@ class Pilot {
   void Report(GoalOutcome outcome, const Fault& fault);
   bool IsVelocityFresh(double now_s) const;
   bool IsMovedByAnother(double now_s, const std::string& source) const;
-  bool IsInLongStandby() const;
+  bool DropOldRoute();
   RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
   PlanarMotion WantedMotion(double now_s);
@@ -112,7 +112,7 @@ class Pilot {
   std::string velocity_source_;
   double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
   double commanded_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
-  std::optional<double> standby_since_s_;
+  std::optional<double> waiting_since_s_;
   double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;
   std::vector<GoalResult> results_;
 };
