@@ -80,6 +80,9 @@ TEST_F(OperatorWatchTest, AnswersOfASlowLinkAreAllTooOld) {
   EXPECT_GT(watch_.Answers().num_late, 100);
   Run(2, 0.56);
   EXPECT_TRUE(watch_.IsMissing()) << "later than max_round_trip_s";
+  now_s_ += 1;
+  const Challenge challenge = watch_.Advance(now_s_, 7).value();
+  EXPECT_FALSE(watch_.ObserveAnswer(now_s_ + 0.51, challenge)) << "before the next tick";
 }
 
 TEST_F(OperatorWatchTest, ARepeatedAnswerDoesNotCountAgain) {
