@@ -38,11 +38,9 @@ class Errand:
     """One drive to a goal. Timeouts are wall time: simulated time may stand still."""
 
     def __init__(self):
-        self.done = threading.Event()
-        self.has_status, self.has_pose = threading.Event(), threading.Event()
-        self.status = None
+        self.done, self.has_pose = threading.Event(), threading.Event()
         self.is_sent = False
-        self.goal = self.report = self.truth = None
+        self.status = self.goal = self.report = self.truth = None
         # Not latched: a goal is for now, not for whoever comes later.
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
@@ -57,23 +55,20 @@ class Errand:
 
     def take_status(self, status):
         self.status = status
-        self.has_status.set()
 
     def take_truth(self, truth):
         self.truth = truth.pose.pose.position
 
     def start(self, timeout_s):
-        # Not before there is a pose: a rover that is started without one is blocked soon.
-        for event, what in (self.has_status, "drive_status"), (self.has_pose, "odom"):
-            if not event.wait(timeout_s):
-                print("start: nothing on %s within %g s" % (what, timeout_s))
-                return False
         end_s = time.monotonic() + timeout_s
-        while self.goals.get_num_connections() == 0:
-            if time.monotonic() > end_s:
-                print("start: nobody takes goals within %g s" % timeout_s)
-                return False
-            time.sleep(0.01)
+        # Not before there is a pose: a rover that is started without one is blocked soon.
+        for condition, what in ((lambda: self.status, "nothing on drive_status"), (self.has_pose.is_set, "nothing on odom"),
+                                (self.goals.get_num_connections, "nobody takes goals")):
+            while not condition():
+                if time.monotonic() > end_s:
+                    print("start: %s within %g s" % (what, timeout_s))
+                    return False
+                time.sleep(0.01)
         return call("start") and self.wait_until_ready(end_s)
 
     def wait_until_ready(self, end_s):

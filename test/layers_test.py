@@ -69,11 +69,9 @@ def check_itself():
     import tempfile
     with tempfile.TemporaryDirectory() as folder:
         package = pathlib.Path(folder)
-        for name, text in {
-                "include/arfm_vo/base/a.h": '#include "arfm_vo/image/b.h"\n',
+        for name, text in {"include/arfm_vo/base/a.h": '#include "arfm_vo/image/b.h"\n',
                 "src/image/b.cpp": '#include "arfm_vo/base/a.h"\n#include <ros/ros.h>\n#include <arfm_vo/Status.h>\n',
-                "src/ros/c.cpp": '#include <ros/ros.h>\n#include "arfm_vo/image/b.h"\n',
-                "src/attic/d.cpp": ""}.items():
+                "src/ros/c.cpp": '#include <ros/ros.h>\n#include "arfm_vo/image/b.h"\n', "src/attic/d.cpp": ""}.items():
             (package / name).parent.mkdir(parents=True, exist_ok=True)
             (package / name).write_text(text)
         violations, _, _ = find_violations(package, layers)

@@ -1,24 +1,45 @@
 #include "arfm_vo/driving/chassis_watch.h"
 
+#include "arfm_vo/base/format.h"
+
 namespace arfm_vo {
+namespace {
+
+constexpr std::array<const char*, kNumFeedbackKinds> kKindNames = {
+    "system state", "motion",      "track odometer", "left motor",
+    "right motor",  "left driver", "right driver"};
+constexpr size_t kNumRequired = 3;
+
+}  // namespace
 
 void ChassisWatch::Observe(double now_s, const ChassisStatus& status) {
-  heard_s_ = now_s;
+  ObserveFeedback(now_s, FeedbackKind::kSystem);
   status_ = status;
 }
 
-std::optional<StopReason> ChassisWatch::FindFault(double now_s) const {
-  if (!is_bus_up_) return StopReason::kBusDown;
-  const double oldest_s = now_s - options_.max_feedback_age_s;
-  if (!status_ || heard_s_ < oldest_s || !odometer_s_ || *odometer_s_ < oldest_s)
-    return StopReason::kNoFeedback;
-  if (status_->is_emergency_stop) return StopReason::kChassisEmergency;
-  if (status_->has_fault) return StopReason::kChassisFault;
-  if (status_->has_motor_fault) return StopReason::kMotorFault;
+std::optional<Fault> ChassisWatch::FindSilence(double now_s) const {
+  for (size_t kind = 0; kind < kNumFeedbackKinds; ++kind) {
+    const auto& heard_s = heard_s_[kind];
+    if (!heard_s && kind < kNumRequired)
+      return Fault{StopReason::kNoFeedback, Format("(%s: not heard yet)", kKindNames[kind])};
+    if (heard_s && now_s - *heard_s > options_.max_feedback_age_s)
+      return Fault{StopReason::kNoFeedback,
+                   Format("(%s: for %.1f s)", kKindNames[kind], now_s - *heard_s)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> ChassisWatch::FindFault(double now_s) const {
+  if (!is_bus_up_) return Fault{StopReason::kBusDown, ""};
+  if (auto silence = FindSilence(now_s)) return silence;
+  if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, ""};
+  if (status_->has_fault) return Fault{StopReason::kChassisFault, status_->detail};
+  if (status_->has_motor_fault) return Fault{StopReason::kMotorFault, status_->detail};
   if (foreign_s_ && now_s - *foreign_s_ <= options_.foreign_command_s)
-    return StopReason::kForeignCommands;
-  if (IsRemote()) return StopReason::kRemoteControl;
-  if (status_->is_remote_lost && !options_.allows_remote_lost) return StopReason::kRemoteLost;
+    return Fault{StopReason::kForeignCommands, foreign_detail_};
+  if (IsRemote()) return Fault{StopReason::kRemoteControl, ""};
+  if (status_->is_remote_lost && !options_.allows_remote_lost)
+    return Fault{StopReason::kRemoteLost, ""};
   return std::nullopt;
 }
 

@@ -75,7 +75,7 @@ const char* ToString(StopReason reason) {
     case StopReason::kOutsideFence:
       return "rover is outside the fence";
     case StopReason::kOperatorLost:
-      return "no operator heartbeat";
+      return "operator does not answer";
     case StopReason::kHeldUp:
       return "chassis_node was held up";
     case StopReason::kRemoteLost:
@@ -84,6 +84,8 @@ const char* ToString(StopReason reason) {
       return "another driver commands the chassis";
     case StopReason::kRunaway:
       return "tracks run faster than commanded";
+    case StopReason::kMotionAtRest:
+      return "rover moves without a command";
     case StopReason::kTrackJammed:
       return "a track is jammed";
     case StopReason::kFeedbackFrozen:

@@ -11,6 +11,13 @@ namespace {
 
 /// Shorter commanded ways are not judged: the odometer counts millimetres.
 constexpr double kMinCommandedWay_m = 0.03;
+/// What the chassis measures of its motion at rest: slower is noise, faster is a misreading.
+constexpr double kMinMeasured_mps = 0.005, kMaxMeasured_mps = 1, kMaxMeasuredGap_s = 0.1;
+
+double WayOf(double speed_mps, double dt_s) {
+  if (!(std::abs(speed_mps) > kMinMeasured_mps)) return 0;
+  return dt_s * std::clamp(speed_mps, -kMaxMeasured_mps, kMaxMeasured_mps);
+}
 
 /// By how much `value` is outside what `low` and `high` span.
 double Outside(double value, double low, double high) {
@@ -28,6 +35,8 @@ void MotionWatchOptions::Check() const {
   RequireInRange(max_frozen_s, 0.3, 3600, "motion.max_frozen_s");
   RequireInRange(max_motor_current_a, 0, 1000, "motion.max_motor_current_a");
   RequireInRange(max_current_s, 0, 60, "motion.max_current_s");
+  RequireInRange(stop_s, 0.1, 60, "motion.stop_s");
+  RequireInRange(max_way_at_rest_m, 0.01, 1, "motion.max_way_at_rest_m");
 }
 
 MotionWatch::MotionWatch(const MotionWatchOptions& options, double gauge_m)
@@ -62,8 +71,13 @@ double MotionWatch::ExcessOf(const TrackSpeeds& measured) const {
 }
 
 void MotionWatch::ObserveMotion(double now_s, const PlanarMotion& motion) {
+  const TrackSpeeds measured = kinematics_.TracksFor(motion);
+  const double dt_s = std::clamp(now_s - measured_s_.value_or(now_s), 0.0, kMaxMeasuredGap_s);
+  measured_s_ = now_s;
+  measured_ways_.left_m += WayOf(measured.left_mps, dt_s);
+  measured_ways_.right_m += WayOf(measured.right_mps, dt_s);
   if (commands_.empty()) return;  // nothing was commanded yet: not ours to judge
-  excess_mps_ = ExcessOf(kinematics_.TracksFor(motion));
+  excess_mps_ = ExcessOf(measured);
   if (excess_mps_ <= options_.max_excess_mps) {
     excess_since_s_.reset();
   } else if (!excess_since_s_) {
@@ -72,6 +86,36 @@ void MotionWatch::ObserveMotion(double now_s, const PlanarMotion& motion) {
 }
 
 void MotionWatch::ObserveWays(double, const TrackWays& ways) { ways_ = ways; }
+
+void MotionWatch::ObserveRest(double now_s, bool is_at_rest) {
+  if (!is_at_rest) {
+    rest_since_s_.reset();
+    rest_ways_.reset();
+  } else if (!rest_since_s_) {
+    rest_since_s_ = now_s;
+  } else if (!rest_ways_ && now_s - *rest_since_s_ >= options_.stop_s) {
+    rest_ways_ = ways_;
+    measured_ways_ = {};
+  }
+  if (WayAtRest() <= options_.max_way_at_rest_m) {
+    away_since_s_.reset();
+  } else if (!away_since_s_) {
+    away_since_s_ = now_s;
+  }
+}
+
+double MotionWatch::WayAtRest() const {
+  if (!rest_ways_) return 0;
+  return std::max({std::abs(ways_.left_m - rest_ways_->left_m),
+                   std::abs(ways_.right_m - rest_ways_->right_m), std::abs(measured_ways_.left_m),
+                   std::abs(measured_ways_.right_m)});
+}
+
+std::optional<Fault> MotionWatch::FindMotionAtRest(double now_s) const {
+  if (!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s) return std::nullopt;
+  return Fault{StopReason::kMotionAtRest,
+               Format("%.2f m (allowed %.2f m)", WayAtRest(), options_.max_way_at_rest_m)};
+}
 
 void MotionWatch::ObserveCounter(double now_s, int counter) {
   if (!counted_s_ || counter != counter_) counted_s_ = now_s;
@@ -91,6 +135,9 @@ void MotionWatch::Reset() {
   commands_.clear();
   excess_since_s_.reset();
   current_since_s_.reset();
+  rest_since_s_.reset();
+  rest_ways_.reset();
+  away_since_s_.reset();
 }
 
 std::optional<Fault> MotionWatch::FindJam() const {

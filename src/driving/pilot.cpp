@@ -49,7 +49,7 @@ Reply Pilot::Start(double now_s) {
   commanded_s_ = now_s;
   if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked)
     return {true, "already started"};
-  if (IsInLongStandby()) EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
+  DropOldRoute();
   state_ = DriveState::kArming;
   reason_ = StopReason::kNone;
   detail_.clear();
@@ -65,7 +65,7 @@ Reply Pilot::Start(double now_s) {
 void Pilot::Stop() {
   EndRoute(GoalOutcome::kCancelled, {StopReason::kStopped, ""});
   state_ = DriveState::kStandby;
-  standby_since_s_ = last_tick_s_;
+  waiting_since_s_ = last_tick_s_;
   reason_ = StopReason::kStopped;
   detail_.clear();
   velocity_s_ = kNeverCommanded_s;
@@ -80,15 +80,10 @@ void Pilot::SetEmergencyStop(const std::string& source, bool is_set) {
   }
 }
 
-bool Pilot::IsInLongStandby() const {
-  return state_ == DriveState::kStandby && standby_since_s_ &&
-         last_tick_s_ - *standby_since_s_ > options_.goal_limits.max_standby_s;
-}
-
 Reply Pilot::SetRoute(Route route) {
   if (state_ == DriveState::kBlocked)
     return {false, "goal refused: the rover is blocked: " + InWords({reason_, detail_})};
-  if (IsInLongStandby()) return {false, "goal refused: the rover is in standby; start it first"};
+  if (DropOldRoute()) return {false, "goal refused: the rover is in standby; start it first"};
   if (!predicted_) return {false, "goal refused: the rover has no pose"};
   const std::string flaw = goal_limits_.FindFlaw(route, *predicted_);
   if (!flaw.empty()) return {false, "goal refused: " + flaw};
@@ -142,7 +137,7 @@ void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {
 void Pilot::ObserveTracks(double now_s, int left_mm, int right_mm) {
   tracks_.Add(now_s, left_mm, right_mm);
   motion_watch_.ObserveWays(now_s, *tracks_.At(now_s));
-  chassis_.ObserveTrackOdometer(now_s);
+  chassis_.ObserveFeedback(now_s, FeedbackKind::kOdometer);
 }
 
 void Pilot::Report(GoalOutcome outcome, const Fault& fault) {
@@ -201,10 +196,10 @@ void Pilot::NoteMotion(double now_s, double dt_s, const PlanarMotion& motion) {
 
 DriveCommand Pilot::Tick(double now_s) {
   const double dt_s = std::clamp(now_s - last_tick_s_, 0.0, kMaxTick_s);
-  const bool was_held_up = standby_since_s_ && now_s - last_tick_s_ > options_.max_tick_gap_s;
+  const bool was_held_up = waiting_since_s_ && now_s - last_tick_s_ > options_.max_tick_gap_s;
   last_tick_s_ = now_s;
   if (was_held_up) Distrust({StopReason::kHeldUp, ""});
-  if (!standby_since_s_) standby_since_s_ = now_s;
+  if (!waiting_since_s_) waiting_since_s_ = now_s;
   JudgePose(now_s);
   UpdateState(now_s);
   PlanarMotion motion;
@@ -217,6 +212,7 @@ DriveCommand Pilot::Tick(double now_s) {
   const bool is_lamp_on = state_ == DriveState::kWarning || state_ == DriveState::kDriving;
   const DriveCommand command{has_started_, state_ != DriveState::kStandby,
                              kinematics_.ChassisMotionFor(motion), is_lamp_on};
+  motion_watch_.ObserveRest(now_s, motion.IsZero() && chassis_.IsNobodyElses());
   if (has_started_ && chassis_.IsOurs())
     motion_watch_.ObserveCommand(now_s, command.chassis_motion);
   return command;
@@ -230,6 +226,7 @@ PilotStatus Pilot::Status() const {
   status.has_goal = route_.has_value();
   status.motion = motion_;
   status.slip = slip_.Estimate();
+  status.operator_round_trip_s = operator_.RoundTrip();
   status.is_tilt_near_limit = pose_.IsTiltNearLimit();
   if (route_) {
     status.phase = route_->Phase();

@@ -10,10 +10,6 @@ std::string Join(const std::set<std::string>& names) {
   return text;
 }
 
-std::optional<Fault> ToFault(const std::optional<StopReason>& reason) {
-  return reason ? std::optional(Fault{*reason, ""}) : std::nullopt;
-}
-
 /// What a pose of another epoch looks like.
 bool IsJump(StopReason reason) {
   return reason == StopReason::kPoseContradiction || reason == StopReason::kSliding ||
@@ -25,8 +21,8 @@ bool IsJump(StopReason reason) {
 std::optional<Fault> Pilot::FindStartFault(double now_s) const {
   if (!emergency_sources_.empty())
     return Fault{StopReason::kEmergencyStop, Join(emergency_sources_)};
-  if (operator_.IsMissing(now_s)) return Fault{StopReason::kOperatorLost, ""};
-  return ToFault(chassis_.FindFault(now_s));
+  if (operator_.IsMissing()) return Fault{StopReason::kOperatorLost, operator_.DescribeRefused()};
+  return chassis_.FindFault(now_s);
 }
 
 std::optional<Fault> Pilot::FindBlockingFault(double now_s) const {
@@ -58,10 +54,18 @@ bool Pilot::IsMovedByAnother(double now_s, const std::string& source) const {
 
 void Pilot::Block(const Fault& fault) {
   if (route_) Report(GoalOutcome::kBlocked, fault);
+  if (state_ != DriveState::kBlocked) waiting_since_s_ = last_tick_s_;
   state_ = DriveState::kBlocked;
   reason_ = fault.reason;
   detail_ = fault.detail;
   velocity_s_ = kNeverCommanded_s;
+}
+
+void Pilot::TellMotionAtRest(const Fault& fault) {
+  if (reason_ == StopReason::kRunaway) return;  // says it already
+  if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) return Block(fault);
+  reason_ = fault.reason;
+  detail_ = fault.detail;
 }
 
 void Pilot::Distrust(const Fault& fault) {
@@ -86,6 +90,16 @@ void Pilot::Pause(double now_s, StopReason reason) {
     Block({StopReason::kPoseLost, std::string("(") + ToString(reason) + ")"});
 }
 
+/// After a long standby or block the world is another; says whether it is one.
+bool Pilot::DropOldRoute() {
+  const bool is_blocked = state_ == DriveState::kBlocked;
+  if ((state_ != DriveState::kStandby && !is_blocked) || !waiting_since_s_) return false;
+  if (last_tick_s_ - *waiting_since_s_ <= options_.goal_limits.max_standby_s) return false;
+  EndRoute(GoalOutcome::kCancelled,
+           is_blocked ? Fault{reason_, detail_} : Fault{StopReason::kNotStarted, ""});
+  return true;
+}
+
 void Pilot::JudgePose(double now_s) {
   if (const auto fault = pose_.Judge(now_s, tracks_)) Distrust(*fault);
   predicted_ = pose_.HasPose() ? std::optional(PredictPose(now_s)) : std::nullopt;
@@ -95,8 +109,8 @@ void Pilot::JudgePose(double now_s) {
 }
 
 void Pilot::UpdateState(double now_s) {
-  if (state_ == DriveState::kStandby && IsInLongStandby())
-    EndRoute(GoalOutcome::kCancelled, {StopReason::kNotStarted, ""});
+  if (const auto fault = motion_watch_.FindMotionAtRest(now_s)) TellMotionAtRest(*fault);
+  DropOldRoute();
   if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;
   if (const auto fault = FindBlockingFault(now_s)) return Block(*fault);
   if (!chassis_.IsOurs()) return;  // arming

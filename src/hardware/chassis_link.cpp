@@ -13,7 +13,18 @@ constexpr double kLampRepeat_s = 0.5;
 /// The turn in place at which the tracks, 0.583 m apart, run at the speed limit, rounded up.
 constexpr double kMaxChassisTurnRate_radps = 0.35;
 
+bool IsCommand(const CanFrame& frame) {
+  return frame.kind == CanFrameKind::kData &&
+         std::count(kCommandIds.begin(), kCommandIds.end(), frame.id) > 0;
+}
+
 }  // namespace
+
+CanFilters ChassisLink::Filters() {
+  CanFilters filters = {{0x200, 0x600}};
+  for (const uint32_t id : kCommandIds) filters.push_back({id, 0x7FF});
+  return filters;
+}
 
 ChassisLink::ChassisLink(std::unique_ptr<CanBus> bus) : bus_(std::move(bus)) {}
 
@@ -39,8 +50,9 @@ std::vector<ChassisFeedback> ChassisLink::Receive() {
       ++traffic_.num_error_frames;
       continue;
     }
-    if (std::holds_alternative<MotionCommand>(DecodeCommand(*frame))) {
+    if (IsCommand(*frame)) {
       ++traffic_.num_foreign_commands;
+      traffic_.foreign_command_id = frame->id;
       continue;
     }
     const ChassisFeedback feedback = DecodeFeedback(*frame);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kChassisPeriod_ms = 10;
 constexpr int kDriverPeriod_ms = 20;
-constexpr long kGoal_ms = 600, kStart_ms = 1000, kHeartbeatPeriod_ms = 500;
+constexpr long kGoal_ms = 600, kStart_ms = 1000;
 constexpr uint32_t kEpoch = 1;
 /// Slowest sensible drive: a limit for runs that never end.
 constexpr double kMaxSecondsPerMetre = 60, kMaxSeconds = 300;
@@ -50,7 +50,7 @@ class Stage {
       Tell(glimpses_.front());
       glimpses_.pop_front();
     }
-    if (now_ms_ % kHeartbeatPeriod_ms == 0) driver_.pilot().ObserveOperator(Now());
+    Attend(driver_.pilot().operator_watch(), Now());
     if (now_ms_ == kGoal_ms) SendGoal();
     if (now_ms_ == kStart_ms) {
       drive_.num_frames_before_start = drive_.num_frames;

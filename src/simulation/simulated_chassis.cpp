@@ -115,10 +115,11 @@ void SimulatedChassis::SendFastFeedback() {
   }
   const TrackSpeeds& speeds = told_speeds_;
   const TrackWays& ways = told_ways_;
-  Send(MotionState{TrackKinematics(TrackKinematicsOptions{}).MotionOf(speeds)});
+  if (silent_ != FeedbackKind::kMotion)
+    Send(MotionState{TrackKinematics(TrackKinematicsOptions{}).MotionOf(speeds)});
   Send(MotorOf(ChassisSide::kLeft, speeds.left_mps, ways.left_m));
   Send(MotorOf(ChassisSide::kRight, speeds.right_mps, ways.right_m));
-  if (is_odometer_silent_) return;
+  if (silent_ == FeedbackKind::kOdometer) return;
   Send(TrackOdometer{ToMillimetres(ways.left_m), ToMillimetres(ways.right_m)});
 }
 

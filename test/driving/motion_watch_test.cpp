@@ -17,6 +17,7 @@ class MotionWatchTest : public ::testing::Test {
     for (const double end_s = now_s_ + duration_s; now_s_ < end_s; now_s_ += kWatchTick_s) {
       ways_.left_m += kWatchTick_s * left_mps;
       ways_.right_m += kWatchTick_s * right_mps;
+      watch_.ObserveRest(now_s_, commanded.IsZero());
       watch_.ObserveCommand(now_s_, commanded);
       watch_.ObserveWays(now_s_, ways_);
       watch_.ObserveMotion(now_s_, kinematics.MotionOf({left_mps, right_mps}));
@@ -67,6 +68,65 @@ TEST_F(MotionWatchTest, OneTrackThatIsFasterThanCommandedIsARunaway) {
   Run(1, {0.05, 0}, 0.05, 0.05);
   Run(0.5, {0.05, 0}, 0.05, 0.16);
   EXPECT_EQ(Reason(), StopReason::kRunaway);
+}
+
+TEST_F(MotionWatchTest, ACreepAtRestIsNoticedByItsWayAndNamed) {
+  Run(2, {0.1, 0}, 0.1, 0.1);
+  Run(2, {0, 0}, 0, 0);
+  EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
+  Run(2.3, {0, 0}, 0, -0.02);  // one track, 0.046 m
+  EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
+  Run(0.6, {0, 0}, 0, -0.02);
+  ASSERT_TRUE(watch_.FindMotionAtRest(now_s_));
+  EXPECT_EQ(watch_.FindMotionAtRest(now_s_)->reason, StopReason::kMotionAtRest);
+  EXPECT_EQ(watch_.FindMotionAtRest(now_s_)->detail, "0.06 m (allowed 0.05 m)");
+  EXPECT_EQ(Reason(), StopReason::kNone) << "too slow for a runaway";
+  watch_.Reset();
+  EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
+}
+
+TEST_F(MotionWatchTest, TheRunOutAfterAStopIsNoMotionAtRest) {
+  Run(2, {0.1, 0}, 0.1, 0.1);
+  Run(0.9, {0, 0}, 0.1, 0.1);
+  Run(5, {0, 0}, 0, 0);
+  EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
+}
+
+TEST_F(MotionWatchTest, ACreepThatOnlyTheMeasuredMotionOrTheOdometerTellsIsNoticed) {
+  for (const bool is_by_odometer : {false, true}) {
+    watch_.Reset();
+    Run(2, {0, 0}, 0, 0);
+    for (int i = 0; i < 150; ++i) {
+      now_s_ += kWatchTick_s;
+      if (is_by_odometer) watch_.ObserveWays(now_s_, {ways_.left_m += 0.0004, ways_.right_m});
+      watch_.ObserveMotion(now_s_, {is_by_odometer ? 0 : 0.02, 0});
+      watch_.ObserveRest(now_s_, true);
+    }
+    EXPECT_TRUE(watch_.FindMotionAtRest(now_s_)) << is_by_odometer;
+  }
+}
+
+TEST_F(MotionWatchTest, NoiseAndOneWrongReadingAreNoMotionAtRest) {
+  Run(2, {0, 0}, 0, 0);
+  for (int i = 0; i < 3000; ++i) {
+    now_s_ += kWatchTick_s;
+    const bool is_misread = i == 1500;
+    watch_.ObserveWays(now_s_, {is_misread ? 0.9 : 0.001 * (i % 2), 0});
+    watch_.ObserveMotion(now_s_, {is_misread ? 30 : 0.004, 0.001});
+    watch_.ObserveRest(now_s_, true);
+    ASSERT_FALSE(watch_.FindMotionAtRest(now_s_)) << i;
+  }
+}
+
+TEST_F(MotionWatchTest, WhoeverElseDrivesItIsNotJudged) {
+  Run(2, {0, 0}, 0, 0);
+  for (int i = 0; i < 100; ++i) {
+    now_s_ += kWatchTick_s;
+    watch_.ObserveWays(now_s_, {0.01 * i, 0.01 * i});
+    watch_.ObserveRest(now_s_, false);
+  }
+  Run(2, {0, 0}, 0, 0);
+  EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
 }
 
 TEST_F(MotionWatchTest, WrongOptionsAreRefused) {

@@ -54,7 +54,7 @@ TEST_F(PilotTest, ASilentChassisBlocks) {
   StartDriving();
   for (int i = 0; i < 30; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
     pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);
@@ -66,7 +66,7 @@ TEST_F(PilotTest, AChassisThatTellsItsTracksOnlyIsSilent) {
   StartDriving();
   for (int i = 0; i < 27; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObserveTracks(now_s_, 0, 0);
     pilot_.Tick(now_s_);
     if (i == 23) {
@@ -92,9 +92,10 @@ TEST_F(PilotTest, RunningTracksUnderAStandingRoverBlock) {
   StartDriving();
   for (int i = 0; i < 100 && State() == DriveState::kDriving; ++i) {
     now_s_ += 0.1;
-    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+    pilot_.chassis_watch().Observe(now_s_, chassis_);
     pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
-    pilot_.ObserveOperator(now_s_);
+    Attend(pilot_.operator_watch(), now_s_);
     pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
     pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
     pilot_.Tick(now_s_);
@@ -118,12 +119,64 @@ TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
 
 TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   StartDriving();
-  pilot_.ObserveForeignCommand(now_s_);
+  pilot_.chassis_watch().ObserveForeignCommand(now_s_);
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(Reason(), StopReason::kForeignCommands);
   EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
   Run(1.1);
   EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
+}
+
+TEST_F(PilotTest, ACreepAtRestBlocksUntilStart) {
+  Start();
+  Run(2);
+  ASSERT_EQ(State(), DriveState::kReady);
+  for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);  // 25 mm/s
+  EXPECT_EQ(State(), DriveState::kBlocked);
+  EXPECT_EQ(Reason(), StopReason::kMotionAtRest);
+  EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_FALSE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
+  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Run(2);
+  EXPECT_EQ(State(), DriveState::kReady);
+}
+
+TEST_F(PilotTest, ACreepInStandbyIsToldAndTakesNoCommandOfTheChassis) {
+  Run(2);
+  for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);
+  EXPECT_EQ(State(), DriveState::kStandby);
+  EXPECT_EQ(Reason(), StopReason::kMotionAtRest);
+  EXPECT_FALSE(Run(kTick_s).may_speak);
+}
+
+TEST_F(PilotTest, ACreepOfABlockedRoverIsToldAndOneByTheRemoteControlIsNot) {
+  for (const bool is_remote : {true, false}) {
+    pilot_ = Pilot(Options());
+    chassis_ = {};
+    StartDriving();
+    chassis_.is_emergency_stop = true;
+    if (is_remote) chassis_.authority = ChassisAuthority::kRemoteControl;
+    Run(2);
+    for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);
+    EXPECT_EQ(State(), DriveState::kBlocked);
+    EXPECT_EQ(Reason(), is_remote ? StopReason::kChassisEmergency : StopReason::kMotionAtRest);
+  }
+}
+
+TEST_F(PilotTest, AGoalThatWaitedLongBehindABlockIsNotDrivenToLater) {
+  for (const double wait_s : {9.0, 11.0}) {
+    pilot_ = Pilot(Options());
+    chassis_ = {};
+    StartDriving();
+    chassis_.is_emergency_stop = true;
+    Run(wait_s);
+    pilot_.TakeResults();
+    chassis_.is_emergency_stop = false;
+    Run(0.2);
+    ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+    EXPECT_EQ(Run(2).chassis_motion.forward_mps > 0.09, wait_s < 10) << wait_s;
+    EXPECT_EQ(pilot_.Status().has_goal, wait_s < 10) << wait_s;
+  }
 }
 
 TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {

@@ -25,11 +25,13 @@ class PilotTest : public ::testing::Test {
 
   void Observe() {
     if (bus_up_) {
-      pilot_.ObserveChassis(now_s_, chassis_);
+      pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+      pilot_.chassis_watch().Observe(now_s_, chassis_);
       pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     }
-    pilot_.ObserveBus(bus_up_);
-    if (has_operator_) pilot_.ObserveOperator(now_s_);
+    pilot_.chassis_watch().ObserveBus(bus_up_);
+    const auto challenge = pilot_.operator_watch().Advance(now_s_, 1);
+    if (has_operator_ && challenge) pilot_.operator_watch().ObserveAnswer(now_s_, *challenge);
     pilot_.ObserveEpoch(1, now_s_ - 0.1);
     if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
     if (has_pose_) pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, heading_sigma_rad_});

@@ -104,9 +104,10 @@ TEST_F(PilotTest, AnUncertainHeadingPauses) {
 }
 
 TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
-  pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
+  pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+  pilot_.chassis_watch().Observe(now_s_, {false, false, ChassisAuthority::kUs});
   pilot_.ObserveTracks(now_s_, 0, 0);
-  pilot_.ObserveOperator(now_s_);
+  Attend(pilot_.operator_watch(), now_s_);
   pilot_.ObserveEpoch(1, now_s_);
   pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
   pilot_.Start(now_s_);
@@ -115,9 +116,10 @@ TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
 }
 
 TEST_F(PilotTest, APoseWithoutEpochIsNotDrivenBy) {
-  pilot_.ObserveChassis(now_s_, {false, false, ChassisAuthority::kUs});
+  pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+  pilot_.chassis_watch().Observe(now_s_, {false, false, ChassisAuthority::kUs});
   pilot_.ObserveTracks(now_s_, 0, 0);
-  pilot_.ObserveOperator(now_s_);
+  Attend(pilot_.operator_watch(), now_s_);
   pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
   pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
   pilot_.Start(now_s_);
@@ -209,7 +211,8 @@ TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
   StartDriving();
   for (int i = 0; i < 10; ++i) {
     now_s_ += kTick_s;
-    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+    pilot_.chassis_watch().Observe(now_s_, chassis_);
     pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
     pilot_.Tick(now_s_);
   }

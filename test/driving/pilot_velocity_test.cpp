@@ -133,8 +133,9 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
   for (int i = 0; i < 500; ++i) {
     pilot_.SetVelocity(now_s_, {0.1, 0});
     now_s_ += kTick_s;
-    pilot_.ObserveOperator(now_s_);
-    pilot_.ObserveChassis(now_s_, chassis_);
+    Attend(pilot_.operator_watch(), now_s_);
+    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+    pilot_.chassis_watch().Observe(now_s_, chassis_);
     const int way_mm = static_cast<int>(std::lround(1000 * way_m));
     pilot_.ObserveTracks(now_s_, way_mm, way_mm);
     way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;

@@ -31,9 +31,10 @@ class SafetyStopTest : public ::testing::Test {
 
   DriveCommand Tick() {
     now_s_ += kTick_s;
-    pilot_.ObserveBus(true);
-    pilot_.ObserveOperator(now_s_);
-    pilot_.ObserveChassis(now_s_, chassis_);
+    pilot_.chassis_watch().ObserveBus(true);
+    Attend(pilot_.operator_watch(), now_s_);
+    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+    pilot_.chassis_watch().Observe(now_s_, chassis_);
     const int way_mm = static_cast<int>(std::lround(1000 * tracks_m_));
     pilot_.ObserveTracks(now_s_, way_mm, way_mm);
     pilot_.ObserveEpoch(epoch_, now_s_);

@@ -285,8 +285,7 @@ def write_methods(matching, docs, claims):
     at = summed(matching.select("method", np.isclose(matching.rows.ratio, RATIO)), ["set", "method"])
     methods = list(matching.select("method").method.unique())
     rows = [[name, method, f"{at.matches[name, method]:.0f}", f"{at.correct[name, method]:.0f}",
-             f"{100 * at.share[name, method]:.1f}", f"{at.ms[name, method]:.1f}"]
-            for name in matching.sets for method in methods]
+             f"{100 * at.share[name, method]:.1f}", f"{at.ms[name, method]:.1f}"] for name in matching.sets for method in methods]
     compared = []
     for other in ("cv::SIFT", "cv::ORB", "cv::AKAZE"):
         num_better = 0
@@ -301,8 +300,7 @@ def write_methods(matching, docs, claims):
                              f"{100 * equal:.1f} : {100 * theirs.share:.1f}"])
         if matching.planar:
             claims.append(["item 8", f"SURF has at least {other}'s right matches and share (T {RATIO})",
-                           f"on {num_better} of {len(matching.planar)} sets", "same matcher, number of points "
-                           "and threshold"])
+                           f"on {num_better} of {len(matching.planar)} sets", "same matcher, number of points " "and threshold"])
     picture = draw_methods(matching, methods, docs)
     return f"""## Under hard changes: against cv::SIFT, cv::ORB and cv::AKAZE
 

@@ -68,8 +68,7 @@ class Run:
 
 def read_runs(work):
     root = os.path.join(work, "runs")
-    return {name: [Run(os.path.join(root, name, config), config) for config in RUN_NAMES]
-            for name in sorted(os.listdir(root))}
+    return {name: [Run(os.path.join(root, name, config), config) for config in RUN_NAMES] for name in sorted(os.listdir(root))}
 
 
 def draw_runs(runs, sequence, docs, title):
@@ -117,8 +116,7 @@ def write_indoor(all_runs, work, docs, claims):
         return ""
     picture = draw_runs(all_runs[name], name, docs, "rendered, 1624x1234")
     claims.append(["14, 15", "indoor run of 6 pairs of 1624x1234", "not comparable",
-                   "the paper's images are not public; a rendered terrain of the same size and number "
-                   "stands for them"])
+                   "the paper's images are not public; a rendered terrain of the same size and number " "stands for them"])
     text = ["## Figs 14, 15: 6 pairs of 1624x1234\n",
             "The paper's hall is not public. In its place: a rendered terrain with known truth.\n",
             table(RUN_HEADER, [run.row() for run in all_runs[name]]), "", f"![trajectories]({picture})\n"]

@@ -16,10 +16,9 @@ def set_byte(identifier, index, value):
     return change
 
 
-def run_away(frame):
-    if frame.id == bus.MOTION_STATE:
-        frame.bytes[:4] = struct.pack(">hh", 200, 0)
-    return frame
+def tell_speed(speed_mmps):
+    motion = bus.make_frame(bus.MOTION_STATE, struct.pack(">hh", speed_mmps, 0))
+    return lambda frame: motion if frame.id == bus.MOTION_STATE else frame
 
 
 class Hold:
@@ -33,6 +32,13 @@ class Hold:
             self.first = self.first or bytes(frame.bytes[:self.size])
             frame.bytes[:self.size] = self.first
         return frame
+
+
+def creep(campaign):
+    """The rover is told to stand, and both tracks creep on at 25 mm/s."""
+    campaign.rover.call("chassis_node/cancel")
+    time.sleep(1.5)
+    campaign.obey(tell_speed(25))
 
 
 class Repeat:
@@ -59,7 +65,7 @@ def clear(campaign):
 def fuzz(campaign):
     engine = random.Random(1)
     for _ in range(3000):
-        identifier = engine.randrange(0x400, 0x800)
+        identifier = engine.randrange(0x422, 0x800)
         campaign.tap.inject(bus.make_frame(identifier, engine.randbytes(engine.randrange(9))))
 
 
@@ -83,10 +89,6 @@ def come_back_as_itself(campaign):
     time.sleep(1)
 
 
-def is_not_startable(campaign):
-    return not campaign.rover.call("chassis_node/start").success
-
-
 def storm(campaign):
     """The bus goes off and comes back 50 times."""
     for _ in range(50):
@@ -106,26 +108,27 @@ def bus_faults():
     return [
         Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),
         Fault("chassis fault", changed(set_byte(state, 0, 2)), "chassis reports a fault", clear),
-        Fault("under-voltage fault", changed(set_byte(state, 4, 1)), "chassis reports a fault", clear),
+        *(Fault("error bits 0x%02X in byte %d" % (bits, byte), changed(set_byte(state, byte, bits)), "chassis reports a fault", clear)
+          for byte, bits in ((4, 1), (4, 2), (5, 1), (5, 8), (5, 128))),
         Fault("remote control takes over", changed(set_byte(state, 1, 3)), "remote control has the rover", heal),
-        Fault("remote control is lost", changed(set_byte(state, 4, 4)), "chassis has lost its remote control", heal),
+        *(Fault("remote control is lost (byte %d)" % byte, changed(set_byte(state, byte, 4)), "chassis has lost its remote control", heal)
+          for byte in (4, 5)),
         Fault("chassis falls into standby", changed(set_byte(state, 1, 0)), "chassis takes no commands over CAN", heal),
         Fault("chassis falls silent", changed(lambda frame: None), "chassis is silent", heal, 0.5),
-        Fault("track odometer falls silent", changed(lambda frame: None if frame.id == bus.ODOMETER else frame),
-              "chassis is silent", heal, 0.5),
-        Fault("system state falls silent", changed(lambda frame: None if frame.id == state else frame),
-              "chassis is silent", heal, 0.5),
-        Fault("motor driver reports a fault", changed(set_byte(bus.MOTOR_STATUS[0], 5, 0x44)),
-              "motor or its driver reports a fault", heal),
-        Fault("tracks run away at 0.2 m/s", changed(run_away), "tracks run faster than commanded", heal, 0.2),
+        *(Fault("0x%03X falls silent" % silent, changed(lambda frame, silent=silent: None if frame.id == silent else frame),
+                "chassis is silent", heal, 0.5) for silent in (bus.ODOMETER, state, bus.MOTION_STATE, 0x251, bus.MOTOR_STATUS[1])),
+        *(Fault(name, changed(set_byte(bus.MOTOR_STATUS[0], 5, bits)), "motor or its driver reports a fault", heal) for name, bits in (
+            ("motor driver reports an overload", 0x44), ("motor is too hot", 0x42), ("motor driver is too hot", 0x48))),
+        Fault("tracks run away at 0.2 m/s", changed(tell_speed(200)), "tracks run faster than commanded", heal, 0.2),
         Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
         Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
               "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
+        Fault("rover creeps at rest", creep, "rover moves without a command", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),
-        Fault("another driver sends 0x111", lambda c: c.tap.inject(bus.make_frame(0x111, [0] * 8)),
-              "another driver commands the chassis", lambda c: time.sleep(1.2)),
+        *(Fault("another driver sends 0x%03X" % sent, lambda c, sent=sent: c.tap.inject(bus.make_frame(sent, [0] * 8)),
+                "another driver commands the chassis", lambda c: time.sleep(1.2)) for sent in (0x111, 0x131, 0x421)),
         Fault("CAN adapter is pulled and comes back as can1 (another UDP port)", come_back_as_another, "CAN bus is down or chassis is silent",
-              come_back_as_itself, 0.5, is_well=is_not_startable),
+              come_back_as_itself, 0.5, is_well=lambda c: not c.rover.call("chassis_node/start").success),
         Fault("bus goes off and comes back 50 times in 1 s", storm, "CAN bus is down", lambda c: time.sleep(1)),
         Fault("3000 fuzzed frames of foreign identifiers", fuzz, "drives on"),
         Fault("flood of 20000 foreign frames", flood, "drives on"),

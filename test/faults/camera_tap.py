@@ -62,8 +62,7 @@ def with_data(image, data):
 def cover(*topics):
     """Black pictures."""
     def change(pair):
-        return [{name: with_data(message, bytes(len(message.data))) if name in topics else message
-                 for name, message in pair.items()}]
+        return [{name: with_data(message, bytes(len(message.data))) if name in topics else message for name, message in pair.items()}]
     return change
 
 

@@ -123,8 +123,7 @@ class Campaign:
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
         row["way_m"] = end_way_m - way_m
         row["told"] = list(dict.fromkeys(reason for reason in told if reason != "none"))
-        row["drives_on"] = fault.promise == "drives on" or (
-            fault.promise.startswith("drives on") and row["moves"] and not row["told"])
+        row["drives_on"] = fault.promise == "drives on" or (fault.promise.startswith("drives on") and row["moves"] and not row["told"])
         row["arrived"] = sum(report.result == GoalReport.ARRIVED for report in self.rover.reports)
         is_well = fault.is_well(self)
         fault.mend(self)
@@ -152,8 +151,7 @@ class Campaign:
         promises = [fault.promise] + fault.promise.split(" or ")
         if row["drives_on"]:
             return row["moves"] and not row["told"]
-        is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or (
-            "-" in promises and not row["told"])
+        is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or ("-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
         is_over = not row["moves"] or fault.promise == BRIEFLY_UNCERTAIN
         is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s

@@ -32,8 +32,7 @@ def unburden(campaign):
 def press_memory(campaign):
     """Takes half of what is free and writes to all of it."""
     spawn(campaign, "free = [int(l.split()[1]) for l in open('/proc/meminfo') if l.startswith('MemAvailable')][0]\n"
-                    "block = bytearray(free * 512)\nimport time\n"
-                    "while True:\n  block[::4096] = bytes(len(block[::4096]))")
+                    "block = bytearray(free * 512)\nimport time\n" "while True:\n  block[::4096] = bytes(len(block[::4096]))")
 
 
 def fill_disk(campaign):
@@ -66,11 +65,6 @@ def freeze_terminal(campaign):
         campaign.rover.send_goal(-3, stamp=rospy.Time())
 
 
-def thaw_terminal(campaign):
-    campaign.launch.is_read = True
-    time.sleep(2)
-
-
 def kill_master(campaign):
     """That of roslaunch; the operator stays."""
     children = subprocess.run(["pgrep", "-P", str(campaign.launch.process.pid), "-f", "rosmaster"], text=True,
@@ -88,7 +82,8 @@ def machine_faults():
         Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3, is_load=True),
         Fault("memory is short", press_memory, "drives on or pose is stale", unburden, 3, is_load=True),
         Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
-        Fault("terminal is frozen", freeze_terminal, "- or drives on", thaw_terminal, 1),
+        Fault("terminal is frozen", freeze_terminal, "- or drives on",
+              lambda c: (setattr(c.launch, "is_read", True), time.sleep(2)), 1),
     ]
 
 

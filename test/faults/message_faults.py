@@ -4,7 +4,7 @@ import threading
 import time
 
 import rospy
-from arfm_vo.msg import OdometryStatus
+from arfm_vo.msg import OdometryStatus, OperatorChallenge
 from fault import BRIEFLY_UNCERTAIN, Fault
 from geometry_msgs.msg import PoseStamped, Twist
 from machine_faults import unburden
@@ -15,11 +15,9 @@ NAN = float("nan")
 
 
 def operator_faults():
-    def operator(is_there):
-        def act(campaign):
-            campaign.rover.has_operator = is_there
-            time.sleep(0.5 if is_there else 0)
-        return act
+    def link(answer, wait_s=0.0):
+        """How the person's answer comes of the challenges so far; None: none."""
+        return lambda campaign: (setattr(campaign.rover, "link", answer), time.sleep(wait_s))
 
     def second_velocity(campaign):
         """Of another node, as fast as the first; it begins when its first message comes."""
@@ -45,12 +43,16 @@ def operator_faults():
         if campaign.rover.call("chassis_node/start").success:
             campaign.rover.status.reason = "started in spite of the emergency stop"
 
-    no_frame = Fault("goal cancelled", lambda c: c.rover.call("chassis_node/cancel"), "-")
+    mended = link(lambda heard: heard[-1], 0.5)
     return [
         Fault("stop service called", lambda c: c.rover.call("chassis_node/stop"), "stopped by hand"),
-        no_frame,
+        Fault("goal cancelled", lambda c: c.rover.call("chassis_node/cancel"), "-"),
         Fault("two nodes publish cmd_vel", second_velocity, "two nodes command velocities", unburden, by_velocity=True),
-        Fault("operator heartbeat ceases", operator(False), "no operator heartbeat", operator(True), 0.9),
+        *(Fault("operator does not answer: " + name, link(answer), "operator does not answer", mended, 0.9) for name, answer in (
+            ("the link is cut", lambda heard: None), ("each answer is 8 s late", lambda heard: heard[-80] if heard[80:] else None),
+            ("the first answer is repeated", lambda heard: heard[0]), ("it is for another rover", lambda heard: OperatorChallenge(
+                "another rover", heard[-1].sequence, heard[-1].number)))),
+        Fault("every other answer of the operator is lost", link(lambda heard: heard[-1] if len(heard) % 2 else None), "drives on", mended),
         Fault("software emergency stop", emergency(True), "software emergency stop is set", emergency(False)),
         Fault("another publisher clears the emergency stop", foreign_release, "software emergency stop is set",
               emergency(False)),
@@ -87,10 +89,6 @@ def many(make, topic, count=2000):
     return inject
 
 
-def second_status(campaign):
-    campaign.publish("status", OdometryStatus(epoch=7))
-
-
 def second_odometry(campaign):
     odometry = wrong_odometry()
     campaign.publish("odom", odometry)
@@ -111,7 +109,7 @@ def message_faults():
         Fault("odom of the end of time", lambda c: c.publish("odom", wrong_odometry(end_of_time(), NAN)), "drives on"),
         Fault("odom with a covariance that is not a number", lambda c: c.publish("odom", wrong_odometry(variance=NAN)), uncertain, settle),
         Fault("odom with a covariance of 9999", lambda c: c.publish("odom", wrong_odometry(variance=9999)), uncertain, settle),
-        Fault("a second node tells status", second_status, "odometry has started anew", settle),
+        Fault("a second node tells status", lambda c: c.publish("status", OdometryStatus(epoch=7)), "odometry has started anew", settle),
         Fault("goal that is not a number", lambda c: c.rover.send_goal(NAN), "drives on"),
         Fault("goal 60 m away", lambda c: c.rover.send_goal(60), "drives on"),
         Fault("goal of a minute ago", lambda c: c.rover.send_goal(-3, stamp=rospy.Time.now() - rospy.Duration(60)), "drives on"),

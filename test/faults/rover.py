@@ -13,11 +13,11 @@ import roslib.packages
 import rosnode
 import rospy
 import rosservice
-from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus
-from geometry_msgs.msg import PoseStamped, Twist
+from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus, OperatorChallenge
+from geometry_msgs.msg import PoseStamped, Twist, Vector3
 from ports import find_free_port
 from sight import Sight
-from std_msgs.msg import Bool, Empty
+from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60
@@ -68,31 +68,29 @@ class Rover:
         rospy.Subscriber("status", OdometryStatus, lambda status: self.odometry_texts.append(status.text))
         self.tap = tap
         self.status, self.reports = None, []
-        self.has_operator = True
         self.is_homeward = False  # far from where it began, and turned round
         self.speed_mps = None  # of cmd_vel, where the rover is driven by it
         self.commands_s, self.warnings_s = [], []  # by the steady clock; of a warning its begin and its end
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         self.emergency = rospy.Publisher("emergency_stop", Bool, queue_size=1)
-        self.heartbeats = rospy.Publisher("operator_heartbeat", Empty, queue_size=1)
+        self.answers = rospy.Publisher("operator_answer", OperatorChallenge, queue_size=10)
+        self.link, self.heard = lambda heard: heard[-1], []  # the operator's answer, of the challenges; None: none
+        rospy.Subscriber("operator_challenge", OperatorChallenge, self.answer, queue_size=1)
         self.velocities = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         rospy.Subscriber("drive_status", DriveStatus, self.take_status)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
-        for act in self.beat, self.steer:
-            threading.Thread(target=act, daemon=True).start()
+        threading.Thread(target=self.steer, daemon=True).start()
 
-    def beat(self):
-        while True:
-            if self.has_operator and not rospy.is_shutdown():
-                self.heartbeats.publish(Empty())
-            time.sleep(0.4)
+    def answer(self, challenge):
+        self.heard.append(challenge)
+        answer = self.link(self.heard)
+        if answer is not None:
+            self.answers.publish(answer)
 
     def steer(self):
         while True:
             if self.speed_mps is not None:
-                twist = Twist()
-                twist.linear.x = self.speed_mps
-                self.velocities.publish(twist)
+                self.velocities.publish(Twist(linear=Vector3(self.speed_mps, 0, 0)))
             time.sleep(0.04)
 
     @staticmethod
@@ -167,8 +165,7 @@ class Rover:
         """Started, and at full speed to a goal 6 m ahead, or by cmd_vel."""
         self.speed_mps = None
         ready = (DriveStatus.READY, DriveStatus.DRIVING)
-        if not self.wait(lambda: self.status and self.status.state in ready or
-                         (self.start() and time.sleep(1))):
+        if not self.wait(lambda: self.status and self.status.state in ready or (self.start() and time.sleep(1))):
             return False
         if by_velocity:
             self.call("chassis_node/cancel")
@@ -214,8 +211,7 @@ def program_of(node):
 def start_again(node):
     """The node with the parameters that it had."""
     remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
-    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL,
-                            stderr=subprocess.DEVNULL)
+    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def has_service(name):

@@ -10,11 +10,10 @@ WATCH_S = 3.0  # after the fault or its limit
 
 
 def table(rows):
-    stops = [1000 * (row["stop_s"] - row["limit_s"]) for row in rows
-             if not row["drives_on"] and row["promise"] != EITHER]
+    stops = [1000 * (row["stop_s"] - row["limit_s"]) for row in rows if not row["drives_on"] and row["promise"] != EITHER]
     lines = ["# Faults in the running graph", "",
              "Made by `scripts/measure.sh fault_campaign`: `simulation.launch` as a user starts it, in real time, with an operator",
-             "heartbeat; the bus runs through a tap that notes every command by the steady clock. The rover drives at",
+             "who answers; the bus runs through a tap that notes every command by the steady clock. The rover drives at",
              "0.1 m/s when the fault comes. *Stop* is from the fault to the last frame that moves; the way is that of the",
              "tracks, their own inertia included, until it moves on by good poses, with a warning, or until",
              "%g s after the limit. *Wrong way* is the part of it in which the newest pose that tf told was more than %.2f m or" %
@@ -31,10 +30,8 @@ def table(rows):
              "| motions without command or warning | %d |" % sum(row["unwarned"] for row in rows),
              "| way on a wrong pose, worst, m | %.2f |" % max(row["wrong_way_m"] for row in rows)]
     if stops:
-        lines.append("| stop after the fault or its limit, median and worst, ms | %.0f, %.0f |" %
-                     (statistics.median(stops), max(stops)))
-    lines += ["", "| fault | promised | told | limit, s | stop, ms | way, m | wrong way, m | to go on | as promised |",
-              "|" + "---|" * 9]
+        lines.append("| stop after the fault or its limit, median and worst, ms | %.0f, %.0f |" % (statistics.median(stops), max(stops)))
+    lines += ["", "| fault | promised | told | limit, s | stop, ms | way, m | wrong way, m | to go on | as promised |", "|" + "---|" * 9]
     for row in rows:
         drives_on = row["drives_on"]
         lines.append("| %s | %s | %s | %s | %s | %.2f | %.2f | %s | %s |" % (

@@ -95,11 +95,10 @@ def topic_faults():
     settle = lambda c: time.sleep(1)  # noqa: E731
     rows = [Fault("flood of the newest message of " + topic, flood(topic, kind, samples), EITHER, settle, is_load=True)
             for topic, kind in topics]
-    rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle)
-             for topic, kind in topics if has_floats(kind)]
-    driven_by = [(topic, kind) for topic, kind in topics if topic in ("/operator_heartbeat", "/goal", "/tf", "/odom")]
+    rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle) for topic, kind in topics if has_floats(kind)]
+    driven_by = [(topic, kind) for topic, kind in topics if topic in ("/operator_answer", "/goal", "/tf", "/odom")]
     return rows + [
-        Fault("stop service called in a flood of goals, poses and heartbeats", stop_in_a_flood(driven_by, samples),
+        Fault("stop service called in a flood of goals, poses and answers", stop_in_a_flood(driven_by, samples),
               "stopped by hand", settle, is_load=True),
         Fault("malformed goals, paths, velocities and stated poses",
               feed([(topic, kind) for topic, kind in topics if topic in COMMANDS]), "drives on"),

@@ -113,7 +113,7 @@ class FuzzedDrive {
     chassis_.is_remote_lost = bits & 4;
     chassis_.has_motor_fault = bits & 8;
     is_ours_ = (bits & 16) == 0;
-    if (bits & 32) pilot_.ObserveForeignCommand(now_s_);
+    if (bits & 32) pilot_.chassis_watch().ObserveForeignCommand(now_s_);
     if (bits & 64)
       pilot_.motion_watch().ObserveMotion(now_s_, {bytes_.Value<double>(), bytes_.Value<double>()});
     if (bits & 128) pilot_.motion_watch().ObserveCurrent(now_s_, bytes_.Value<double>());
@@ -137,14 +137,16 @@ class FuzzedDrive {
 
   void Observe() {
     chassis_.authority = is_ours_ ? ChassisAuthority::kUs : ChassisAuthority::kRemoteControl;
-    pilot_.ObserveBus(is_bus_up_);
+    pilot_.chassis_watch().ObserveBus(is_bus_up_);
     if (is_bus_up_) {
-      pilot_.ObserveChassis(now_s_, chassis_);
+      pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
+      pilot_.chassis_watch().Observe(now_s_, chassis_);
       pilot_.ObserveTracks(now_s_, static_cast<int>(left_mm_), static_cast<int>(right_mm_));
     }
-    if (has_operator_) {
+    const auto challenge = pilot_.operator_watch().Advance(now_s_, 1);
+    if (has_operator_ && challenge) {
       heard_s_ = now_s_;
-      pilot_.ObserveOperator(now_s_);
+      pilot_.operator_watch().ObserveAnswer(now_s_, *challenge);
     }
     if (++num_ticks_ % 5 != 0) return;
     pilot_.ObserveEpoch(epoch_, now_s_);

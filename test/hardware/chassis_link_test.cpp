@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 
@@ -112,22 +114,6 @@ TEST_F(ChassisLinkTest, MotionCommandsOfAnotherDriverAreCountedAndNoFeedback) {
   EXPECT_EQ(link_.Traffic().num_unreadable, 0);
 }
 
-TEST(ChassisDriver, MotionCommandsOfAnotherDriverForbidTheStart) {
-  CanMemoryBus bus;
-  const auto other = bus.OpenEnd();
-  PilotOptions options;
-  options.operator_watch.is_required = false;
-  ChassisDriver driver(options, bus.OpenEnd());
-  SystemState state;
-  state.mode = ControlMode::kCan;
-  other->Send(EncodeFrame(state));
-  other->Send(EncodeFrame(TrackOdometer{}));
-  driver.Tick(10);
-  other->Send(EncodeFrame(MotionCommand{}));
-  driver.Tick(10.02);
-  EXPECT_EQ(driver.pilot().Start(10.02).text, "not started: another driver commands the chassis");
-}
-
 TEST_F(ChassisLinkTest, TheFarewellIsAStopAndStandby) {
   link_.Send(0, standing_);
   Heard();
@@ -185,13 +171,27 @@ TEST_F(ChassisLinkTest, AQueueThatStaysFullCountsAsDown) {
   EXPECT_TRUE(link_.IsBusUp());
 }
 
-TEST(ToChassisStatus, AnUnderVoltageFaultIsAFaultAndAWarningIsNone) {
-  SystemState state;
-  state.error_bits = kUnderVoltageWarning | kRemoteLost;
-  EXPECT_FALSE(ToChassisStatus(state).has_fault);
-  EXPECT_TRUE(ToChassisStatus(state).is_remote_lost);
-  state.error_bits = kUnderVoltageFault;
-  EXPECT_TRUE(ToChassisStatus(state).has_fault);
+TEST(ToChassisStatus, EachErrorBitOfEitherByteIsAFaultButAWarningAndALostRemoteControl) {
+  const uint32_t kNoFaults = 0x0406;  // byte 5: warning, remote control; byte 4: remote control
+  for (int bit = 0; bit < 16; ++bit) {
+    SystemState state;
+    state.error_bits = static_cast<uint16_t>(1 << bit);
+    const ChassisStatus status = ToChassisStatus(state);
+    EXPECT_EQ(status.has_fault, (kNoFaults >> bit & 1) == 0) << bit;
+    EXPECT_EQ(status.is_remote_lost, bit == 2 || bit == 10) << bit;
+    EXPECT_NE(status.detail, "") << bit;
+  }
+  EXPECT_EQ(DescribeErrors(0x0011), "battery fault, motor 2 silent");
+  EXPECT_EQ(DescribeErrors(0x8180), "steering encoder, battery fault or motor driver, bit 15");
+  EXPECT_EQ(ToChassisStatus(SystemState{}).detail, "");
+}
+
+TEST(ChassisLink, HearsTheCommandsThatOthersSend) {
+  const CanFilters filters = ChassisLink::Filters();
+  for (const uint32_t id : {0x111u, 0x131u, 0x421u, 0x211u, 0x361u})
+    EXPECT_TRUE(std::any_of(filters.begin(), filters.end(), [&](const CanFilter& filter) {
+      return (id & filter.mask) == filter.id;
+    })) << id;
 }
 
 }  // namespace

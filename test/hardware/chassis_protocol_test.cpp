@@ -66,7 +66,7 @@ TEST(ChassisProtocol, ReadsTheSystemState) {
   EXPECT_EQ(state.vehicle, VehicleState::kEmergencyStop);
   EXPECT_EQ(state.mode, ControlMode::kRemote);
   EXPECT_NEAR(state.battery_v, 28.7, 1e-9);
-  EXPECT_EQ(state.error_bits, (kUnderVoltageFault | kRemoteLost | 0x0002));
+  EXPECT_EQ(state.error_bits, (0x0100 | 0x0400 | 0x0002));
   EXPECT_EQ(state.count, 42);
 }
 

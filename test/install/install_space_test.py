@@ -51,8 +51,7 @@ class InstallSpaceTest(unittest.TestCase):
                        "ROS_MASTER_URI": f"http://localhost:{find_free_port()}"}
         run = subprocess.run(
             ["bash", "-c", '. "$0/setup.bash" && exec "$@"', self.prefix, *command],
-            env=environment, cwd=self.folder.name, text=True, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, timeout=200)
+            env=environment, cwd=self.folder.name, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=200)
         self.assertEqual(run.returncode, 0, f"{command}: {run.stdout}")
         return run.stdout
 
@@ -60,12 +59,10 @@ class InstallSpaceTest(unittest.TestCase):
         return os.path.join(self.prefix, *names)
 
     def test_ros_finds_the_installed_package_and_no_other(self):
-        self.assertEqual(self.run_installed("rospack", "find", "arfm_vo").strip(),
-                         self.installed("share", "arfm_vo"))
+        self.assertEqual(self.run_installed("rospack", "find", "arfm_vo").strip(), self.installed("share", "arfm_vo"))
 
     def test_launch_files_load_and_their_programs_are_installed(self):
-        said = self.run_installed("/usr/bin/python3", "-c", CHECK_LAUNCH_FILES,
-                                  self.installed("share", "arfm_vo"), FIXTURE)
+        said = self.run_installed("/usr/bin/python3", "-c", CHECK_LAUNCH_FILES, self.installed("share", "arfm_vo"), FIXTURE)
         num_files = sum(name.endswith(".launch") for name in os.listdir(os.path.join(SOURCE_DIR, "launch")))
         self.assertIn(f"{num_files} launch files", said)
         self.assertIn(self.installed("lib", "arfm_vo", "pose_node"), said)
@@ -75,14 +72,13 @@ class InstallSpaceTest(unittest.TestCase):
         for name in ("share/arfm_vo/config/arfm.yaml", "share/arfm_vo/config/odometry.rviz",
                      "share/arfm_vo/urdf/rover.urdf", "include/arfm_vo/geometry/rigid3.h",
                      "include/arfm_vo/OdometryStatus.h", "lib/arfm_vo/drive_to.py",
-                     "lib/arfm_vo/operator_heartbeat.py"):
+                     "lib/arfm_vo/operator_answer.py"):
             self.assertTrue(os.path.exists(self.installed(*name.split("/"))), name)
         self.run_installed("/usr/bin/python3", "-c", "import arfm_vo.msg; arfm_vo.msg.DriveStatus()")
 
     def test_another_package_compiles_and_links_against_it(self):
         build = os.path.join(self.folder.name, "downstream")
-        self.run_installed("cmake", "-S", os.path.join(SOURCE_DIR, "test/install/downstream"),
-                           "-B", build)
+        self.run_installed("cmake", "-S", os.path.join(SOURCE_DIR, "test/install/downstream"), "-B", build)
         self.run_installed("cmake", "--build", build)
         self.assertEqual(self.run_installed(os.path.join(build, "downstream")), "1 m\n")
 

@@ -104,8 +104,7 @@ class ReplayTest(ReplayCase):
         self.assertIn("[master] killing on exit", console)
 
     def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
-        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out",
-                                 limit_s=30)
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out", limit_s=30)
         self.assertIn("time jumped back", console)
         for name in "trajectory.tum", "trajectory_2.tum":
             with open(os.path.join(self.folder, "out", name)) as file:
@@ -157,16 +156,13 @@ class CameraTest(ReplayCase):
         self.assertNotIn("assumed is", console)
 
     def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
-        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw",
-                            "camera_infra1_optical_frame")
+        self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw", "camera_infra1_optical_frame")
 
     def test_a_zed_is_replayed_by_its_topics(self):
-        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray",
-                            "zed_left_camera_optical_frame")
+        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray", "zed_left_camera_optical_frame")
 
     def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
-        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw",
-                            "camera_gray_left")
+        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw", "camera_gray_left")
 
     def test_stamps_that_differ_are_told_and_paired_on_demand(self):
         def delay_right(topic, message):
@@ -178,12 +174,10 @@ class CameraTest(ReplayCase):
         console = self.replay("bag:=apart.bag")
         self.assertIn("2.000 ms apart", console)
         self.assertIn("approx_sync:=true", console)
-        self.assertIn("36 pairs: 36 with a pose",
-                      self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
+        self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=apart.bag", "approx_sync:=true", "max_skew_s:=0.005"))
 
     def test_raw_images_are_told_and_rectified_on_demand(self):
-        self.write_bag("raw.bag",
-                       lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
+        self.write_bag("raw.bag", lambda topic, message: (topic.replace("image_rect", "image_raw"), message))
         self.assertIn("give rectify:=true", self.refuse("bag:=raw.bag"))
         self.assertIn("36 pairs: 36 with a pose", self.replay("bag:=raw.bag", "rectify:=true", "rate:=0.5"))
 

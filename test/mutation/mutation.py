@@ -29,8 +29,7 @@ PROGRAMS = BUILD / "devel/lib/arfm_vo"
 CTEST = ["ctest", "--output-on-failure", "--test-dir", str(BUILD), "-R"]
 
 # What a suite takes: targets to build, and the command.
-SUITES = {
-    "driving": (["test_driving"], [str(PROGRAMS / "test_driving")]),
+SUITES = {"driving": (["test_driving"], [str(PROGRAMS / "test_driving")]),
     "hardware": (["test_hardware"], [str(PROGRAMS / "test_hardware"), "--gtest_filter=Chassis*:ToChassis*:BusLock*"]),
     "simulation": (["test_simulation"],
                    [str(PROGRAMS / "test_simulation"), "--gtest_filter=FaultTable*:WrongPose*:Fence*:SimulatedChassis*"]),
@@ -59,8 +58,7 @@ BASIC = ("driving", "simulation", "hardware")
 FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry", "simulated_run"),
            "src/ros": ("ros", "live_poses", "ba_node", "kitti_player", "odometry_chain_nodes")}
 # The same of those sources that another node's test runs.
-FILES = {"chassis_": ("ros", "chassis_node"),
-         "camera_eye|camera_health|camera_node": ("ros", "stereo_camera"),
+FILES = {"chassis_": ("ros", "chassis_node"), "camera_eye|camera_health|camera_node": ("ros", "stereo_camera"),
          "pan_tilt_node": ("ros", "pan_tilt"), "drive_panel": ("ros", "drive_panel"),
          "simulator_node|transforms|terrain_marker": ("ros", "simulated_graph")}
 
@@ -113,8 +111,7 @@ def drop_what_does_not_compile(source):
         if said.returncode == TIMED_OUT:
             print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
             return source.drop_all()
-        wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines()
-                 if line.startswith(str(source.path)) and " error:" in line}
+        wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines() if line.startswith(str(source.path)) and " error:" in line}
         if not source.drop_lines(wrong):
             sys.exit("does not compile:\n" + said.stderr)
 

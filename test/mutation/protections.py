@@ -42,10 +42,11 @@ def pilot_faults():
         ("a long pause blocks", "now_s - pause_start_s_ > options_.max_pause_s", "false"),
         ("a motion is warned of", "now_s - warned_since_s_ >= options_.warning_s", "true"),
         ("a pause lasts until the pose is good", "now_s - flawed_s_ < options_.resume_after_s", "false"),
-        ("the operator is needed", 'if (operator_.IsMissing(now_s)) return Fault{StopReason::kOperatorLost, ""};', ""),
+        ("the operator is needed", 'if (operator_.IsMissing()) return Fault{StopReason::kOperatorLost, operator_.DescribeRefused()};', ""),
         ("the emergency stop stops", "!emergency_sources_.empty()", "false"),
         ("tilt stops", 'if (pose_.IsTilted()) return Fault{StopReason::kTilt, ""};', ""),
         ("a velocity is forgotten in time", "now_s - velocity_s_ <= options_.velocity_timeout_s", "true"),
+        ("a goal that waited long is dropped", "last_tick_s_ - *waiting_since_s_ <= options_.goal_limits.max_standby_s", "true"),
         ("slip stops", 'if (slip_.IsExcessive()) return Fault{StopReason::kSlip, ""};', ""),
         ("no progress stops", 'if (progress_.IsStalled()) return Fault{StopReason::kNoProgress, ""};', ""),
         ("outside the fence stops", "predicted_ && !goal_limits_.IsInsideFence(predicted_->x_m, predicted_->y_m)", "false"),
@@ -67,7 +68,7 @@ def pilot():
         ("no goals while blocked", 'if (state_ == DriveState::kBlocked)\n'
          '    return {false, "goal refused: the rover is blocked: " + InWords({reason_, detail_})};', ""),
         ("no goals in a long standby",
-         'if (IsInLongStandby()) return {false, "goal refused: the rover is in standby; start it first"};', ""),
+         'if (DropOldRoute()) return {false, "goal refused: the rover is in standby; start it first"};', ""),
         ("a late tick is no leap of the speed", "std::clamp(now_s - last_tick_s_, 0.0, kMaxTick_s)", "now_s - last_tick_s_"),
         ("a pilot that was held up blocks", 'if (was_held_up) Distrust({StopReason::kHeldUp, ""});', ""),
         ("the velocity is forgotten at a stop", "reason_ = StopReason::kStopped;\n  detail_.clear();\n"
@@ -89,16 +90,17 @@ def chassis():
     return [
         Protection("a lost remote control is a fault", watch, "status_->is_remote_lost && !options_.allows_remote_lost", "false"),
         Protection("other drivers are noticed", watch, "foreign_s_ && now_s - *foreign_s_ <= options_.foreign_command_s", "false"),
-        Protection("the emergency stop button stops", watch, "if (status_->is_emergency_stop) return StopReason::kChassisEmergency;", ""),
-        Protection("a motor's fault stops", watch, "if (status_->has_motor_fault) return StopReason::kMotorFault;", ""),
-        Protection("the remote control takes over", watch, "if (IsRemote()) return StopReason::kRemoteControl;", ""),
-        Protection("a bus that is down stops", watch, "if (!is_bus_up_) return StopReason::kBusDown;", ""),
-        Protection("a silent chassis stops", watch, "heard_s_ < oldest_s", "false"),
-        Protection("a silent track odometer stops", watch, "*odometer_s_ < oldest_s", "false"),
+        Protection("the emergency stop button stops", watch, "if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, \"\"};", ""),
+        Protection("a motor's fault stops", watch, "if (status_->has_motor_fault) return Fault{StopReason::kMotorFault, status_->detail};", ""),
+        Protection("the remote control takes over", watch, "if (IsRemote()) return Fault{StopReason::kRemoteControl, \"\"};", ""),
+        Protection("a bus that is down stops", watch, "if (!is_bus_up_) return Fault{StopReason::kBusDown, \"\"};", ""),
+        Protection("each kind of feedback that falls silent stops", watch, "heard_s && now_s - *heard_s > options_.max_feedback_age_s", "false"),
+        Protection("no start before the chassis has told all", watch, "!heard_s && kind < kNumRequired", "false"),
         Protection("a runaway stops", motion, "excess_since_s_ && now_s - *excess_since_s_ >= options_.max_excess_s", "false"),
         Protection("frozen feedback stops", motion, "counted_s_ && now_s - *counted_s_ > options_.max_frozen_s", "false"),
         Protection("a motor's current is limited", motion,
                    "current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s", "false"),
+        Protection("motion at rest is told", motion, "!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s", "true"),
         Protection("a jammed track stops", motion, "return FindJam();", "return std::nullopt;"),
         Protection("a goal's distance is limited", limits, "!(distance_m <= options_.max_distance_m)", "false"),
         Protection("a goal lies inside the fence", limits,
@@ -123,7 +125,9 @@ def bus():
         Protection("a send queue that is stuck is a bus that is down", link, "num_busy_in_a_row_ < kMaxBusyInARow", "true"),
         Protection("no frame before start", link, "if (!command.may_speak) return;", ""),
         Protection("the driver says farewell", driver, "link_.SendFarewell();", ""),
-        Protection("under-voltage is a fault", driver, "(state.error_bits & kUnderVoltageFault) != 0", "false"),
+        Protection("error bits are faults", driver, "(state.error_bits & ~kErrorBitsNoFault) != 0", "false"),
+        Protection("each command of another driver counts", link,
+                   "std::count(kCommandIds.begin(), kCommandIds.end(), frame.id) > 0", "frame.id == 0x111"),
         Protection("one driver a bus", "src/hardware/bus_lock.cpp",
                    "::bind(socket_.Get(), reinterpret_cast<const sockaddr*>(&address), size) != 0", "false"),
     ]
@@ -141,7 +145,8 @@ def nodes():
         Protection("velocities are told by their nodes", node,
                    "driver_.pilot().SetVelocity(clock_.Now(), motion, event.getPublisherName())",
                    "driver_.pilot().SetVelocity(clock_.Now(), motion)", NODE),
-        Protection("a latched heartbeat does not count", node, "!IsLatched(event)", "true", NODE),
+        Protection("an operator's time is the wall's", node, "ChallengeOperator(ros::SteadyTime::now().toSec());", "ChallengeOperator(now_s);",
+                   ("clock_stall",)),
         Protection("errors are cleared at rest only", node, 'if (!is_at_rest) return {false, "not sent: the rover moves"};', "", NODE),
         Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(header, ros::Time::now());", "", NODE),
         Protection("an old goal, as a latched one, is refused", "src/ros/rover/chassis_inputs.cpp", "age_s <= max_age_s", "true", ros),
@@ -164,4 +169,12 @@ def nodes():
     ]
 
 
-PROTECTIONS = pose_watch() + pilot_faults() + pilot() + chassis() + bus() + nodes()
+def operator_watch():
+    return [Protection(name, "src/driving/operator_watch.cpp", old, new) for name, old, new in (
+        ("a late answer does not count", "sent == sent_.end() || steady_s - sent->sent_s > options_.max_round_trip_s", "sent == sent_.end()"),
+        ("a repeated answer does not count", "if (sent->is_answered) return ++answers_.num_repeated, false;", ""),
+        ("a foreign answer does not count", "if (!is_ours) return ++answers_.num_foreign, false;", ""),
+        ("an answer is as old as its challenge", "std::max(answered_s_, sent->sent_s)", "steady_s"))]
+
+
+PROTECTIONS = operator_watch() + pose_watch() + pilot_faults() + pilot() + chassis() + bus() + nodes()

@@ -138,8 +138,7 @@ def check(condition, what):
 def run(rover, stranger):
     join(rover, stranger)
     rover.python("import socket, time\nend = socket.create_server(('', 22))\ntime.sleep(600)", ROVER, ROVER)  # as sshd
-    rover.python(f"import rosmaster.main\nrosmaster.main.rosmaster_main(['rosmaster', '--core', '-p', '{PORT}'])",
-                 ROVER, ROVER)
+    rover.python(f"import rosmaster.main\nrosmaster.main.rosmaster_main(['rosmaster', '--core', '-p', '{PORT}'])", ROVER, ROVER)
     check(any(connects(rover, PORT) or time.sleep(0.2) for _ in range(100)), "the master runs")
     listener = rover.python(LISTEN, ROVER, ROVER)
     check(listener.stdout.readline() == "ready\n", "the rover's node runs")

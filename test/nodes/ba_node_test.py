@@ -44,8 +44,7 @@ def make_keyframe(number):
 class BaNodeTest(unittest.TestCase):
     def test_no_transform_is_sent_twice_with_the_same_stamp(self):
         stamps = []
-        rospy.Subscriber("/tf", TFMessage, lambda message: stamps.extend(
-            transform.header.stamp for transform in message.transforms))
+        rospy.Subscriber("/tf", TFMessage, lambda message: stamps.extend(transform.header.stamp for transform in message.transforms))
         clock = rospy.Publisher("/clock", Clock, queue_size=10)
         now_s, end = 1000, time.monotonic() + 60
         while len(set(stamps)) < 20 and time.monotonic() < end:

@@ -1,6 +1,7 @@
 #include <arfm_vo/DriveStatus.h>
 #include <arfm_vo/GoalReport.h>
 #include <arfm_vo/OdometryStatus.h>
+#include <arfm_vo/OperatorChallenge.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
@@ -10,58 +11,26 @@
 #include <rosgraph_msgs/Clock.h>
 #include <signal.h>
 #include <std_msgs/Bool.h>
-#include <std_msgs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
+#include <functional>
 #include <optional>
+#include <regex>
 
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 #include "nodes/node_process.h"
+#include "simulation/tapped_bus.h"
 
 // chassis_node in a world of its own: a simulated chassis at the other end of the bus, and a
 // perfect sight in tf. Wall time, but in clock_stall.test, where the test is the clock.
 
 namespace arfm_vo {
 namespace {
-
-/// Notes the commands that pass on their way to the simulated chassis.
-class TappedBus : public CanBus {
- public:
-  struct Log {
-    int num_commands = 0;
-    PlanarMotion last;
-    double stopped_s = 0, fastest_mps = 0;
-    ControlMode last_mode = ControlMode::kUnknown;
-  };
-
-  TappedBus(std::unique_ptr<CanBus> bus, Log* log) : bus_(std::move(bus)), log_(log) {}
-  CanSendStatus Send(const CanFrame& frame) override { return bus_->Send(frame); }
-  CanBusState State() const override { return bus_->State(); }
-  std::optional<CanFrame> Receive() override {
-    const auto frame = bus_->Receive();
-    if (frame) Note(DecodeCommand(*frame));
-    return frame;
-  }
-
- private:
-  void Note(const ChassisCommand& command) {
-    log_->num_commands += command.index() != 0;
-    if (const auto* mode = std::get_if<ControlModeCommand>(&command)) log_->last_mode = mode->mode;
-    const auto* motion = std::get_if<MotionCommand>(&command);
-    if (!motion) return;
-    if (motion->motion.IsZero() && !log_->last.IsZero())
-      log_->stopped_s = ros::SteadyTime::now().toSec();
-    log_->last = motion->motion;
-    log_->fastest_mps = std::max(log_->fastest_mps, std::abs(motion->motion.forward_mps));
-  }
-
-  std::unique_ptr<CanBus> bus_;
-  Log* log_;
-};
 
 class World {
  public:
@@ -73,9 +42,9 @@ class World {
         emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
         odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
         odometry_status_(node_.advertise<OdometryStatus>("status", 1)),
-        heartbeat_(node_.advertise<std_msgs::Empty>("operator_heartbeat", 1)),
+        answer_(node_.advertise<OperatorChallenge>("operator_answer", 10)),
         clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 1)),
-        heartbeat_subscriber_(node_.subscribe("operator_heartbeat", 20, &World::CountBeat, this)),
+        challenge_subscriber_(node_.subscribe("operator_challenge", 20, &World::Answer, this)),
         status_subscriber_(node_.subscribe("drive_status", 20, &World::TakeStatus, this)),
         report_subscriber_(node_.subscribe("goal_report", 20, &World::TakeReport, this)) {}
 
@@ -90,7 +59,8 @@ class World {
       chassis_.Tick(Now());
       if (has_clock_ && ros::Time::isSimTime()) TellTime();
       if (has_clock_ && Now() >= sight_due_s_) See();
-      if (Now() >= heartbeat_due_s_) Beat();
+      for (; !answers_.empty() && Now() >= answers_.front().first; answers_.pop_front())
+        answer_.publish(answers_.front().second);
       if (velocity_mps_ != 0 && Now() >= velocity_due_s_) SendVelocity();
       ros::spinOnce();
       ros::WallDuration(0.002).sleep();
@@ -139,7 +109,7 @@ class World {
     return RunUntil([this] {
       return goal_.getNumSubscribers() > 0 && waypoints_.getNumSubscribers() > 0 &&
              velocity_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
-             emergency_stop_.getNumSubscribers() > 0 && heartbeat_.getNumSubscribers() > 1 &&
+             emergency_stop_.getNumSubscribers() > 0 && answer_.getNumSubscribers() > 0 &&
              odometry_status_.getNumSubscribers() > 0 && has_status_;
     });
   }
@@ -170,8 +140,10 @@ class World {
   DriveStatus status_;
   std::vector<GoalReport> reports_;
   bool has_sight_ = true, has_map_ = true, has_operator_ = true, has_clock_ = true;
-  int num_heartbeats_ = 0;  // whoever sent them
-  double held_up_s_ = 0;    // for which the machine did not run this test, at most
+  double answer_delay_s_ = 0;
+  std::function<void(OperatorChallenge&)> spoil_answer_ = [](OperatorChallenge&) {};
+  double time_rate_ = 1;  // of simulated time
+  double held_up_s_ = 0;  // for which the machine did not run this test, at most
   Rigid3 odom_from_world_;
   std::optional<ros::Time> goal_stamp_;
   double variance_m2_ = 1e-4;
@@ -212,9 +184,9 @@ class World {
     for (int i = 0; i < 6; ++i) odometry.pose.covariance[7 * i] = variance_m2_;
     return odometry;
   }
-  void Beat() {
-    heartbeat_due_s_ = Now() + 0.4;
-    if (has_operator_) heartbeat_.publish(std_msgs::Empty());
+  void Answer(OperatorChallenge challenge) {
+    spoil_answer_(challenge);
+    if (has_operator_) answers_.push_back({Now() + answer_delay_s_, challenge});
   }
   void SendVelocity() {
     velocity_due_s_ = Now() + 0.05;
@@ -222,10 +194,11 @@ class World {
     twist.linear.x = velocity_mps_;
     velocity_.publish(twist);
   }
-  void CountBeat(const std_msgs::Empty&) { ++num_heartbeats_; }
-  void TellTime() const {
+  void TellTime() {
     rosgraph_msgs::Clock time;
-    time.clock.fromSec(Now());
+    time_s_ += time_rate_ * (Now() - told_s_);
+    told_s_ = Now();
+    time.clock.fromSec(time_s_);
     clock_.publish(time);
   }
   void TakeStatus(const DriveStatus& status) {
@@ -235,12 +208,13 @@ class World {
   void TakeReport(const GoalReport& report) { reports_.push_back(report); }
 
   ros::NodeHandle node_;
-  ros::Publisher goal_, waypoints_, velocity_, emergency_stop_, odom_, odometry_status_, heartbeat_,
+  ros::Publisher goal_, waypoints_, velocity_, emergency_stop_, odom_, odometry_status_, answer_,
       clock_;
-  ros::Subscriber heartbeat_subscriber_, status_subscriber_, report_subscriber_;
+  ros::Subscriber challenge_subscriber_, status_subscriber_, report_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
   bool has_status_ = false;
-  double sight_due_s_ = 0, heartbeat_due_s_ = 0, velocity_due_s_ = 0;
+  std::deque<std::pair<double, OperatorChallenge>> answers_;  // and when they are due
+  double sight_due_s_ = 0, velocity_due_s_ = 0, time_s_ = 0, told_s_ = 0;
 };
 
 // A loaded machine delays test and node alike; the fault table measures without it.
@@ -408,10 +382,12 @@ TEST_F(ChassisNodeTest, NobodyElseClearsAnEmergencyStop) {
 
 TEST_F(ChassisNodeTest, WithoutTheOperatorTheRoverStopsWithinASecond) {
   DriveFarAhead();
+  EXPECT_LT(world_->status_.operator_round_trip_s, 0.5);
   const double gone_s = World::Now();
   world_->has_operator_ = false;
   EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("no operator heartbeat"));
+  EXPECT_TRUE(Says("operator does not answer"));
+  EXPECT_TRUE(world_->RunUntil([] { return std::isnan(world_->status_.operator_round_trip_s); }));
   EXPECT_FALSE(world_->Call("start").success);
   world_->has_operator_ = true;
   EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
@@ -515,20 +491,30 @@ TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {
   world_->Call("stop");
 }
 
-TEST_F(ChassisNodeTest, ALatchedHeartbeatIsNobody) {
-  world_->has_operator_ = false;
-  FILE* stranger =
-      ::popen("timeout 20 rostopic pub -l -r 5 /operator_heartbeat std_msgs/Empty", "r");
-  ASSERT_NE(stranger, nullptr);
-  world_->Run(1);  // what the operator sent before counts for less
-  const int num_before = world_->num_heartbeats_;
-  EXPECT_TRUE(world_->RunUntil([&] {
-    EXPECT_FALSE(world_->Call("start").success);
-    world_->Run(0.1);
-    return world_->num_heartbeats_ > num_before + 10;
-  }));
-  ::pclose(stranger);
-  world_->has_operator_ = true;
+TEST_F(ChassisNodeTest, AnswersThatAreLateRepeatedOrForeignAreNobody) {
+  const auto expect_nobody = [](const std::string& refused) {
+    EXPECT_TRUE(world_->RunUntil([&] {
+      world_->Run(0.2);
+      return std::regex_search(world_->Call("start").message, std::regex("[1-9][0-9]* " + refused));
+    })) << refused;
+    world_->Run(1);
+    EXPECT_FALSE(world_->Call("start").success) << refused;
+  };
+  DriveFarAhead();
+  world_->answer_delay_s_ = 0.7;
+  EXPECT_TRUE(Says("operator does not answer"));
+  expect_nobody("late");
+  world_->answer_delay_s_ = 0;
+  world_->spoil_answer_ = [](OperatorChallenge& challenge) { challenge.rover = "another"; };
+  expect_nobody("foreign");
+  world_->spoil_answer_ = [first = OperatorChallenge()](OperatorChallenge& challenge) mutable {
+    if (first.rover.empty()) first = challenge;
+    challenge = first;
+  };
+  expect_nobody("repeated");
+  world_->spoil_answer_ = [](OperatorChallenge&) {};
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, VelocitiesOfTwoNodesBlock) {
@@ -570,6 +556,15 @@ TEST_F(ClockStall, AClockThatStandsStillStopsTheRover) {
   EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
   EXPECT_TRUE(Moves());
   world_->Call("stop");
+}
+
+TEST_F(ClockStall, SimulatedTimeThatRunsSlowlyKeepsNoOperator) {
+  world_->time_rate_ = 0.2;
+  DriveFarAhead();
+  const double gone_s = World::Now();
+  world_->has_operator_ = false;
+  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
+  EXPECT_TRUE(Says("operator does not answer"));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_F(MalformedDriving, Chassis) {
             SpoiltTopic(node, "/tf_static", ValidTransforms(now)),
             SpoiltTopic(node, "odom", ValidOdometry(now)),
             SpoiltTopic(node, "status", OdometryStatus()),
-            SpoiltTopic(node, "operator_heartbeat", std_msgs::Empty()),
+            SpoiltTopic(node, "operator_answer", OperatorChallenge()),
             SpoiltTopic(node, "goal", ValidGoal(now)),
             SpoiltTopic(node, "waypoints", ValidPath(now)), SpoiltTopic(node, "cmd_vel", velocity),
             SpoiltTopic(node, "emergency_stop", std_msgs::Bool()));

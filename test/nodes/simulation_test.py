@@ -2,6 +2,7 @@
 """The simulated rover sees, pans its head and drives to a goal by sight alone, through all the nodes."""
 import math
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -16,7 +17,7 @@ from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Empty
+from std_msgs.msg import Bool
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
@@ -45,8 +46,7 @@ class Head:
         self.eye = None
         self.commands = rospy.Publisher("/head/cmd", JointState, queue_size=1, latch=True)
         self.subscribers = [
-            rospy.Subscriber("/head/settled", Bool, self.take_settled),
-            rospy.Subscriber("/joint_states", JointState, self.take_angles),
+            rospy.Subscriber("/head/settled", Bool, self.take_settled), rospy.Subscriber("/joint_states", JointState, self.take_angles),
             rospy.Subscriber("/stereo/ground_truth", PoseStamped, self.take_eye)]
 
     def take_settled(self, message):
@@ -63,8 +63,7 @@ class Head:
 
     def is_at(self, pan_rad, tilt_rad):
         return self.is_settled and all(
-            abs(self.angles.get(name, math.inf) - angle) < 0.01
-            for name, angle in (("pan", pan_rad), ("tilt", tilt_rad)))
+            abs(self.angles.get(name, math.inf) - angle) < 0.01 for name, angle in (("pan", pan_rad), ("tilt", tilt_rad)))
 
 
 class SimulationTest(unittest.TestCase):
@@ -110,8 +109,7 @@ class SimulationTest(unittest.TestCase):
         self.assertGreater(len(self.poses), 10)
         ways = [way_between(first.position, pose.position) for pose in self.poses]
         turns = [turn_between(first.orientation, pose.orientation) for pose in self.poses]
-        print("head: %d poses, base moves %.1f mm and turns %.2f deg at most" %
-              (len(ways), 1000 * max(ways), math.degrees(max(turns))))
+        print("head: %d poses, base moves %.1f mm and turns %.2f deg at most" % (len(ways), 1000 * max(ways), math.degrees(max(turns))))
         self.assertLess(max(ways), 0.03)
         self.assertLess(math.degrees(max(turns)), 1)
 
@@ -172,17 +170,20 @@ class SimulationTest(unittest.TestCase):
             errand.run(3, 0, 0, timeout_s=PATIENCE_S)
         self.wait(lambda: told[-1].state == DriveStatus.STANDBY and not told[-1].has_goal, "the stop")
 
-    def test_an_operator_beats_until_the_terminal_is_gone_and_stops_the_rover(self):
-        beats_s = []
-        rospy.Subscriber("operator_heartbeat", Empty, lambda _: beats_s.append(time.monotonic()))
-        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator_heartbeat.py"], stdin=subprocess.PIPE,
+    def test_an_operator_answers_until_stopped_or_the_terminal_is_gone_and_stops_the_rover(self):
+        told = []
+        rospy.Subscriber("drive_status", DriveStatus, told.append)
+        operator = subprocess.Popen([sys.executable, SCRIPTS / "operator_answer.py"], stdin=subprocess.PIPE,
                                     stdout=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(operator.wait)
-        self.addCleanup(operator.terminate)
-        self.wait(lambda: len(beats_s) >= 5, "heartbeats")
-        self.assertLess((beats_s[4] - beats_s[0]) / 4, 0.8)
+        self.addCleanup(operator.kill)
+        self.wait(lambda: told and told[-1].operator_round_trip_s < 0.5, "answers in time")
+        for number, is_answered in (signal.SIGSTOP, False), (signal.SIGCONT, True):
+            operator.send_signal(number)
+            self.wait(lambda: (told[-1].operator_round_trip_s < 0.5) == is_answered, "what signal %d does" % number)
         said, _ = operator.communicate("\n", timeout=PATIENCE_S)  # Enter, then the terminal is gone
         self.assertEqual(said.count("stop: stopped"), 2, said)
+        self.wait(lambda: math.isnan(told[-1].operator_round_trip_s), "the end of the answers")
 
 
 if __name__ == "__main__":

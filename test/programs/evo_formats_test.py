@@ -24,8 +24,7 @@ def read_matrix(path, num_columns):
 
 
 def is_so3(rotation):
-    return (np.allclose(np.linalg.det(rotation), 1, atol=1e-6) and
-            np.allclose(rotation.T @ rotation, np.eye(3), atol=1e-6))
+    return (np.allclose(np.linalg.det(rotation), 1, atol=1e-6) and np.allclose(rotation.T @ rotation, np.eye(3), atol=1e-6))
 
 
 class EvoFormatsTest(unittest.TestCase):

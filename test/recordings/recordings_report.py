@@ -6,8 +6,7 @@ import math
 import statistics
 import sys
 
-PROPERTIES = ["source", "motion", "scene", "stride", "direction", "swap", "cut", "light", "noise", "fov", "baseline",
-              "width"]
+PROPERTIES = ["source", "motion", "scene", "stride", "direction", "swap", "cut", "light", "noise", "fov", "baseline", "width"]
 MAX_WORST = 12  # seeds listed a kind
 
 

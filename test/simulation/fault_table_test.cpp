@@ -19,8 +19,7 @@ namespace {
 using Action = std::function<void(SimulatedDrive&)>;
 using Condition = std::function<bool(const SimulatedDrive&, double injected_s)>;
 
-/// Who brings the rover to a stand.
-enum class Stopper { kDriver, kChassisTimeout };
+enum class Stopper { kDriver, kChassisTimeout };  ///< who brings the rover to a stand
 
 struct Fault {
   std::string name;
@@ -72,10 +71,10 @@ std::vector<Fault> OperatorFaults() {
        [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", true); },
        "its source clears the emergency stop",
        [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", false); }},
-      {"operator heartbeat ceases", [](SimulatedDrive& d) { d.has_operator_ = false; },
+      {"operator does not answer", [](SimulatedDrive& d) { d.has_operator_ = false; },
        "the operator is back", [](SimulatedDrive& d) { d.has_operator_ = true; },
-       "no heartbeat for 0.9 s",
-       [](const SimulatedDrive& d, double) { return d.Now() - d.LastHeartbeat() > 0.9; }},
+       "no answer for 0.9 s",
+       [](const SimulatedDrive& d, double) { return d.Now() - d.LastAnswer() > 0.9; }},
       {"goal cancelled", [](SimulatedDrive& d) { d.pilot().CancelRoute(); }, "", kNothing},
       {"velocity commands cease", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", kNothing,
        "0.15 s", TimeSince(0.15), Stopper::kDriver, true},
@@ -152,22 +151,21 @@ std::vector<Fault> WrongPoseFaults() {
     d.told_from_true_ = d.map_from_odom_ = Rigid3();
     d.each_tick_ = [] {};
   };
-  const auto keep = [](SimulatedDrive&) {};
   const auto tilt = [](SimulatedDrive& d) {
     d.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
   };
   return {
       {"odometry restarts elsewhere, unannounced",
-       [](SimulatedDrive& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", keep},
-      {"odometry announces a new epoch", [](SimulatedDrive& d) { ++d.epoch_; }, "", keep},
+       [](SimulatedDrive& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", kNothing},
+      {"odometry announces a new epoch", [](SimulatedDrive& d) { ++d.epoch_; }, "", kNothing},
       {"odometry restarts elsewhere with a new epoch",
        [](SimulatedDrive& d) {
          ++d.epoch_;
          d.told_from_true_ = PlaceAt(9, 0);
        },
-       "", keep},
+       "", kNothing},
       {"map -> odom jumps by 0.5 m", [](SimulatedDrive& d) { d.map_from_odom_ = PlaceAt(0, 0.5); },
-       "", keep},
+       "", kNothing},
       {"map -> odom is no longer told (ba_node is gone)",
        [](SimulatedDrive& d) {
          d.is_tf_missing_ = true;
@@ -205,15 +203,15 @@ std::vector<Fault> MotionFaults() {
 std::vector<Fault> ChassisFaults() {
   const auto power_on = [](SimulatedDrive& d) { d.chassis().SetPower(true); };
   const auto clear = [](SimulatedDrive& d) { d.driver().link().SendClearErrors(); };
+  const auto silence = [](std::optional<FeedbackKind> kind) {
+    return [kind](SimulatedDrive& d) { d.chassis().Silence(kind); };
+  };
   return {
       {"emergency stop button (0x211)",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(true); }, "release the button",
        [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(false); }},
-      {"chassis fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
-       "clear_errors", clear},
-      {"under-voltage fault (0x211)",
-       [](SimulatedDrive& d) { d.chassis().SetFault(kUnderVoltageFault); }, "charge, clear_errors",
-       clear},
+      {"battery fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
+       "charge, clear_errors", clear},
       {"remote control takes over (0x211)",
        [](SimulatedDrive& d) {
          d.chassis().TakeRemoteControl({0.05, 0});
@@ -228,10 +226,10 @@ std::vector<Fault> ChassisFaults() {
        "", kNothing},
       {"chassis loses power (silent)", [](SimulatedDrive& d) { d.chassis().SetPower(false); },
        "switch it on", power_on, "silent for 0.5 s", TimeSince(0.5)},
-      {"track odometer falls silent",
-       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(true); }, "mend it",
-       [](SimulatedDrive& d) { d.chassis().SetSilentOdometer(false); }, "silent for 0.5 s",
-       TimeSince(0.5)},
+      {"track odometer falls silent", silence(FeedbackKind::kOdometer), "mend it", silence({}),
+       "silent for 0.5 s", TimeSince(0.5)},
+      {"motion feedback falls silent (0x221)", silence(FeedbackKind::kMotion), "mend it",
+       silence({}), "silent for 0.5 s", TimeSince(0.5)},
   };
 }
 
@@ -358,7 +356,8 @@ std::string Milliseconds(double duration_s) {
 std::string Table() {
   std::ostringstream text;
   text << "# Faults, and how the rover stops\n\n"
-       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is injected into a "
+       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is "
+          "injected into a "
           "simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real chassis, on a "
           "simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the moment it "
           "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
@@ -423,7 +422,8 @@ TEST(FaultTable, TheDocumentIsWhatTheTestMeasured) {
   std::ifstream file(ARFM_VO_SOURCE_DIR "/docs/faults.md");
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), Table()) << "docs/faults.md is out of date: run scripts/measure.sh fault_table";
+  EXPECT_EQ(text.str(), Table())
+      << "docs/faults.md is out of date: run scripts/measure.sh fault_table";
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class SimulatedDrive {
   double LastMovingCommandTime() const { return last_moving_s_; }
   double FirstStopCommandTime() const { return first_stop_s_; }
   double LastPoseTaken() const { return pose_taken_s_; }
-  double LastHeartbeat() const { return heartbeat_s_; }
+  double LastAnswer() const { return answered_s_; }
   double LastCovarianceTaken() const { return covariance_taken_s_; }
   double FastestCommand() const { return fastest_mps_; }
   double FastestTrack() const {
@@ -79,7 +79,6 @@ class SimulatedDrive {
 
  private:
   static constexpr int kDriverPeriod_ms = 20, kChassisPeriod_ms = 5, kPosePeriod_ms = 100;
-  static constexpr int kHeartbeatPeriod_ms = 500;
   static constexpr double kLatency_s = 0.1;
 
   struct Sight {
@@ -91,8 +90,9 @@ class SimulatedDrive {
     ++now_ms_;
     if (now_ms_ % kChassisPeriod_ms == 0) chassis_->Tick(Now());
     if (now_ms_ % kPosePeriod_ms == 0) See();
-    if (now_ms_ % kHeartbeatPeriod_ms == 0 && has_operator_) heartbeat_s_ = Now();
-    if (driver_ && heartbeat_s_ == Now()) pilot().ObserveOperator(Now());
+    const auto challenge = driver_ ? pilot().operator_watch().Advance(Now(), 1) : std::nullopt;
+    if (challenge && has_operator_ && pilot().operator_watch().ObserveAnswer(Now(), *challenge))
+      answered_s_ = Now();
     if (now_ms_ % kDriverPeriod_ms == 3 && driver_ && !is_driver_hung_) {
       each_tick_();
       if (driver_) driver_->Tick(Now());
@@ -140,7 +140,7 @@ class SimulatedDrive {
   long now_ms_ = 100000, num_command_frames_ = 0;
   PlanarMotion commanded_;
   double last_moving_s_ = -1, first_stop_s_ = -2, fastest_mps_ = 0;
-  double pose_taken_s_ = 0, covariance_taken_s_ = 0, heartbeat_s_ = 0;
+  double pose_taken_s_ = 0, covariance_taken_s_ = 0, answered_s_ = 0;
 };
 
 }  // namespace arfm_vo

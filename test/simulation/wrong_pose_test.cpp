@@ -130,7 +130,7 @@ TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
   at_fault_ = drive_.plant().Pose();
   drive_.map_from_odom_ = WrongPlaceAt(0.05, 1);
-  drive_.Run(20);
+  drive_.Run(8);
   ExpectBlocked(StopReason::kMapStep);
   EXPECT_TRUE(drive_.pilot().Status().has_goal);
   ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);

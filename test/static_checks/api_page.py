@@ -22,8 +22,7 @@ ENUMS, RANGES = {}, {}  # of read_enums() and read_ranges()
 def read_structs():
     """{struct: ([(key or None, member)], {member: (type, meaning)})} of all structs with VisitFields."""
     structs = {}
-    for path in sorted(glob.glob(ROOT + "/include/**/*.h", recursive=True) +
-                       glob.glob(ROOT + "/nodes/*.cpp")):
+    for path in sorted(glob.glob(ROOT + "/include/**/*.h", recursive=True) + glob.glob(ROOT + "/nodes/*.cpp")):
         with open(path) as file:
             text = file.read()
         for match in re.finditer(r"^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S):
@@ -170,8 +169,7 @@ def make_page(program_dir):
             "error that names them. Lengths in m, angles in rad,\ntimes in s, where the name does not say otherwise.\n"]
     algorithm = {}
     for node, struct in read_nodes():
-        said = subprocess.run([os.path.join(program_dir, node), "--help"], check=True, text=True,
-                              stdout=subprocess.PIPE).stdout
+        said = subprocess.run([os.path.join(program_dir, node), "--help"], check=True, text=True, stdout=subprocess.PIPE).stdout
         about, parameters = split_help(said)
         defaults = list(flatten(yaml.safe_load(parameters)))
         meanings = find_meanings(structs, struct)

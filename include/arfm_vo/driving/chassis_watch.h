@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/driving/drive_state.h"
@@ -17,13 +19,26 @@ struct ChassisStatus {
   ChassisAuthority authority = ChassisAuthority::kNobody;
   bool is_remote_lost = false;
   bool has_motor_fault = false;
+  std::string detail;  ///< which faults; may be empty
 };
 
+/// What the chassis tells. Without the first three nothing is driven; the others, once heard, must
+/// go on.
+enum class FeedbackKind {
+  kSystem,    ///< by ChassisWatch::Observe
+  kMotion,    ///< what it measures of its motion
+  kOdometer,  ///< of the tracks
+  kLeftMotor,
+  kRightMotor,
+  kLeftDriver,
+  kRightDriver,
+};
+constexpr size_t kNumFeedbackKinds = 7;
+
 struct ChassisWatchOptions {
-  /// Of the system state, told every 0.1 to 0.2 s, and of the track odometer.
-  double max_feedback_age_s = 0.5;
+  double max_feedback_age_s = 0.5;  ///< of each kind; the slowest come every 0.1 to 0.2 s
   bool allows_remote_lost = false;  ///< drive where the remote control could not take over
-  double foreign_command_s = 1;     ///< a motion command of another driver is a fault so long
+  double foreign_command_s = 1;     ///< a command of another driver is a fault so long
 
   void Check() const {
     Require(max_feedback_age_s >= 0.2 && max_feedback_age_s <= 10,
@@ -47,25 +62,37 @@ class ChassisWatch {
   }
 
   void Observe(double now_s, const ChassisStatus& status);
-  void ObserveTrackOdometer(double now_s) { odometer_s_ = now_s; }
+  void ObserveFeedback(double now_s, FeedbackKind kind) {
+    heard_s_[static_cast<size_t>(kind)] = now_s;
+  }
   void ObserveBus(bool is_up) { is_bus_up_ = is_up; }
-  /// Somebody else has sent a motion command to the chassis.
-  void ObserveForeignCommand(double now_s) { foreign_s_ = now_s; }
+  /// Somebody else has sent a command to the chassis; `detail` says which.
+  void ObserveForeignCommand(double now_s, const std::string& detail = "") {
+    foreign_s_ = now_s;
+    foreign_detail_ = detail;
+  }
 
   /// What is wrong; nothing where the chassis is sound and nobody else has it. It may still be in
   /// standby: see IsOurs.
-  std::optional<StopReason> FindFault(double now_s) const;
+  std::optional<Fault> FindFault(double now_s) const;
 
   bool IsOurs() const { return status_ && status_->authority == ChassisAuthority::kUs; }
+  /// Nobody else drives it, as far as it says.
+  bool IsNobodyElses() const {
+    return status_ && (IsOurs() || status_->authority == ChassisAuthority::kNobody);
+  }
   bool IsRemote() const {
     return status_ && status_->authority == ChassisAuthority::kRemoteControl;
   }
 
  private:
+  std::optional<Fault> FindSilence(double now_s) const;
+
   ChassisWatchOptions options_;
   bool is_bus_up_ = true;
-  double heard_s_ = 0;
-  std::optional<double> odometer_s_, foreign_s_;
+  std::array<std::optional<double>, kNumFeedbackKinds> heard_s_;
+  std::optional<double> foreign_s_;
+  std::string foreign_detail_;
   std::optional<ChassisStatus> status_;
 };
 

@@ -41,11 +41,12 @@ enum class StopReason {
   kMapStale,           ///< map -> odom is no longer told
   kTilt,
   kOutsideFence,
-  kOperatorLost,      ///< no operator heartbeat
+  kOperatorLost,      ///< nobody answers the challenges in time
   kHeldUp,            ///< chassis_node itself did not run for too long
   kRemoteLost,        ///< the chassis has lost its remote control
   kForeignCommands,   ///< another driver sends motion commands on the bus
   kRunaway,           ///< the tracks run faster than commanded
+  kMotionAtRest,      ///< the tracks run and nobody has commanded it
   kTrackJammed,       ///< a track is commanded to run and stands
   kFeedbackFrozen,    ///< the chassis repeats itself
   kMotorFault,        ///< a motor driver reports a fault, or a motor draws too much

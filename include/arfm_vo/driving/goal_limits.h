@@ -11,7 +11,7 @@ namespace arfm_vo {
 struct GoalLimitsOptions {
   double max_distance_m = 50;  ///< of each waypoint from the rover
   int max_waypoints = 100;     ///< of a route
-  double max_standby_s = 10;   ///< a rover that is in standby for longer takes and keeps no goal
+  double max_standby_s = 10;   ///< in standby, or blocked, for longer the rover keeps no goal
   /// Corners x, y, x, y, .. in the map, m, of the area that the rover may not leave; empty: none.
   std::vector<double> fence_m;
 

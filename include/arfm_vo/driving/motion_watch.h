@@ -18,6 +18,8 @@ struct MotionWatchOptions {
   double max_frozen_s = 1;          ///< for which the chassis' message counter may stand
   double max_motor_current_a = 60;  ///< of either motor
   double max_current_s = 2;         ///< for which a motor may draw more
+  double stop_s = 1;                ///< for which the tracks may run out after a command to stand
+  double max_way_at_rest_m = 0.05;  ///< of a track that is told to stand, from then on
 
   void Check() const;
   template <class Visitor>
@@ -30,6 +32,8 @@ struct MotionWatchOptions {
     visit("max_frozen_s", max_frozen_s);
     visit("max_motor_current_a", max_motor_current_a);
     visit("max_current_s", max_current_s);
+    visit("stop_s", stop_s);
+    visit("max_way_at_rest_m", max_way_at_rest_m);
   }
 };
 
@@ -43,6 +47,8 @@ class MotionWatch {
   void ObserveCommand(double now_s, const PlanarMotion& motion);
   void ObserveMotion(double now_s, const PlanarMotion& motion);
   void ObserveWays(double now_s, const TrackWays& ways);
+  /// Whether the rover is told to stand and nobody else drives it; each tick.
+  void ObserveRest(double now_s, bool is_at_rest);
   void ObserveCounter(double now_s, int counter);
   /// The larger of both motors' currents, A.
   void ObserveCurrent(double now_s, double current_a);
@@ -50,6 +56,9 @@ class MotionWatch {
   void Reset();
 
   std::optional<Fault> FindFault(double now_s) const;
+  /// A track that is told to stand and goes: by the odometer or by what the chassis measures of its
+  /// motion, whichever goes farther. Also holds before the first command.
+  std::optional<Fault> FindMotionAtRest(double now_s) const;
 
  private:
   struct Commanded {
@@ -61,6 +70,7 @@ class MotionWatch {
   /// The largest excess of a measured track speed over the commands of the last response_s, m/s.
   double ExcessOf(const TrackSpeeds& measured) const;
   std::optional<Fault> FindJam() const;
+  double WayAtRest() const;
 
   MotionWatchOptions options_;
   TrackKinematics kinematics_;  // the chassis' own
@@ -69,6 +79,9 @@ class MotionWatch {
   double excess_mps_ = 0, current_a_ = 0;
   int counter_ = 0;
   TrackWays ways_;
+  std::optional<double> measured_s_, rest_since_s_, away_since_s_;
+  std::optional<TrackWays> rest_ways_;  // where the tracks stood, once they had time to stop
+  TrackWays measured_ways_;             // since then, of the motion that the chassis measures
 };
 
 }  // namespace arfm_vo

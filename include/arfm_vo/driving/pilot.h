@@ -41,7 +41,9 @@ class Pilot {
   /// while the rover moves and without a pose.
   Reply SetDatum();
 
-  void ObserveOperator(double now_s) { operator_.ObserveHeartbeat(now_s); }
+  /// Has a clock of its own, which runs where that of driving stands.
+  OperatorWatch& operator_watch() { return operator_; }
+  const OperatorWatch& operator_watch() const { return operator_; }
   void ObservePose(double now_s, const PoseObservation& pose) { pose_.Observe(now_s, pose); }
   void ObserveNoPose(StopReason reason = StopReason::kPoseMissing) { pose_.ObserveNone(reason); }
   /// Says whether it was taken: one from the future is not.
@@ -50,12 +52,9 @@ class Pilot {
   }
   /// Of the odometry, with a pair of `taken_s`. Another than before drops the goal and blocks.
   void ObserveEpoch(uint32_t epoch, double taken_s);
-  void ObserveChassis(double now_s, const ChassisStatus& status) {
-    chassis_.Observe(now_s, status);
-  }
   void ObserveTracks(double now_s, int left_mm, int right_mm);
-  void ObserveBus(bool is_up) { chassis_.ObserveBus(is_up); }
-  void ObserveForeignCommand(double now_s) { chassis_.ObserveForeignCommand(now_s); }
+  /// Of the bus, of other drivers, and of the age of all other feedback.
+  ChassisWatch& chassis_watch() { return chassis_; }
   /// What the chassis measures of its own motion.
   MotionWatch& motion_watch() { return motion_watch_; }
 
@@ -76,12 +75,13 @@ class Pilot {
   void GoOn(double now_s);
   void Distrust(const Fault& fault);
   void Block(const Fault& fault);
+  void TellMotionAtRest(const Fault& fault);
   void Pause(double now_s, StopReason reason);
   void EndRoute(GoalOutcome outcome, const Fault& fault = {});
   void Report(GoalOutcome outcome, const Fault& fault);
   bool IsVelocityFresh(double now_s) const;
   bool IsMovedByAnother(double now_s, const std::string& source) const;
-  bool IsInLongStandby() const;
+  bool DropOldRoute();
   RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
   PlanarMotion WantedMotion(double now_s);
@@ -112,7 +112,7 @@ class Pilot {
   std::string velocity_source_;
   double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
   double commanded_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
-  std::optional<double> standby_since_s_;
+  std::optional<double> waiting_since_s_;
   double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;
   std::vector<GoalResult> results_;
 };

@@ -49,6 +49,7 @@ struct PilotStatus {
   PlanarMotion motion;  ///< commanded, of the base
   std::optional<Slip> slip;
   bool is_tilt_near_limit = false;
+  std::optional<double> operator_round_trip_s;  ///< nothing without an operator
 };
 
 }  // namespace arfm_vo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "arfm_vo/driving/pilot.h"
 #include "arfm_vo/hardware/chassis_link.h"
@@ -35,5 +36,10 @@ class ChassisDriver {
 
 /// What `state` means for who may drive. A lost remote control is no fault here, but told apart.
 ChassisStatus ToChassisStatus(const SystemState& state);
+/// The faults that SystemState::error_bits name, by both readings, or
+/// MotorDriverState::status_bits, such as "battery fault or motor driver, motor 2 silent"; empty
+/// where there are none.
+std::string DescribeErrors(uint16_t error_bits);
+std::string DescribeMotorDriver(const MotorDriverState& state);
 
 }  // namespace arfm_vo

@@ -30,7 +30,8 @@ struct ChassisTraffic {
   long num_unreadable = 0;  ///< frames that the protocol does not have, or too short
   long num_error_frames = 0;
   long num_bus_off = 0;
-  long num_foreign_commands = 0;  ///< motion commands of another driver on the same bus
+  long num_foreign_commands = 0;    ///< of another driver on the same bus
+  uint32_t foreign_command_id = 0;  ///< of the last of them
 };
 
 /// Talks to the chassis: commands out, feedback in, and what becomes of the bus meanwhile.
@@ -38,8 +39,9 @@ class ChassisLink {
  public:
   explicit ChassisLink(std::unique_ptr<CanBus> bus);
 
-  /// The identifiers that the chassis speaks with, and that of motion commands, for OpenCanBus.
-  static CanFilters Filters() { return {{0x200, 0x600}, {0x111, 0x7FF}}; }
+  /// The identifiers that the chassis speaks with, and those of commands, for OpenCanBus. What goes
+  /// out by the same end does not come back.
+  static CanFilters Filters();
 
   /// What came since the last call, oldest first. Reads a bounded number of frames, so that a flood
   /// cannot hold the caller up.

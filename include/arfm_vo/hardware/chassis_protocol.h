@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -15,12 +16,15 @@ enum class ControlMode : uint8_t { kStandby = 0, kCan = 1, kUart = 2, kRemote = 
 enum class VehicleState : uint8_t { kOk = 0, kEmergencyStop = 1, kFault = 2 };
 enum class ChassisSide : uint8_t { kLeft = 0, kRight = 1 };
 
-/// Bits of SystemState::error_bits.
-constexpr uint16_t kUnderVoltageFault = 0x0100;
-constexpr uint16_t kUnderVoltageWarning = 0x0200;
-constexpr uint16_t kRemoteLost = 0x0400;
+/// Bits of SystemState::error_bits, by ugv_sdk (low byte) and a manual of the family (high byte).
+constexpr uint16_t kBatteryWarning = 0x0202, kRemoteLost = 0x0404;
+/// All other bits are faults.
+constexpr uint16_t kErrorBitsNoFault = 0x0002 | kRemoteLost;
 
 // To the chassis.
+
+/// What commands the chassis: motion (0x111), brake, control mode.
+constexpr std::array<uint32_t, 3> kCommandIds = {0x111, 0x131, 0x421};
 
 /// 0x111: the wanted motion, in steps of 1 mm/s and 1 mrad/s. To be repeated every 20 ms: after 500
 /// ms without it the chassis stops.
@@ -64,8 +68,8 @@ struct MotorState {
   double current_a = 0;
   int32_t pulses = 0;
 };
-/// Bits of MotorDriverState::status_bits that are faults: supply low, motor or driver too hot,
-/// current too high, sensor, driver. Bit 6 says that the driver is enabled.
+/// Bits of MotorDriverState::status_bits that are faults: supply low, motor too hot, overload,
+/// driver too hot, sensor, driver. Bit 6 says that the driver is enabled.
 constexpr uint8_t kMotorFaultBits = 0x3F;
 
 /// 0x261 (left), 0x262 (right).

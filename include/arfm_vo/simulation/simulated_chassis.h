@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "arfm_vo/driving/chassis_watch.h"
 #include "arfm_vo/hardware/can_bus.h"
 #include "arfm_vo/hardware/chassis_protocol.h"
 #include "arfm_vo/simulation/tracked_plant.h"
@@ -29,7 +30,8 @@ class SimulatedChassis {
   void HandBack();
   /// Off: no feedback, no motion, and standby afterwards.
   void SetPower(bool is_on);
-  void SetSilentOdometer(bool is_silent) { is_odometer_silent_ = is_silent; }
+  /// What is silent while the rest goes on; nothing: all is told again.
+  void Silence(std::optional<FeedbackKind> kind) { silent_ = kind; }
   /// Goes on with the feedback of now, whatever happens.
   void SetFrozenFeedback(bool is_frozen) { is_frozen_ = is_frozen; }
   /// Moves so whatever is commanded; nothing: obeys again.
@@ -59,9 +61,10 @@ class SimulatedChassis {
   std::unique_ptr<CanBus> bus_;
   TrackedPlant plant_;
   ControlMode mode_ = ControlMode::kStandby;
-  bool is_on_ = true, is_emergency_stop_ = false, has_fault_ = false, is_odometer_silent_ = false;
+  bool is_on_ = true, is_emergency_stop_ = false, has_fault_ = false;
   bool is_frozen_ = false, is_left_jammed_ = false, is_remote_lost_ = false, is_lamp_on_ = false;
   std::optional<PlanarMotion> runaway_;
+  std::optional<FeedbackKind> silent_;
   TrackSpeeds told_speeds_;
   TrackWays told_ways_;
   uint8_t motor_status_bits_ = 0x40;  // the driver is enabled

@@ -20,7 +20,8 @@ const char* ToString(ControlMode mode) {
 }
 
 int LevelOf(const PilotStatus& status) {
-  if (status.state == DriveState::kBlocked) return Diagnostics::ERROR;
+  if (status.state == DriveState::kBlocked || status.reason == StopReason::kMotionAtRest)
+    return Diagnostics::ERROR;
   const bool is_well = status.state == DriveState::kDriving || status.state == DriveState::kReady;
   return is_well ? Diagnostics::OK : Diagnostics::WARN;
 }
@@ -41,6 +42,8 @@ DriveStatus ToMessage(const PilotStatus& status) {
   message.heading_error_rad = status.heading_error_rad;
   message.forward_mps = status.motion.forward_mps;
   message.turn_radps = status.motion.turn_radps;
+  message.operator_round_trip_s =
+      status.operator_round_trip_s.value_or(std::numeric_limits<double>::quiet_NaN());
   return message;
 }
 
@@ -158,10 +161,19 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
     diagnostics.add("mode", ToString(system->mode));
     diagnostics.add("battery_v", system->battery_v);
     diagnostics.addf("error_bits", "0x%04X", system->error_bits);
-    if (system->error_bits & kUnderVoltageWarning)
+    diagnostics.add("errors", DescribeErrors(system->error_bits));
+    if (system->error_bits & kBatteryWarning)
       diagnostics.mergeSummary(Diagnostics::WARN, "battery is low");
     if (system->error_bits & kRemoteLost)
       diagnostics.mergeSummary(Diagnostics::WARN, "remote control is lost");
+  }
+  for (const auto& driver : link.Readings().drivers) {
+    if (!driver) continue;
+    const std::string side = driver->side == ChassisSide::kLeft ? "left " : "right ";
+    diagnostics.add(side + "motor, degrees Celsius", driver->motor_celsius);
+    diagnostics.add(side + "motor driver, degrees Celsius", driver->driver_celsius);
+    if (const std::string faults = DescribeMotorDriver(*driver); !faults.empty())
+      diagnostics.mergeSummary(Diagnostics::ERROR, "motor, " + faults);
   }
   const ChassisTraffic& traffic = link.Traffic();
   diagnostics.add("frames sent", traffic.num_sent);
@@ -169,7 +181,7 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
   diagnostics.add("frames dropped, queue full", traffic.num_send_busy);
   diagnostics.add("frames dropped, bus down", traffic.num_send_down);
   diagnostics.add("frames unreadable", traffic.num_unreadable);
-  diagnostics.add("motion commands of other drivers", traffic.num_foreign_commands);
+  diagnostics.add("commands of other drivers", traffic.num_foreign_commands);
   diagnostics.add("error frames", traffic.num_error_frames);
   diagnostics.add("bus-off events", traffic.num_bus_off);
 }

@@ -1,6 +1,7 @@
 #include "arfm_vo/ros/rover/chassis_node.h"
 
 #include <std_srvs/Trigger.h>
+#include <unistd.h>
 
 #include <utility>
 
@@ -12,20 +13,19 @@ namespace {
 
 constexpr double kTick_s = 0.02;
 
+std::string HostName() {
+  char name[65] = {};
+  return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
+}
+
 ChassisNodeOptions ReadOptions(const ros::NodeHandle& private_node) {
-  const auto options = ReadParameters<ChassisNodeOptions>(private_node);
+  auto options = ReadParameters<ChassisNodeOptions>(private_node);
+  std::string& rover = options.pilot.operator_watch.rover;
+  if (rover.empty()) rover = HostName();
   Require(!ros::Time::isSimTime() || IsSimulatedBus(options.can),
           "use_sim_time is set, but can '" + options.can +
               "' is a real bus: simulated time is for udp:.. and vcan.. only");
   return options;
-}
-
-/// A latched message says nothing of now.
-template <class Event>
-bool IsLatched(const Event& event) {
-  const auto& header = event.getConnectionHeader();
-  const auto latching = header.find("latching");
-  return latching != header.end() && latching->second == "1";
 }
 
 }  // namespace
@@ -44,19 +44,21 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
   WaitForClock();
   Listen(node);
+  challenge_ = node.advertise<OperatorChallenge>("operator_challenge", 1);
   Serve(private_node);
   SetPace(node);
 }
 
 void ChassisNode::Listen(ros::NodeHandle& node) {
   const auto subscribe = [&](const char* topic, auto callback) {
-    subscribers_.push_back(node.subscribe(topic, 10, callback, this));
+    subscribers_.push_back(
+        node.subscribe(topic, 10, callback, this, ros::TransportHints().tcpNoDelay()));
   };
   subscribe("goal", &ChassisNode::TakeGoal);
   subscribe("waypoints", &ChassisNode::TakePath);
   subscribe("cmd_vel", &ChassisNode::TakeVelocity);
   subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);
-  subscribe("operator_heartbeat", &ChassisNode::TakeHeartbeat);
+  subscribe("operator_answer", &ChassisNode::TakeAnswer);
   subscribe("odom", &ChassisNode::TakeOdometry);
   subscribe("status", &ChassisNode::TakeOdometryStatus);
 }
@@ -112,10 +114,23 @@ void ChassisNode::Tick() {
   const double now_s = clock_.Now();
   if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
   last_tick_s_ = now_s;
+  // Not by driving time: simulated time may stand still, or run slowly.
+  ChallengeOperator(ros::SteadyTime::now().toSec());
   Look(now_s);
   driver_.Tick(now_s);
   publisher_.Publish(now_s, driver_);
   updater_.update();
+}
+
+void ChassisNode::ChallengeOperator(double steady_s) {
+  const auto challenge =
+      driver_.pilot().operator_watch().Advance(steady_s, uint64_t{random_()} << 32 | random_());
+  if (!challenge) return;
+  OperatorChallenge message;
+  message.rover = challenge->rover;
+  message.sequence = challenge->sequence;
+  message.number = challenge->number;
+  challenge_.publish(message);
 }
 
 void ChassisNode::Look(double now_s) {
@@ -132,6 +147,15 @@ void ChassisNode::Look(double now_s) {
 
 void ChassisNode::Report(Diagnostics& diagnostics) const {
   FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
+  const OperatorWatch& operator_watch = driver_.pilot().operator_watch();
+  diagnostics.add("rover", options_.pilot.operator_watch.rover);
+  if (const auto round_trip_s = operator_watch.RoundTrip())
+    diagnostics.add("operator's round trip, s", *round_trip_s);
+  const auto& [num_taken, num_late, num_repeated, num_foreign] = operator_watch.Answers();
+  diagnostics.add("operator's answers", num_taken);
+  diagnostics.add("operator's answers refused, late", num_late);
+  diagnostics.add("operator's answers refused, repeated", num_repeated);
+  diagnostics.add("operator's answers refused, foreign", num_foreign);
   diagnostics.add("tf refused, from the future", transforms_.num_from_future());
   diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }
@@ -172,8 +196,9 @@ void ChassisNode::TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool
   Tick();
 }
 
-void ChassisNode::TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event) {
-  if (!IsLatched(event)) driver_.pilot().ObserveOperator(clock_.Now());
+void ChassisNode::TakeAnswer(const OperatorChallenge& answer) {
+  driver_.pilot().operator_watch().ObserveAnswer(ros::SteadyTime::now().toSec(),
+                                                 {answer.rover, answer.sequence, answer.number});
 }
 
 void ChassisNode::TakeOdometry(const nav_msgs::Odometry& odometry) {

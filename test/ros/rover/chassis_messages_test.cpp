@@ -85,7 +85,7 @@ TEST_F(ChassisMessagesTest, ABusThatIsOffIsAnErrorWhateverThePilotDoes) {
 
 TEST_F(ChassisMessagesTest, ALowBatteryIsAWarning) {
   SystemState system;
-  system.error_bits = kUnderVoltageWarning;
+  system.error_bits = kBatteryWarning;
   Say(system);
   EXPECT_EQ(Diagnose(DriveState::kDriving, StopReason::kNone).level, DiagnosticStatus::WARN);
 }

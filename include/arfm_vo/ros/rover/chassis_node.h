@@ -1,12 +1,13 @@
 #pragma once
 
+#include <arfm_vo/OperatorChallenge.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
-#include <std_msgs/Empty.h>
 
 #include <functional>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class ChassisNode {
   Reply ClearErrors();
   void SetPace(ros::NodeHandle& node);
   void Tick();
+  void ChallengeOperator(double steady_s);
   void Look(double now_s);
   void Report(Diagnostics& diagnostics) const;
 
@@ -75,7 +77,7 @@ class ChassisNode {
   void TakeRoute(const std_msgs::Header& header, const std::function<Route()>& read);
   void TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);
   void TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event);
-  void TakeHeartbeat(const ros::MessageEvent<const std_msgs::Empty>& event);
+  void TakeAnswer(const OperatorChallenge& answer);
   void TakeOdometry(const nav_msgs::Odometry& odometry);
   void TakeOdometryStatus(const ros::MessageEvent<const OdometryStatus>& event);
 
@@ -94,6 +96,8 @@ class ChassisNode {
   ros::SteadyTime clock_moved_;  // when driving time last went on
   double last_tick_s_ = 0;
   long num_odometry_refused_ = 0;  // from the future
+  std::random_device random_;
+  ros::Publisher challenge_;
   diagnostic_updater::Updater updater_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
