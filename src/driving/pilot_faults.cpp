@@ -37,7 +37,7 @@ std::optional<Fault> Pilot::FindBlockingFault(double now_s) const {
 }
 
 std::optional<Fault> Pilot::FindDrivingFault() const {
-  if (slip_.IsExcessive()) return Fault{StopReason::kSlip, ""};
+  if (const auto excess = slip_.FindExcess()) return Fault{StopReason::kSlip, *excess};
   if (progress_.IsStalled()) return Fault{StopReason::kNoProgress, ""};
   if (predicted_ && !goal_limits_.IsInsideFence(predicted_->x_m, predicted_->y_m))
     return Fault{StopReason::kOutsideFence, ""};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/format.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -22,6 +24,10 @@ void SlipOptions::Check() const {
   Require(max_turn_slip_ratio > 0 && max_turn_slip_ratio <= 1,
           "slip.max_turn_slip_ratio must be in (0, 1]");
   Require(max_leap_m > 0 && max_leap_m <= 100, "slip.max_leap_m must be in (0, 100]");
+  Require(level_window_m >= 0.05 && level_window_m <= 100,
+          "slip.level_window_m must be in 0.05..100");
+  Require(max_level_ratio > 0 && max_level_ratio <= 1, "slip.max_level_ratio must be in (0, 1]");
+  Require(level_deg >= 0 && level_deg <= 60, "slip.level_deg must be in 0..60");
 }
 
 SlipEstimator::SlipEstimator(const SlipOptions& options, const TrackKinematics& kinematics)
@@ -31,11 +37,13 @@ SlipEstimator::SlipEstimator(const SlipOptions& options, const TrackKinematics& 
 
 void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
   Sample sample{odom_from_base, ways};
+  if (samples_.empty()) level_since_m_ = 0;
   if (!samples_.empty()) {
     const Sample& last = samples_.back();
     const Rigid3 last_from_base = last.odom_from_base.Inverse() * odom_from_base;
     if (last_from_base.translation.norm() > options_.max_leap_m) {
       samples_.clear();
+      level_since_m_ = 0;
     } else {
       sample.sight_forward_m = last.sight_forward_m + last_from_base.translation.x();
       sample.sight_turn_rad = last.sight_turn_rad + LogSO3(last_from_base.rotation).z();
@@ -44,16 +52,25 @@ void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
                                                     2;
     }
   }
+  const double up = (odom_from_base.rotation * Eigen::Vector3d::UnitZ()).z();
+  if (up < std::cos(options_.level_deg * M_PI / 180)) level_since_m_ = sample.track_path_m;
+  const bool rests = samples_.size() > 1 && sample.track_path_m == samples_.back().track_path_m;
+  if (rests) samples_.pop_back();
   samples_.push_back(sample);
-  while (samples_.size() > 2 && sample.track_path_m - samples_[1].track_path_m >= options_.window_m)
+  const double kept_m = std::max(options_.window_m, options_.level_window_m);
+  while (samples_.size() > 2 && sample.track_path_m - samples_[1].track_path_m >= kept_m)
     samples_.pop_front();
 }
 
-std::optional<Slip> SlipEstimator::Estimate() const {
+std::optional<Slip> SlipEstimator::Over(double window_m) const {
   if (samples_.empty()) return std::nullopt;
-  const Sample &first = samples_.front(), &last = samples_.back();
+  const Sample& last = samples_.back();
+  const auto begin = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& sample) {
+    return last.track_path_m - sample.track_path_m >= window_m;
+  });
+  if (begin == samples_.rend()) return std::nullopt;
+  const Sample& first = *begin;
   const double path_m = last.track_path_m - first.track_path_m;
-  if (path_m < options_.window_m) return std::nullopt;
   const TrackSpeeds ways{last.ways.left_m - first.ways.left_m,
                          last.ways.right_m - first.ways.right_m};
   const PlanarMotion track = kinematics_.MotionOf(ways);
@@ -69,11 +86,21 @@ std::optional<Slip> SlipEstimator::Estimate() const {
   return slip;
 }
 
-bool SlipEstimator::IsExcessive() const {
+std::optional<std::string> SlipEstimator::FindExcess() const {
+  const auto text = [](const Slip& slip) {
+    return Format("(tracks %.2f m and %.0f deg, sight %.2f m and %.0f deg)", slip.track_forward_m,
+                  slip.track_turn_rad * 180 / M_PI, slip.sight_forward_m,
+                  slip.sight_turn_rad * 180 / M_PI);
+  };
   const std::optional<Slip> slip = Estimate();
-  if (!slip) return false;
-  return std::abs(slip->forward_ratio.value_or(0)) > options_.max_slip_ratio ||
-         std::abs(slip->turn_ratio.value_or(0)) > options_.max_turn_slip_ratio;
+  if (slip && (std::abs(slip->forward_ratio.value_or(0)) > options_.max_slip_ratio ||
+               std::abs(slip->turn_ratio.value_or(0)) > options_.max_turn_slip_ratio))
+    return text(*slip);
+  const std::optional<Slip> level = Over(options_.level_window_m);
+  if (!level || samples_.back().track_path_m - level_since_m_ < options_.level_window_m)
+    return std::nullopt;
+  if (std::abs(level->forward_ratio.value_or(0)) <= options_.max_level_ratio) return std::nullopt;
+  return text(*level);
 }
 
 }  // namespace arfm_vo

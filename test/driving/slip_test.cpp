@@ -55,6 +55,11 @@ TEST(SlipEstimator, WrongOptionsAreRefused) {
   SlipOptions options;
   options.window_m = 0;
   EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
+  for (double SlipOptions::*field : {&SlipOptions::level_window_m, &SlipOptions::max_level_ratio}) {
+    options = {};
+    options.*field = 0;
+    EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
+  }
 }
 
 TEST(SlipEstimator, NoSlipIsZero) {
@@ -71,26 +76,47 @@ TEST(SlipEstimator, TenPercentSlipIsATenth) {
 
 TEST(SlipEstimator, RunningTracksUnderAStandingRoverAreOne) {
   EXPECT_NEAR(*Driven(1, 0).Estimate()->forward_ratio, 1, 1e-9);
-  EXPECT_TRUE(Driven(1, 0).IsExcessive());
-  EXPECT_TRUE(Driven(-1, 0).IsExcessive());
+  EXPECT_TRUE(Driven(1, 0).FindExcess());
+  EXPECT_TRUE(Driven(-1, 0).FindExcess());
 }
 
 TEST(SlipEstimator, SlidingIsNegative) {
   EXPECT_NEAR(*Driven(1, 2).Estimate()->forward_ratio, -0.5, 1e-9);
-  EXPECT_TRUE(Driven(1, 2.5).IsExcessive());
+  EXPECT_TRUE(Driven(1, 2.5).FindExcess());
 }
 
 TEST(SlipEstimator, TheLimitIsOnTheRatio) {
-  EXPECT_FALSE(Driven(1, 0.55).IsExcessive());
-  EXPECT_TRUE(Driven(1, 0.45).IsExcessive());
+  EXPECT_FALSE(Driven(1, 0.55).FindExcess());
+  EXPECT_TRUE(Driven(1, 0.45).FindExcess());
+}
+
+/// A baseline that is 20 % too short looks like that much slip, wherever the rover drives.
+TEST(SlipEstimator, OverLevelGroundLessSlipIsAllowed) {
+  EXPECT_FALSE(Driven(6, 0.82, 600).FindExcess());
+  EXPECT_FALSE(Driven(4.9, 0.78, 490).FindExcess());
+  EXPECT_EQ(*Driven(6, 0.78, 600).FindExcess(),
+            "(tracks 5.00 m and 0 deg, sight 3.90 m and 0 deg)");
+  EXPECT_TRUE(Driven(6, 1.28, 600).FindExcess());
+}
+
+TEST(SlipEstimator, OnASlopeAndFiveMetresAfterItTheTracksMaySlipMore) {
+  SlipEstimator slip({}, kKinematics);
+  const Eigen::Quaterniond uphill = ExpSO3({0, -0.15, 0});
+  for (int i = 0; i < 1200; ++i) {
+    const double way_m = 0.01 * i, x_m = 0.75 * way_m;
+    const bool is_slope = i < 690;
+    slip.Add({is_slope ? uphill : Eigen::Quaterniond::Identity(), Eigen::Vector3d(x_m, 0, 0)},
+             {way_m, way_m});
+    EXPECT_EQ(slip.FindExcess().has_value(), i >= 690 + 499) << i;
+  }
 }
 
 TEST(SlipEstimator, TurningIsJudgedByItself) {
   const auto slip = Turned(2, 0.75).Estimate();
   EXPECT_FALSE(slip->forward_ratio);
   EXPECT_NEAR(*slip->turn_ratio, 0.25, 1e-9);
-  EXPECT_TRUE(Turned(2, 0.2).IsExcessive());
-  EXPECT_FALSE(Turned(-2, 0.5).IsExcessive());
+  EXPECT_TRUE(Turned(2, 0.2).FindExcess());
+  EXPECT_FALSE(Turned(-2, 0.5).FindExcess());
 }
 
 TEST(SlipEstimator, OnlyTheLastWindowCounts) {

@@ -186,6 +186,24 @@ TEST_F(WrongPoseTest, APoseThatCreepsAwayWhileTheTracksStandIsSliding) {
   EXPECT_EQ(drive_.pilot().Status().reason, StopReason::kSliding);
 }
 
+/// A baseline that is too short in the calibration, or tracks that slip where they should not.
+TEST_F(WrongPoseTest, SightThatIsAQuarterShorterThanTheTracksStopsAfterFiveMetres) {
+  for (const double slip : {0.15, 0.25}) {
+    SimulatedDrive drive;
+    drive.plant().SetForwardSlip(slip);
+    drive.Run(0.5);
+    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
+    ASSERT_TRUE(drive.pilot().SetRoute({{8, 0, {}}}).is_accepted);
+    const auto is_blocked = [&] { return drive.pilot().Status().state == DriveState::kBlocked; };
+    const bool is_too_short = slip > SlipOptions().max_level_ratio;
+    EXPECT_EQ(drive.RunUntil(150, is_blocked), is_too_short);
+    if (!is_too_short) continue;
+    EXPECT_EQ(drive.pilot().Status().reason, StopReason::kSlip);
+    EXPECT_NE(drive.pilot().Status().detail.find("tracks 5.0"), std::string::npos);
+    EXPECT_LT(drive.plant().Pose().x_m, 5.2 * (1 - slip));
+  }
+}
+
 TEST_F(WrongPoseTest, ATiltedRoverStops) {
   DriveTo({6, 0, {}}, 5);
   drive_.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
@@ -14,6 +15,11 @@ struct SlipOptions {
   double max_slip_ratio = 0.5;  ///< of the way ahead; above it the rover stops
   double max_turn_slip_ratio = 0.7;  ///< the same of the turn
   double max_leap_m = 0.5;           ///< a leap of the visual pose beyond this begins a new window
+  /// Over a longer way of level ground the tracks slip less: sight that still tells another length
+  /// is of a wrong baseline, or of something else than the ground.
+  double level_window_m = 5;
+  double max_level_ratio = 0.2;  ///< above it the rover stops
+  double level_deg = 5;          ///< ground that tilts the rover more is not level
 
   void Check() const;
   template <class Visitor>
@@ -22,6 +28,9 @@ struct SlipOptions {
     visit("max_slip_ratio", max_slip_ratio);
     visit("max_turn_slip_ratio", max_turn_slip_ratio);
     visit("max_leap_m", max_leap_m);
+    visit("level_window_m", level_window_m);
+    visit("max_level_ratio", max_level_ratio);
+    visit("level_deg", level_deg);
   }
 };
 
@@ -45,11 +54,12 @@ class SlipEstimator {
   void Add(const Rigid3& odom_from_base, const TrackWays& ways);
 
   /// Nothing until the first window is full.
-  std::optional<Slip> Estimate() const;
+  std::optional<Slip> Estimate() const { return Over(options_.window_m); }
 
-  bool IsExcessive() const;
+  /// What tracks and sight disagree about, in words, where it is more than slip may be.
+  std::optional<std::string> FindExcess() const;
 
-  /// Forgets the window, as after a stop.
+  /// Forgets the windows, as after a stop.
   void Reset() { samples_.clear(); }
 
  private:
@@ -59,10 +69,13 @@ class SlipEstimator {
     double track_path_m = 0;  // sums since the last reset
     double sight_forward_m = 0, sight_turn_rad = 0;
   };
+  /// The last `window_m` of the tracks' way; nothing where so much has not been driven.
+  std::optional<Slip> Over(double window_m) const;
 
   SlipOptions options_;
   TrackKinematics kinematics_;
-  std::deque<Sample> samples_;
+  std::deque<Sample> samples_;  // the last level_window_m, or window_m where that is more
+  double level_since_m_ = 0;    // of Sample::track_path_m: level ground from here on
 };
 
 }  // namespace arfm_vo
