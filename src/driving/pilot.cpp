@@ -55,6 +55,7 @@ Reply Pilot::Start(double now_s) {
   detail_.clear();
   has_started_ = true;
   armed_s_ = now_s;
+  pose_.AgreeOnMap();
   slip_.Reset();
   progress_.Renew();
   stop_look_go_.Reset();
@@ -90,6 +91,7 @@ Reply Pilot::SetRoute(Route route) {
   GoalController controller(options_.goal, std::move(route));
   EndRoute(GoalOutcome::kReplaced);
   route_ = std::move(controller);
+  pose_.AgreeOnMap();
   velocity_s_ = kNeverCommanded_s;
   commanded_s_ = last_tick_s_;
   progress_.Renew();

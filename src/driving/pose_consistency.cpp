@@ -77,10 +77,16 @@ PoseDifference PoseConsistency::Compare(const TrackedSighting& earlier,
   return difference;
 }
 
-PoseDifference PoseConsistency::MapStep(const RoverPose& before, const RoverPose& after) const {
+PoseDifference PoseConsistency::MapStep(const RoverPose& before, const RoverPose& after,
+                                        const TrackedSighting& agreed,
+                                        const TrackedSighting& now) const {
   PoseDifference difference = DifferenceOf(before, after);
-  difference.max_distance_m = difference.max_sideways_m = options_.max_map_step_m;
-  difference.max_turn_rad = options_.max_map_turn_rad;
+  difference.max_distance_m = difference.max_sideways_m =
+      options_.max_map_step_m + Allowance(agreed.position_sigma_m, now.position_sigma_m,
+                                          options_.num_sigmas, options_.max_uncertain_m);
+  difference.max_turn_rad =
+      options_.max_map_turn_rad + Allowance(agreed.heading_sigma_rad, now.heading_sigma_rad,
+                                            options_.num_sigmas, options_.max_uncertain_rad);
   return difference;
 }
 

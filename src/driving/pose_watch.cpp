@@ -97,13 +97,22 @@ std::optional<Fault> PoseWatch::CompareWithTracks(const TrackedSighting& sightin
 }
 
 std::optional<Fault> PoseWatch::TakeMap(const Rigid3& map_from_odom) {
-  const Rigid3 before = map_from_odom_;
   map_from_odom_ = map_from_odom;
-  if (sightings_.empty()) return std::nullopt;
-  const RoverPose& pose = sightings_.back().pose;
-  const PoseDifference step = consistency_.MapStep(InMap(before, pose), InMap(map_from_odom, pose));
+  if (sightings_.empty()) {
+    AgreeOnMap();
+    return std::nullopt;
+  }
+  const TrackedSighting& now = sightings_.back();
+  const PoseDifference step = consistency_.MapStep(InMap(agreed_map_from_odom_, now.pose),
+                                                   InMap(map_from_odom, now.pose), agreed_, now);
   if (!step.IsExcessive()) return std::nullopt;
+  AgreeOnMap();
   return Fault{StopReason::kMapStep, "by " + step.ToString()};
+}
+
+void PoseWatch::AgreeOnMap() {
+  agreed_map_from_odom_ = map_from_odom_;
+  agreed_ = sightings_.empty() ? TrackedSighting{} : sightings_.back();
 }
 
 void PoseWatch::Keep(const TrackedSighting& sighting) {

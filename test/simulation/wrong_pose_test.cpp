@@ -138,6 +138,31 @@ TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
 }
 
+/// Each step is small: what counts is how far the map has gone since the goal was taken.
+TEST_F(WrongPoseTest, AMapThatCreepsAwayAsksToo) {
+  DriveTo({6, 0, {}}, 5);
+  const auto is_blocked = [&] { return drive_.pilot().Status().state == DriveState::kBlocked; };
+  double off_m = 0;
+  for (; off_m < 1 && !is_blocked(); off_m += 0.003) {
+    drive_.map_from_odom_ = WrongPlaceAt(0, off_m);
+    drive_.Run(0.1);
+  }
+  EXPECT_NEAR(off_m, PoseConsistencyOptions().max_map_step_m, 0.02);
+  EXPECT_EQ(drive_.pilot().Status().reason, StopReason::kMapStep);
+  ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
+  drive_.Run(1);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+}
+
+TEST_F(WrongPoseTest, AMapThatCorrectsWhatTheOdometryHasBecomeUnsureOfIsDrivenOn) {
+  DriveTo({6, 0, {}}, 5);
+  drive_.sigma_m_ = 0.1;
+  drive_.Run(1);
+  drive_.map_from_odom_ = WrongPlaceAt(0, 0.4);
+  drive_.Run(2);
+  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kDriving);
+}
+
 TEST_F(WrongPoseTest, ASmallTurnOfTheMapIsDrivenOnAndALargeOneAsks) {
   DriveTo({6, 0, {}}, 5);
   drive_.map_from_odom_ = WrongPlaceAt(0, 0, 0.08);

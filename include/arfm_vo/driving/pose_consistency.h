@@ -17,7 +17,7 @@ struct PoseConsistencyOptions {
   double num_sigmas = 3;            ///< of the pose's covariance that is added
   double max_uncertain_m = 0.3;     ///< what covariance may add at most
   double max_uncertain_rad = 0.3;   ///< the same of the heading
-  double max_map_step_m = 0.25;     ///< of map -> odom at the rover, at once
+  double max_map_step_m = 0.25;     ///< of map -> odom at the rover, since a goal or a start
   double max_map_turn_rad = 0.1;    ///< the same of the heading
   /// Sightings so far apart in time are compared too: the rover slides where they disagree.
   double slide_window_s = 3;
@@ -73,8 +73,10 @@ class PoseConsistency {
   /// `later` against its prediction from `earlier`, which is of the same epoch.
   PoseDifference Compare(const TrackedSighting& earlier, const TrackedSighting& later) const;
 
-  /// The step of the rover's place in the map where map -> odom changes.
-  PoseDifference MapStep(const RoverPose& before, const RoverPose& after) const;
+  /// The step of the rover's place in the map where map -> odom changes, `before` to `after`, and
+  /// the odometry is as sure as at `agreed` and `now`.
+  PoseDifference MapStep(const RoverPose& before, const RoverPose& after,
+                         const TrackedSighting& agreed, const TrackedSighting& now) const;
 
   const PoseConsistencyOptions& options() const { return options_; }
 

@@ -67,8 +67,12 @@ class PoseWatch {
   bool ObserveEpoch(uint32_t epoch, double taken_s);
 
   /// Takes the newest sighting. Returns how it contradicts the tracks (kPoseContradiction,
-  /// kSliding) or the map of before (kMapStep); it is then what the next is compared with.
+  /// kSliding) or the map that was agreed on (kMapStep); it is then what the next is compared with.
   std::optional<Fault> Judge(double now_s, const TrackHistory& tracks);
+
+  /// Somebody plans by the map as it is told now: map -> odom may change from here on by a step and
+  /// what the odometry has become less sure of, however slowly.
+  void AgreeOnMap();
 
   /// What is wrong with the pose; nothing where the rover may drive by it.
   std::optional<StopReason> FindFault(double now_s) const;
@@ -102,7 +106,8 @@ class PoseWatch {
   std::optional<uint32_t> epoch_;
   std::optional<double> epoch_start_s_;    // where the epoch has changed
   std::deque<TrackedSighting> sightings_;  // judged, of the last slide_window_s
-  Rigid3 map_from_odom_, last_odom_from_base_;
+  Rigid3 map_from_odom_, last_odom_from_base_, agreed_map_from_odom_;
+  TrackedSighting agreed_;
   double tilt_rad_ = 0;
 };
 
