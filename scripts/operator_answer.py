@@ -63,7 +63,7 @@ def relay():
         try:
             print("stop:", rospy.ServiceProxy("chassis_node/stop", Trigger)().message, flush=True)
         except rospy.ServiceException as error:
-            print("stop: no answer: %s" % error, flush=True)
+            return print("stop: no answer: %s; without answers to its challenges the rover stops too" % error, flush=True)
 
 
 def main():
