@@ -41,14 +41,13 @@ class StereoSyncNode {
       : options_(ReadParameters<StereoSyncOptions>(private_node)),
         node_(node),
         private_node_(private_node),
-        topics_(ResolveStereoTopics(node)),
         pairing_(options_.max_skew_s) {
     left_out_ = Advertise<sensor_msgs::Image>("left/image_rect");
     right_out_ = Advertise<sensor_msgs::Image>("right/image_rect");
     left_info_out_ = Advertise<sensor_msgs::CameraInfo>("left/camera_info");
     right_info_out_ = Advertise<sensor_msgs::CameraInfo>("right/camera_info");
     timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
-      if (input_) watch_.Tell(input_->counts, topics_);
+      if (input_) input_->TellObstacle();
     });
   }
   ~StereoSyncNode() {
@@ -95,7 +94,6 @@ class StereoSyncNode {
     input_.reset();
     pairing_ = StampPairing<Image>(options_.max_skew_s);
     left_stamp_ = right_stamp_ = {};
-    watch_.Reset();
   }
 
   void TakeInfo(const Info& info, Info& newest) {
@@ -129,10 +127,8 @@ class StereoSyncNode {
 
   const StereoSyncOptions options_;
   ros::NodeHandle node_, private_node_;
-  const StereoTopics topics_;
   StampPairing<Image> pairing_;
   uint32_t num_pairs_ = 0;
-  StereoInputWatch watch_;
   ros::Time left_stamp_, right_stamp_;
   Info newest_left_info_, newest_right_info_;
   ros::Publisher left_out_, right_out_, left_info_out_, right_info_out_;

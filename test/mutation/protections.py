@@ -148,7 +148,7 @@ def nodes():
         Protection("an operator's time is the wall's", node, "ChallengeOperator(ros::SteadyTime::now().toSec());", "ChallengeOperator(now_s);",
                    ("clock_stall",)),
         Protection("errors are cleared at rest only", node, 'if (!is_at_rest) return {false, "not sent: the rover moves"};', "", NODE),
-        Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(header, ros::Time::now());", "", NODE),
+        Protection("a node asks how old a goal is", node, "goal_reader_.RequireFresh(goal.header, ros::Time::now());", "", NODE),
         Protection("an old goal, as a latched one, is refused", "src/ros/rover/chassis_inputs.cpp", "age_s <= max_age_s", "true", ros),
         Protection("a goal from the future is refused", "src/ros/rover/chassis_inputs.cpp", "age_s >= -kMaxFromFuture_s", "true", ros),
         Protection("a tf from the future is refused", "src/ros/messages/transforms.cpp",

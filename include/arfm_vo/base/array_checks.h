@@ -2,11 +2,22 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
+
+/// What `read` returns. What it refuses, by a field's name, is told with the `message` before it.
+template <class Read>
+auto ReadMessage(const std::string& message, const Read& read) {
+  try {
+    return read();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(message + ": " + error.what());
+  }
+}
 
 /// Throws std::invalid_argument "FIELD holds A values, B expected" unless sizes agree.
 template <class Value>
@@ -16,8 +27,8 @@ void RequireSize(const std::vector<Value>& field, size_t expected, const std::st
 }
 
 /// Throws std::invalid_argument "FIELD[INDEX] FLAW" unless it is so. The text is made only then.
-inline void RequireElement(bool is_so, const std::string& field, size_t index, const char* flaw) {
-  if (!is_so) Require(false, field + "[" + std::to_string(index) + "] " + flaw);
+inline void RequireElement(bool is_so, std::string_view field, size_t index, const char* flaw) {
+  if (!is_so) Require(false, std::string(field) + "[" + std::to_string(index) + "] " + flaw);
 }
 
 /// Throws std::invalid_argument naming the element unless all values are finite.
@@ -43,7 +54,7 @@ void RequireAscending(const std::vector<Id>& field, const std::string& name) {
 
 /// Throws std::invalid_argument naming the element unless the pixel (u, v) lies in an image of that
 /// size, or within a pixel of its border.
-inline void RequireInImage(double u, double v, int width, int height, const std::string& field,
+inline void RequireInImage(double u, double v, int width, int height, std::string_view field,
                            size_t index) {
   RequireElement(u >= -1 && u <= width && v >= -1 && v <= height, field, index,
                  "lies outside the image");

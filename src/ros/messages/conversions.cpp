@@ -34,24 +34,21 @@ void ExportKeypoints(const Features& features, StereoFrameStamped& message) {
 }
 
 Features ImportFeatures(const StereoFrameStamped& message) {
-  const std::string name = "StereoFrameStamped: ";
   const size_t size = message.keypoint_x.size();
-  RequireNumbers(message.keypoint_x, size, name + "keypoint_x");
-  RequireNumbers(message.keypoint_y, size, name + "keypoint_y");
-  RequireNumbers(message.keypoint_scale, size, name + "keypoint_scale");
-  RequireNumbers(message.keypoint_angle, size, name + "keypoint_angle");
-  RequireNumbers(message.keypoint_response, size, name + "keypoint_response");
-  RequireSize(message.keypoint_laplacian_sign, size, name + "keypoint_laplacian_sign");
-  RequireNumbers(message.descriptors, size * kDescriptorLength, name + "descriptors");
-  const std::string keypoint_x = name + "keypoint_x", keypoint_y = name + "keypoint_y",
-                    keypoint_scale = name + "keypoint_scale";
+  RequireNumbers(message.keypoint_x, size, "keypoint_x");
+  RequireNumbers(message.keypoint_y, size, "keypoint_y");
+  RequireNumbers(message.keypoint_scale, size, "keypoint_scale");
+  RequireNumbers(message.keypoint_angle, size, "keypoint_angle");
+  RequireNumbers(message.keypoint_response, size, "keypoint_response");
+  RequireSize(message.keypoint_laplacian_sign, size, "keypoint_laplacian_sign");
+  RequireNumbers(message.descriptors, size * kDescriptorLength, "descriptors");
   for (size_t i = 0; i < size; ++i) {
     const float x = message.keypoint_x[i], y = message.keypoint_y[i];
-    RequireElement(x >= 0 && x < message.camera.width, keypoint_x, i, "lies outside the image");
-    RequireElement(y >= 0 && y < message.camera.height, keypoint_y, i, "lies outside the image");
+    RequireElement(x >= 0 && x < message.camera.width, "keypoint_x", i, "lies outside the image");
+    RequireElement(y >= 0 && y < message.camera.height, "keypoint_y", i, "lies outside the image");
     RequireElement(
         message.keypoint_scale[i] > 0 && message.keypoint_scale[i] < message.camera.width,
-        keypoint_scale, i, "must be positive and less than the image");
+        "keypoint_scale", i, "must be positive and less than the image");
   }
   Features features;
   features.keypoints.reserve(size);
@@ -68,33 +65,29 @@ Features ImportFeatures(const StereoFrameStamped& message) {
 }
 
 StereoPoints ImportPoints(const StereoFrameStamped& message) {
-  const std::string name = "StereoFrameStamped: ";
   const size_t size = message.point_keypoint.size();
-  RequireNumbers(message.point_observation, 3 * size, name + "point_observation");
-  RequireNumbers(message.point_row_residual, size, name + "point_row_residual");
-  RequireNumbers(message.point_sigma, size, name + "point_sigma");
-  RequireNumbers(message.point_position, 3 * size, name + "point_position");
-  RequireNumbers(message.point_disparity_gradient, 2 * size, name + "point_disparity_gradient");
-  const std::string point_keypoint = name + "point_keypoint", point_sigma = name + "point_sigma",
-                    point_position = name + "point_position",
-                    point_row_residual = name + "point_row_residual",
-                    point_observation = name + "point_observation";
+  RequireNumbers(message.point_observation, 3 * size, "point_observation");
+  RequireNumbers(message.point_row_residual, size, "point_row_residual");
+  RequireNumbers(message.point_sigma, size, "point_sigma");
+  RequireNumbers(message.point_position, 3 * size, "point_position");
+  RequireNumbers(message.point_disparity_gradient, 2 * size, "point_disparity_gradient");
   const auto [width, height] = std::pair(message.camera.width, message.camera.height);
   StereoPoints points(size);
   for (size_t i = 0; i < size; ++i) {
     const int keypoint = message.point_keypoint[i];
     const double row_residual_px = message.point_row_residual[i];
     RequireElement(keypoint >= 0 && static_cast<size_t>(keypoint) < message.keypoint_x.size(),
-                   point_keypoint, i, "is the number of no keypoint");
-    RequireElement(message.point_position[3 * i + 2] > 0, point_position, 3 * i + 2,
+                   "point_keypoint", i, "is the number of no keypoint");
+    RequireElement(message.point_position[3 * i + 2] > 0, "point_position", 3 * i + 2,
                    "is behind the camera");
-    RequireElement(message.point_sigma[i] > 0, point_sigma, i, "is not positive");
-    RequireElement(std::abs(row_residual_px) < height, point_row_residual, i,
+    RequireElement(message.point_sigma[i] > 0, "point_sigma", i, "is not positive");
+    RequireElement(std::abs(row_residual_px) < height, "point_row_residual", i,
                    "is larger than the image");
     const Eigen::Vector3d seen =
         Eigen::Map<const Eigen::Vector3d>(&message.point_observation[3 * i]);
-    RequireInImage(seen[0], seen[1], width, height, point_observation, 3 * i);
-    RequireInImage(seen[2], seen[1] + row_residual_px, width, height, point_observation, 3 * i + 2);
+    RequireInImage(seen[0], seen[1], width, height, "point_observation", 3 * i);
+    RequireInImage(seen[2], seen[1] + row_residual_px, width, height, "point_observation",
+                   3 * i + 2);
     points[i].keypoint = keypoint;
     points[i].observation = seen;
     points[i].row_residual_px = row_residual_px;
@@ -108,16 +101,15 @@ StereoPoints ImportPoints(const StereoFrameStamped& message) {
 
 /// What says how the pair is as a whole.
 void RequireSummary(const StereoFrameStamped& message) {
-  const std::string name = "StereoFrameStamped: ";
   constexpr double kMaxGrey = 255;
-  RequireInRange(message.row_agreement, 0, 1, name + "row_agreement");
-  RequireInRange(message.ratio_threshold, 0, 1, name + "ratio_threshold");
-  RequireInRange(message.grey_mean, 0, kMaxGrey, name + "grey_mean");
-  RequireInRange(message.grey_variance, 0, kMaxGrey * kMaxGrey, name + "grey_variance");
+  RequireInRange(message.row_agreement, 0, 1, "row_agreement");
+  RequireInRange(message.ratio_threshold, 0, 1, "ratio_threshold");
+  RequireInRange(message.grey_mean, 0, kMaxGrey, "grey_mean");
+  RequireInRange(message.grey_variance, 0, kMaxGrey * kMaxGrey, "grey_variance");
   Require(message.num_right_keypoints <= uint64_t{message.camera.width} * message.camera.height,
-          name + "num_right_keypoints is larger than the number of pixels");
-  RequireFinite(message.stage_ms, name + "stage_ms");
-  RequireSize(message.stage_names, message.stage_ms.size(), name + "stage_names");
+          "num_right_keypoints is larger than the number of pixels");
+  RequireFinite(message.stage_ms, "stage_ms");
+  RequireSize(message.stage_names, message.stage_ms.size(), "stage_names");
 }
 
 }  // namespace
@@ -228,11 +220,13 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
 }
 
 StereoFrame FromMessage(const StereoFrameStamped& message) {
-  RequireSummary(message);
   StereoFrame frame;
   frame.stamp_s = message.header.stamp.toSec();
-  frame.features = ImportFeatures(message);
-  frame.points = ImportPoints(message);
+  ReadMessage("StereoFrameStamped", [&] {
+    RequireSummary(message);
+    frame.features = ImportFeatures(message);
+    frame.points = ImportPoints(message);
+  });
   frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
   frame.left_is_repeated = message.left_is_repeated;
   frame.right_is_repeated = message.right_is_repeated;

@@ -7,13 +7,11 @@ namespace {
 constexpr int kDescriptorLength = 64;
 
 LandmarkObservations ImportObservations(const KeyframeStamped& message) {
-  const std::string name = "KeyframeStamped: ";
   const size_t size = message.observation_landmark.size();
-  const std::string pixels = name + "observation_pixels", sigma = name + "observation_sigma";
-  RequireNumbers(message.observation_pixels, 4 * size, pixels);
-  RequireNumbers(message.observation_sigma, size, sigma);
-  RequireSize(message.observation_has_right, size, name + "observation_has_right");
-  RequireAscending(message.observation_landmark, name + "observation_landmark");
+  RequireNumbers(message.observation_pixels, 4 * size, "observation_pixels");
+  RequireNumbers(message.observation_sigma, size, "observation_sigma");
+  RequireSize(message.observation_has_right, size, "observation_has_right");
+  RequireAscending(message.observation_landmark, "observation_landmark");
   const auto [width, height] = std::pair(message.camera.width, message.camera.height);
   LandmarkObservations observations(size);
   for (size_t i = 0; i < size; ++i) {
@@ -21,35 +19,32 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
     observations[i].pixels = Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]);
     observations[i].has_right = message.observation_has_right[i];
     observations[i].sigma_px = message.observation_sigma[i];
-    RequireElement(observations[i].sigma_px > 0, sigma, i, "is not positive");
+    RequireElement(observations[i].sigma_px > 0, "observation_sigma", i, "is not positive");
     const Eigen::Vector4d& seen = observations[i].pixels;
-    RequireInImage(seen[0], seen[1], width, height, pixels, 4 * i);
+    RequireInImage(seen[0], seen[1], width, height, "observation_pixels", 4 * i);
     if (observations[i].has_right)
-      RequireInImage(seen[2], seen[3], width, height, pixels, 4 * i + 2);
+      RequireInImage(seen[2], seen[3], width, height, "observation_pixels", 4 * i + 2);
   }
   return observations;
 }
 
 std::optional<RightTurn> ImportTurn(const KeyframeStamped& message) {
-  const std::string name = "KeyframeStamped: right_turn";
   const size_t size = message.right_turn.empty() ? 0 : 3;
-  RequireNumbers(message.right_turn, size, name);
-  RequireNumbers(message.right_turn_covariance, 3 * size, name + "_covariance");
+  RequireNumbers(message.right_turn, size, "right_turn");
+  RequireNumbers(message.right_turn_covariance, 3 * size, "right_turn_covariance");
   if (size == 0) return std::nullopt;
   RightTurn turn{Eigen::Map<const Eigen::Vector3d>(message.right_turn.data()),
                  Eigen::Map<const Eigen::Matrix3d>(message.right_turn_covariance.data())};
   Require(turn.covariance.diagonal().minCoeff() > 0,
-          name + "_covariance has a variance that is not positive");
+          "right_turn_covariance has a variance that is not positive");
   return turn;
 }
 
 std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
-  const std::string name = "KeyframeStamped: ";
   const size_t size = message.landmark_id.size();
-  RequireNumbers(message.landmark_position, 3 * size, name + "landmark_position");
-  RequireNumbers(message.landmark_descriptors, kDescriptorLength * size,
-                 name + "landmark_descriptors");
-  RequireSize(message.landmark_laplacian_sign, size, name + "landmark_laplacian_sign");
+  RequireNumbers(message.landmark_position, 3 * size, "landmark_position");
+  RequireNumbers(message.landmark_descriptors, kDescriptorLength * size, "landmark_descriptors");
+  RequireSize(message.landmark_laplacian_sign, size, "landmark_laplacian_sign");
   std::vector<Landmark> landmarks(size);
   for (size_t i = 0; i < size; ++i) {
     landmarks[i].id = message.landmark_id[i];
@@ -62,17 +57,16 @@ std::vector<Landmark> ImportLandmarks(const KeyframeStamped& message) {
 }
 
 CorrectionBelief ImportCorrection(const MapUpdateStamped& message) {
-  const std::string name = "MapUpdateStamped: ";
   constexpr size_t kSize = StereoCorrection::kSize;
-  RequireNumbers(message.correction_px, kSize, name + "correction_px");
-  RequireNumbers(message.correction_covariance, kSize * kSize, name + "correction_covariance");
+  RequireNumbers(message.correction_px, kSize, "correction_px");
+  RequireNumbers(message.correction_covariance, kSize * kSize, "correction_covariance");
   CorrectionBelief correction;
   correction.mean.coefficients_px =
       Eigen::Map<const StereoCorrection::Coefficients>(message.correction_px.data());
   correction.covariance =
       Eigen::Map<const CorrectionBelief::Matrix>(message.correction_covariance.data());
   Require(correction.covariance.diagonal().minCoeff() > 0,
-          name + "correction_covariance has a variance that is not positive");
+          "correction_covariance has a variance that is not positive");
   return correction;
 }
 
@@ -114,17 +108,17 @@ PlacedKeyframe FromMessage(const KeyframeStamped& message) {
   PlacedKeyframe keyframe;
   keyframe.epoch = message.epoch;
   keyframe.camera = FromMessage(message.camera);
-  keyframe.odom_from_world =
-      FromMessage(message.odom_from_world, "KeyframeStamped: odom_from_world");
-  keyframe.base_from_camera =
-      FromMessage(message.base_from_camera, "KeyframeStamped: base_from_camera");
   keyframe.keyframe.id = message.id;
   keyframe.keyframe.stamp_s = message.header.stamp.toSec();
-  keyframe.keyframe.camera_from_world =
-      FromMessage(message.camera_from_world, "KeyframeStamped: camera_from_world");
-  keyframe.keyframe.right_turn = ImportTurn(message);
-  keyframe.keyframe.observations = ImportObservations(message);
-  keyframe.landmarks = ImportLandmarks(message);
+  ReadMessage("KeyframeStamped", [&] {
+    keyframe.odom_from_world = FromMessage(message.odom_from_world, "odom_from_world");
+    keyframe.base_from_camera = FromMessage(message.base_from_camera, "base_from_camera");
+    keyframe.keyframe.camera_from_world =
+        FromMessage(message.camera_from_world, "camera_from_world");
+    keyframe.keyframe.right_turn = ImportTurn(message);
+    keyframe.keyframe.observations = ImportObservations(message);
+    keyframe.landmarks = ImportLandmarks(message);
+  });
   return keyframe;
 }
 
@@ -147,26 +141,26 @@ MapUpdateStamped ToMessage(const MapUpdate& update) {
 }
 
 MapUpdate FromMessage(const MapUpdateStamped& message) {
-  const std::string name = "MapUpdateStamped: ";
-  RequireSize(message.camera_from_world, message.keyframe_id.size(), name + "camera_from_world");
-  RequireNumbers(message.landmark_position, 3 * message.landmark_id.size(),
-                 name + "landmark_position");
-  RequireAscending(message.keyframe_id, name + "keyframe_id");
-  RequireAscending(message.landmark_id, name + "landmark_id");
-  MapUpdate update;
-  for (size_t i = 0; i < message.keyframe_id.size(); ++i)
-    update.keyframes.push_back({message.keyframe_id[i], FromMessage(message.camera_from_world[i],
-                                                                    name + "camera_from_world[" +
-                                                                        std::to_string(i) + "]")});
-  for (size_t i = 0; i < message.landmark_id.size(); ++i)
-    update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
-                                                            &message.landmark_position[3 * i])});
-  update.correction = ImportCorrection(message);
-  update.num_keyframes = message.num_keyframes;
-  Require(!update.keyframes.empty(), name + "keyframe_id is empty");
-  Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
-          name + "num_keyframes is less than there are");
-  return update;
+  return ReadMessage("MapUpdateStamped", [&] {
+    RequireSize(message.camera_from_world, message.keyframe_id.size(), "camera_from_world");
+    RequireNumbers(message.landmark_position, 3 * message.landmark_id.size(), "landmark_position");
+    RequireAscending(message.keyframe_id, "keyframe_id");
+    RequireAscending(message.landmark_id, "landmark_id");
+    MapUpdate update;
+    for (size_t i = 0; i < message.keyframe_id.size(); ++i)
+      update.keyframes.push_back(
+          {message.keyframe_id[i], FromMessage(message.camera_from_world[i],
+                                               "camera_from_world[" + std::to_string(i) + "]")});
+    for (size_t i = 0; i < message.landmark_id.size(); ++i)
+      update.landmarks.push_back({message.landmark_id[i], Eigen::Map<const Eigen::Vector3d>(
+                                                              &message.landmark_position[3 * i])});
+    update.correction = ImportCorrection(message);
+    update.num_keyframes = message.num_keyframes;
+    Require(!update.keyframes.empty(), "keyframe_id is empty");
+    Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
+            "num_keyframes is less than there are");
+    return update;
+  });
 }
 
 }  // namespace arfm_vo

@@ -23,6 +23,21 @@ void PairTimes::Report(Diagnostics& status) {
 
 std::string PairTimes::Total() const { return Format("; median %.1f ms a pair", ms_.Median()); }
 
+void Refusals::Add(const std::string& why) {
+  ++num_;
+  newest_ = why;
+  const double now_s = ros::SteadyTime::now().toSec();
+  if (now_s - told_s_ < kRepeat_s) return;
+  told_s_ = now_s;
+  ROS_ERROR("%s refused: %s", item_.c_str(), why.c_str());
+}
+
+bool Refusals::IsTold(Diagnostics& status) const {
+  if (newest_.empty()) return false;
+  status.summary(Diagnostics::ERROR, item_ + " refused: " + newest_);
+  return true;
+}
+
 bool ConsoleWatch::IsDue(const std::string& problem, double now_s) {
   since_s_ = problem.empty() ? kInfinity : std::min(since_s_, now_s);
   if (now_s - since_s_ < kPatience_s || now_s - told_s_ < kRepeat_s) return false;

@@ -15,12 +15,6 @@ namespace {
 /// Read from a node's namespace by image_transport and diagnostic_updater.
 const char* const kForeignKeys[] = {"image_transport", "diagnostic_period"};
 
-YAML::Node QuotedScalar(const std::string& text) {
-  YAML::Node node(text);
-  node.SetTag("!");  // what yaml-cpp's parser says of a quoted scalar
-  return node;
-}
-
 YAML::Node NumberScalar(double value) {
   if (std::isnan(value)) return YAML::Node(".nan");
   if (std::isinf(value)) return YAML::Node(value > 0 ? ".inf" : "-.inf");
@@ -43,7 +37,9 @@ YAML::Node ToYaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
     case XmlRpcValue::TypeDouble:
       return NumberScalar(copy);
     case XmlRpcValue::TypeString:
-      return QuotedScalar(copy);
+      node = static_cast<std::string&>(copy);
+      node.SetTag("!");  // what yaml-cpp's parser says of a quoted scalar
+      return node;
     case XmlRpcValue::TypeArray:
       node = YAML::Node(YAML::NodeType::Sequence);
       for (int i = 0; i < copy.size(); ++i)

@@ -16,11 +16,8 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
       topics_(ResolveStereoTopics(node)),
       learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(options_.max_waiting_pairs, [this](const std::exception& error) {
-        ++figures_.num_refused;
-        figures_.refusal = error.what();
-        ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
-      }) {
+      worker_(options_.max_waiting_pairs,
+              [this](const std::exception& error) { figures_.refusals.Add(error.what()); }) {
   diagnostics_.setHardwareID("arfm_vo");
   diagnostics_.add("stereo pairs", this, &ArfmNode::Report);
   features_ = node.advertise<StereoFrameStamped>(
@@ -40,7 +37,7 @@ ArfmNode::~ArfmNode() {
   worker_.RunAndWait([this] {
     TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
               std::to_string(worker_.num_dropped()) + " dropped, " +
-              std::to_string(figures_.num_refused) + " refused" + figures_.times.Total());
+              std::to_string(figures_.refusals.num()) + " refused" + figures_.times.Total());
   });
 }
 
@@ -55,13 +52,8 @@ void ArfmNode::Connect() {
 
 void ArfmNode::ReportFigures() {
   const StereoInputCounts counts = input_ ? input_->counts : StereoInputCounts();
-  std::string obstacle;
-  if (input_) {
-    obstacle = input_watch_.Tell(counts, topics_);
-    TellDrops();
-  } else {
-    input_watch_.Reset();
-  }
+  const std::string obstacle = input_ ? input_->TellObstacle() : "";
+  if (input_) TellDrops();
   worker_.Post([this, is_idle = !input_, counts, obstacle] {
     figures_.is_idle = is_idle;
     figures_.input = counts;
@@ -72,8 +64,7 @@ void ArfmNode::ReportFigures() {
 
 void ArfmNode::TellDrops() {
   const uint32_t num_dropped = worker_.num_dropped();
-  const char* const problem = num_dropped > num_dropped_before_ ? "drops" : "";
-  if (drop_watch_.IsDue(problem, ros::SteadyTime::now().toSec()))
+  if (drop_watch_.IsDue(num_dropped > num_dropped_before_ ? "drops" : ""))
     ROS_WARN(
         "%u of %u pairs dropped so far: this computer is too slow for the rate and size of the "
         "images; lower them",
@@ -104,7 +95,7 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   figures_.num_left = message->keypoint_x.size();
   figures_.num_right = message->num_right_keypoints;
   figures_.num_points = message->point_keypoint.size();
-  figures_.refusal.clear();
+  figures_.refusals.Clear();
   figures_.times.Add(stopwatch.LapMs());
 }
 
@@ -141,24 +132,22 @@ void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
 }
 
 void ArfmNode::Report(Diagnostics& status) {
-  if (figures_.is_idle)
-    status.summary(Diagnostics::OK, "idle: nobody subscribes to features");
-  else if (!figures_.refusal.empty())
-    status.summary(Diagnostics::ERROR, "pair refused: " + figures_.refusal);
-  else if (!figures_.input_obstacle.empty())
-    status.summary(Diagnostics::WARN, "no pairs: " + figures_.input_obstacle);
-  else
-    status.summary(Diagnostics::OK, "pairs come");
   figures_.times.Report(status);
   status.add("pairs published", figures_.num_published);
   status.add("pairs dropped", worker_.num_dropped());
-  status.add("pairs refused", figures_.num_refused);
+  status.add("pairs refused", figures_.refusals.num());
   status.add("pairs that came again or late", figures_.num_strays);
   status.add("left images", figures_.input.left);
   status.add("right images", figures_.input.right);
   status.add("left features", figures_.num_left);
   status.add("right features", figures_.num_right);
   status.add("stereo points", figures_.num_points);
+  if (figures_.is_idle)
+    return status.summary(Diagnostics::OK, "idle: nobody subscribes to features");
+  if (figures_.refusals.IsTold(status)) return;
+  if (!figures_.input_obstacle.empty())
+    return status.summary(Diagnostics::WARN, "no pairs: " + figures_.input_obstacle);
+  status.summary(Diagnostics::OK, "pairs come");
 }
 
 }  // namespace arfm_vo

@@ -1,36 +1,62 @@
 #include "arfm_vo/ros/odometry/ba_node.h"
 
+#include <arfm_vo/MapUpdateStamped.h>
+#include <nav_msgs/Path.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "arfm_vo/base/process_usage.h"
+#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/display_messages.h"
 #include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/parameters.h"
 #include "arfm_vo/ros/node/services.h"
 
 namespace arfm_vo {
+namespace {
+
+/// Without a new keyframe for so long, the newest ones are adjusted too, for the map as it is seen.
+const ros::WallDuration kSettled(3);
+
+GlobalMapOptions Paced(GlobalMapOptions options, double max_time_share) {
+  options.solver.max_time_share = std::min(options.solver.max_time_share, max_time_share);
+  return options;
+}
+
+/// By how much at least, at three standard deviations.
+double SurelyOff(const CorrectionBelief::Estimate& estimate) {
+  return std::abs(estimate.mean) - 3 * estimate.sigma;
+}
+
+}  // namespace
 
 BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<BaNodeOptions>(private_node)),
-      map_(node, options_, [this] { return worker_.is_stopping(); }),
+      updates_(node.advertise<MapUpdateStamped>("map_update", 2)),
+      path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
+      landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
+      trajectory_output_(options_.trajectory, "base"),
+      learned_(options_.learned),
+      map_(Paced(options_.algorithm.global, options_.max_time_share)),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
-        map_.CountRefused(error);
-        ROS_ERROR_THROTTLE(5, "keyframe refused: %s", error.what());
+        figures_.refusals.Add(error.what());
+        told_.Set(figures_);
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("global adjustment", [this](Diagnostics& status) { map_.Report(status); });
-  keyframes_ = node.subscribe<KeyframeStamped>(
-      "keyframe", 100, [this](const KeyframeStampedConstPtr& keyframe) {
-        worker_.Post([this, keyframe] { map_.Add(*keyframe); });
-      });
-  odometry_ = node.subscribe<nav_msgs::Odometry>(
-      "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
-  stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
-      "initialpose", 1, [this](const auto& stated) {
-        worker_.Post(
-            [this, stated, odometry = newest_odometry_] { map_.PlaceRover(*stated, odometry); });
-      });
-  save_ = OfferTrigger(private_node, "save_trajectory", [this] { return map_.SaveTrajectory(); });
+  diagnostics_.add("global adjustment", [this](Diagnostics& status) { Report(status); });
+  Subscribe(node);
+  save_ = OfferTrigger(private_node, "save_trajectory",
+                       [this] { return trajectory_output_.Save(trajectory_.Get()); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     diagnostics_.force_update();
-    worker_.PostLossy([this] { map_.AdjustIfSettled(); });
+    // Where no keyframe comes any more, the newest ones are adjusted too. The odometry is not told:
+    // what it does must not depend on when its pairs come.
+    worker_.PostLossy([this] {
+      if (is_dirty_ && options_.algorithm.adjust_globally && ros::WallTime::now() > settles_)
+        Adjust();
+    });
   });
   if (options_.publish_tf)
     tf_timer_ = node.createTimer(ros::Duration(1 / options_.tf_rate_hz),
@@ -38,8 +64,23 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
 }
 
 BaNode::~BaNode() {
-  if (map_.saves_at_end())
-    TellSavedAtEnd("the keyframes are", [this] { return map_.SaveTrajectory(); });
+  if (trajectory_output_.is_enabled())
+    TellSavedAtEnd("the keyframes are",
+                   [this] { return trajectory_output_.Save(trajectory_.Get()); });
+}
+
+void BaNode::Subscribe(ros::NodeHandle& node) {
+  keyframes_ = node.subscribe<KeyframeStamped>("keyframe", 100,
+                                               [this](const KeyframeStampedConstPtr& keyframe) {
+                                                 worker_.Post([this, keyframe] { Add(*keyframe); });
+                                               });
+  odometry_ = node.subscribe<nav_msgs::Odometry>(
+      "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
+  stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
+      "initialpose", 1, [this](const auto& stated) {
+        worker_.Post(
+            [this, stated, odometry = newest_odometry_] { PlaceRover(*stated, odometry); });
+      });
 }
 
 void BaNode::SendTransform() {
@@ -47,7 +88,141 @@ void BaNode::SendTransform() {
   if (stamp == sent_) return;  // simulated time jumped, and the timer catches up
   sent_ = stamp;
   broadcaster_.sendTransform(
-      MakeTransform(stamp, options_.map_frame, options_.odom_frame, map_.MapFromOdom()));
+      MakeTransform(stamp, options_.map_frame, options_.odom_frame, told_.Get().map_from_odom));
+}
+
+void BaNode::Add(const KeyframeStamped& message) {
+  const PlacedKeyframe keyframe = FromMessage(message);
+  if (const auto known = learned_.ReadFor(keyframe.camera))
+    map_.SetCorrection(keyframe.camera, *known);
+  if (!map_.Add(keyframe)) {
+    ROS_WARN("the odometry started anew: the map is forgotten");
+    map_from_adjusted_ = Rigid3();
+    mounts_.Clear();
+  }
+  mounts_.Add(keyframe.keyframe.stamp_s, keyframe.base_from_camera);
+  newest_ = message.header.stamp;
+  is_dirty_ = true;
+  figures_.num_keyframes = map_.num_keyframes();
+  figures_.num_landmarks = map_.num_landmarks();
+  figures_.num_loops = map_.num_loops();
+  figures_.refusals.Clear();
+  Tell();
+  settles_ = ros::WallTime::now() + kSettled;
+  if (!options_.algorithm.adjust_globally || !map_.IsAdjustmentDue()) return;
+  if (const std::optional<MapUpdate> update = Adjust()) {
+    const auto result = boost::make_shared<MapUpdateStamped>(ToMessage(*update));
+    result->header.stamp = newest_;
+    result->header.frame_id = options_.map_frame;
+    result->epoch = map_.epoch();
+    updates_.publish(result);
+  }
+}
+
+void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                        const nav_msgs::OdometryConstPtr& odometry) {
+  try {
+    Require(odometry != nullptr, "initialpose: there is no odom yet");
+    const Rigid3 odom_from_base = ReadPose(odometry->pose.pose, "initialpose: odom: ");
+    map_from_adjusted_ = FindMapShift(stated, options_.map_frame, MapFromOdom() * odom_from_base) *
+                         map_from_adjusted_;
+    ROS_WARN("the rover is stated to stand at x %.2f m, y %.2f m: the map frame moves",
+             stated.pose.pose.position.x, stated.pose.pose.position.y);
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN("refused: %s", error.what());
+    return;
+  }
+  Tell();
+  Publish();
+}
+
+void BaNode::Tell() {
+  figures_.map_from_odom = MapFromOdom();
+  told_.Set(figures_);
+  trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+}
+
+std::optional<MapUpdate> BaNode::Adjust() {
+  const ros::WallTime start = ros::WallTime::now();
+  is_dirty_ = false;
+  figures_.is_adjusting = true;
+  std::optional<MapUpdate> update = map_.Adjust([this](const BundleProgress& progress) {
+    figures_.iteration = progress.iteration;
+    figures_.cost = progress.cost;
+    told_.Set(figures_);
+    return !worker_.is_stopping();
+  });
+  ReturnFreeMemory();
+  figures_.is_adjusting = false;
+  figures_.last_ms = 1e3 * (ros::WallTime::now() - start).toSec();
+  figures_.longest_ms = std::max(figures_.longest_ms, figures_.last_ms);
+  ++figures_.num_adjustments;
+  if (!update && map_.num_keyframes() > 1) ++figures_.num_failed;
+  if (update) {
+    learned_.Write(update->correction);
+    WarnOfCalibration(update->correction);
+  }
+  Tell();
+  if (update) Publish();
+  return update;
+}
+
+void BaNode::WarnOfCalibration(const CorrectionBelief& learnt) {
+  constexpr double kWarnPx = 1, kWarnShare = 1e-3;
+  figures_.columns_sigma_px = learnt.MaxColumnSigma(map_.camera());
+  const auto& radial_px = figures_.radial_px = learnt.LargestRadial();
+  const auto& excess = figures_.focal_length_excess = learnt.FocalLengthExcess(map_.camera());
+  const bool is_off = SurelyOff(radial_px) > kWarnPx || SurelyOff(excess) > kWarnShare;
+  if (told_to_calibrate_ || !is_off) return;
+  told_to_calibrate_ = true;
+  ROS_WARN(
+      "both images are off radially by up to %.1f px (sigma %.1f), their focal length by %.2f %% "
+      "(sigma %.2f), which is made up for: calibrate the cameras anew, with the board in the "
+      "corners too",
+      radial_px.mean, radial_px.sigma, 100 * excess.mean, 100 * excess.sigma);
+}
+
+void BaNode::Publish() const {
+  const std::vector<MapPose> poses = map_.BasePoses();
+  nav_msgs::Path path;
+  path.header.stamp = newest_;
+  path.header.frame_id = options_.map_frame;
+  const size_t stride = 1 + poses.size() / options_.max_path_poses;
+  for (size_t i = (poses.size() - 1) % stride; i < poses.size(); i += stride) {
+    path.poses.emplace_back();
+    path.poses.back().header.frame_id = options_.map_frame;
+    path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
+    path.poses.back().pose = ToPoseMessage(map_from_adjusted_ * poses[i].map_from_base);
+  }
+  path_.publish(path);
+  std::vector<LandmarkPoint> points = map_.Landmarks();
+  for (LandmarkPoint& point : points) point.x_in_map = map_from_adjusted_ * point.x_in_map;
+  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(points);
+  cloud.header = path.header;
+  landmarks_.publish(cloud);
+}
+
+void BaNode::Report(Diagnostics& status) const {
+  const Figures figures = told_.Get();
+  status.add("keyframes", figures.num_keyframes);
+  status.add("landmarks", figures.num_landmarks);
+  status.add("loops closed", figures.num_loops);
+  status.add("adjustments", figures.num_adjustments);
+  status.add("keyframes refused", figures.refusals.num());
+  status.add("iteration", figures.iteration);
+  status.addf("cost", "%.1f", figures.cost);
+  status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
+  status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
+  status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
+  status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
+              figures.radial_px.mean, figures.radial_px.sigma);
+  status.addf("calibration: focal length of both images off by (%)", "%.2f, sigma %.2f",
+              100 * figures.focal_length_excess.mean, 100 * figures.focal_length_excess.sigma);
+  if (figures.refusals.IsTold(status)) return;
+  if (figures.num_failed > 0)
+    return status.summaryf(Diagnostics::WARN, "%d adjustments found no solution",
+                           figures.num_failed);
+  status.summary(Diagnostics::OK, figures.is_adjusting ? "adjusting" : "waiting");
 }
 
 }  // namespace arfm_vo

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <cmath>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/format.h"
@@ -65,7 +66,7 @@ std::optional<ConsoleLine> OdometryHealth::Count(const StereoFrame& frame,
     scale_.AddVisual(pose.update.stamp_s, pose.odom_from_base.translation);
   last_ = pose;
   is_new_ = true;
-  refusal_.clear();
+  refusals_.Clear();
   times_.Add(ms);
   ++num_pairs_;
   if (pose.IsTracked()) return TellTracked(now_s);
@@ -92,11 +93,6 @@ std::optional<ConsoleLine> OdometryHealth::TellTracked(double now_s) {
   return line;
 }
 
-void OdometryHealth::CountRefused(const std::string& why) {
-  ++num_refused_;
-  refusal_ = why;
-}
-
 void OdometryHealth::Clear() {
   row_residual_px_.Clear();
   scale_.Clear();
@@ -107,68 +103,61 @@ std::string OdometryHealth::Totals() const {
       "%u pairs: %u with a pose, %u lost, %u degraded, %u without tf or skipped while the head "
       "turned; %u dropped, %u refused",
       num_pairs_, num_tracked_, num_lost_, num_degraded_, NumWithoutPose() - num_lost_,
-      num_dropped_, num_refused_);
+      num_dropped_, refusals_.num());
 }
 
 void OdometryHealth::ReportOdometry(Diagnostics& status) {
-  if (!refusal_.empty())
-    status.summary(Diagnostics::ERROR, "pair refused: " + refusal_);
-  else if (!is_new_)
-    status.summary(Diagnostics::WARN, "no pairs come");
-  else if (last_.IsTracked() && last_.update.reason == Reason::kNone)
-    status.summary(Diagnostics::OK, "tracked");
-  else if (last_.HasPose() || !last_.IsTried())
-    status.summary(Diagnostics::WARN, last_.text);
-  else
-    status.summary(Diagnostics::ERROR, "lost: " + last_.text);
-  is_new_ = false;
   times_.Report(status);
   status.add("pairs", num_pairs_);
   status.add("pairs without a pose", NumWithoutPose());
   status.add("pairs dropped", num_dropped_);
-  status.add("pairs refused", num_refused_);
+  status.add("pairs refused", refusals_.num());
   status.add("map epoch", last_.epoch);
   status.add("matches", last_.update.pose.num_matches);
   status.add("inliers", last_.update.pose.num_inliers);
   status.addf("reprojection error rms (px)", "%.2f", last_.update.pose.rms_px);
+  const bool is_new = std::exchange(is_new_, false);
+  if (refusals_.IsTold(status)) return;
+  if (!is_new) return status.summary(Diagnostics::WARN, "no pairs come");
+  if (last_.IsTracked() && last_.update.reason == Reason::kNone)
+    return status.summary(Diagnostics::OK, "tracked");
+  if (last_.HasPose() || !last_.IsTried()) return status.summary(Diagnostics::WARN, last_.text);
+  status.summary(Diagnostics::ERROR, "lost: " + last_.text);
 }
 
 void OdometryHealth::ReportCalibration(Diagnostics& status) {
-  const double residual_px = row_residual_px_.Median(), now_s = ros::SteadyTime::now().toSec();
+  const double residual_px = row_residual_px_.Median();
   const bool is_wrong = residual_px >= options_.row_residual_error_px;
   const std::string skew = Describe(last_.update.skew);
-  if (calibration_watch_.IsDue(is_wrong ? "rows" : "", now_s))
+  if (calibration_watch_.IsDue(is_wrong ? "rows" : ""))
     ROS_WARN(
         "the rows of left and right differ by %.2f px: the images are not rectified "
         "(rectify:=true), or the calibration is wrong (calibrate_stereo)",
         residual_px);
-  if (skew_watch_.IsDue(skew, now_s))
+  if (skew_watch_.IsDue(skew))
     ROS_WARN("%s: made up for as far as can be; trigger both cameras together", skew.c_str());
-  if (is_wrong)
-    status.summaryf(Diagnostics::ERROR, "rows differ by %.2f px: calibrate the cameras",
-                    residual_px);
-  else if (!skew.empty())
-    status.summary(Diagnostics::WARN, skew);
-  else if (residual_px >= options_.row_residual_warn_px)
-    status.summaryf(Diagnostics::WARN, "rows differ by %.2f px", residual_px);
-  else
-    status.summary(Diagnostics::OK,
-                   row_residual_px_.size() == 0 ? "nothing measured yet" : "rows agree");
   status.addf("row residual, running median (px)", "%.3f", residual_px);
   status.addf("row residual of the last pair, signed (px)", "%.3f",
               last_.update.median_row_residual_px);
+  if (is_wrong)
+    return status.summaryf(Diagnostics::ERROR, "rows differ by %.2f px: calibrate the cameras",
+                           residual_px);
+  if (!skew.empty()) return status.summary(Diagnostics::WARN, skew);
+  if (residual_px >= options_.row_residual_warn_px)
+    return status.summaryf(Diagnostics::WARN, "rows differ by %.2f px", residual_px);
+  const bool is_measured = row_residual_px_.size() > 0;
+  status.summary(Diagnostics::OK, is_measured ? "rows agree" : "nothing measured yet");
 }
 
 void OdometryHealth::ReportScale(Diagnostics& status) const {
   const std::optional<double> ratio = scale_.Ratio();
   if (!ratio) return status.summary(Diagnostics::OK, "not measured: no track odometry yet");
   const double deviation = std::abs(*ratio - 1);
-  if (deviation < options_.scale_warn)
-    status.summary(Diagnostics::OK, "scale agrees with the tracks");
-  else
-    status.summaryf(deviation < options_.scale_error ? Diagnostics::WARN : Diagnostics::ERROR,
-                    "visual way is %.2f of the tracks' way", *ratio);
   status.addf("visual to track way, running median", "%.3f", *ratio);
+  if (deviation < options_.scale_warn)
+    return status.summary(Diagnostics::OK, "scale agrees with the tracks");
+  status.summaryf(deviation < options_.scale_error ? Diagnostics::WARN : Diagnostics::ERROR,
+                  "visual way is %.2f of the tracks' way", *ratio);
 }
 
 }  // namespace arfm_vo

@@ -25,10 +25,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
       learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs,
-              [this](const std::exception& error) {
-                health_.CountRefused(error.what());
-                ROS_ERROR_THROTTLE(5, "pair refused: %s", error.what());
-              }),
+              [this](const std::exception& error) { health_.CountRefused(error.what()); }),
       pairing_(kPairQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
         worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
       }) {

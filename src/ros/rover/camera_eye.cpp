@@ -70,7 +70,10 @@ bool CameraEye::Set(sensor_msgs::SetCameraInfo::Request& request,
     RequireFinite(request.camera_info.K, "K");
     RequireFinite(request.camera_info.R, "R");
     RequireFinite(request.camera_info.P, "P");
-    Store(request.camera_info);
+    const std::filesystem::path path = PathOf(manager_.resolveURL(url_, name_));
+    std::filesystem::create_directories(path.parent_path());
+    Require(camera_calibration_parsers::writeCalibration(path, name_, request.camera_info),
+            path.string() + ": cannot be written");
     manager_.setCameraInfo(request.camera_info);
     response.success = true;
   } catch (const std::exception& error) {
@@ -78,13 +81,6 @@ bool CameraEye::Set(sensor_msgs::SetCameraInfo::Request& request,
     ROS_WARN("%s eye: %s", name_.c_str(), response.status_message.c_str());
   }
   return true;
-}
-
-void CameraEye::Store(const sensor_msgs::CameraInfo& info) {
-  const std::filesystem::path path = PathOf(manager_.resolveURL(url_, name_));
-  std::filesystem::create_directories(path.parent_path());
-  Require(camera_calibration_parsers::writeCalibration(path, name_, info),
-          path.string() + ": cannot be written");
 }
 
 }  // namespace arfm_vo

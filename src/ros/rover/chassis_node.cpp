@@ -54,8 +54,8 @@ void ChassisNode::Listen(ros::NodeHandle& node) {
     subscribers_.push_back(
         node.subscribe(topic, 10, callback, this, ros::TransportHints().tcpNoDelay()));
   };
-  subscribe("goal", &ChassisNode::TakeGoal);
-  subscribe("waypoints", &ChassisNode::TakePath);
+  subscribe("goal", &ChassisNode::TakeGoal<geometry_msgs::PoseStamped>);
+  subscribe("waypoints", &ChassisNode::TakeGoal<nav_msgs::Path>);
   subscribe("cmd_vel", &ChassisNode::TakeVelocity);
   subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);
   subscribe("operator_answer", &ChassisNode::TakeAnswer);
@@ -160,18 +160,11 @@ void ChassisNode::Report(Diagnostics& diagnostics) const {
   diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }
 
-void ChassisNode::TakeGoal(const geometry_msgs::PoseStamped& goal) {
-  TakeRoute(goal.header, [&] { return Route{goal_reader_.Read(goal)}; });
-}
-
-void ChassisNode::TakePath(const nav_msgs::Path& path) {
-  TakeRoute(path.header, [&] { return goal_reader_.Read(path); });
-}
-
-void ChassisNode::TakeRoute(const std_msgs::Header& header, const std::function<Route()>& read) {
+template <class Goal>
+void ChassisNode::TakeGoal(const Goal& goal) {
   try {
-    goal_reader_.RequireFresh(header, ros::Time::now());
-    const Reply reply = driver_.pilot().SetRoute(read());
+    goal_reader_.RequireFresh(goal.header, ros::Time::now());
+    const Reply reply = driver_.pilot().SetRoute(Route{goal_reader_.Read(goal)});
     Require(reply.is_accepted, reply.text);
     Tick();
   } catch (const std::invalid_argument& error) {

@@ -130,17 +130,6 @@ void PanTiltNode::ReportAxis(PtuAxis axis, const std::string& joint,
 }
 
 void PanTiltNode::Report(Diagnostics& diagnostics) {
-  if (head_.state() == PanTiltState::kClosed)
-    diagnostics.summary(Diagnostics::ERROR, head_.problem());
-  else if (head_.HasLostPosition())
-    diagnostics.summary(Diagnostics::ERROR,
-                        "an axis hit a limit and lost its place: call the service home");
-  else if (head_.state() == PanTiltState::kHoming)
-    diagnostics.summary(Diagnostics::WARN, "homing");
-  else if (!head_.problem().empty())
-    diagnostics.summary(Diagnostics::WARN, head_.problem());
-  else
-    diagnostics.summary(Diagnostics::OK, head_.IsSettled() ? "settled" : "moving");
   diagnostics.add("state", ToString(head_.state()));
   diagnostics.add("readings", num_readings_);
   diagnostics.add("goals refused", num_refused_);
@@ -154,6 +143,15 @@ void PanTiltNode::Report(Diagnostics& diagnostics) {
     diagnostics.add("times put back in step", counts->num_resyncs);
     diagnostics.add("limits hit", counts->num_limit_hits);
   }
+  if (head_.state() == PanTiltState::kClosed)
+    return diagnostics.summary(Diagnostics::ERROR, head_.problem());
+  if (head_.HasLostPosition())
+    return diagnostics.summary(Diagnostics::ERROR,
+                               "an axis hit a limit and lost its place: call the service home");
+  if (head_.state() == PanTiltState::kHoming)
+    return diagnostics.summary(Diagnostics::WARN, "homing");
+  if (!head_.problem().empty()) return diagnostics.summary(Diagnostics::WARN, head_.problem());
+  diagnostics.summary(Diagnostics::OK, head_.IsSettled() ? "settled" : "moving");
 }
 
 }  // namespace arfm_vo

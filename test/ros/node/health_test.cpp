@@ -16,6 +16,20 @@ TEST(PairTimes, TellTheMedianAndTheLast) {
   EXPECT_EQ(status.values[1].value, "5.0");
 }
 
+TEST(Refusals, AreAnErrorUntilTheNextItemIsWorkedOn) {
+  Refusals refusals{"pair"};
+  Diagnostics status;
+  EXPECT_FALSE(refusals.IsTold(status));
+  refusals.Add("an image is empty");
+  refusals.Add("an image is dark");
+  EXPECT_TRUE(refusals.IsTold(status));
+  EXPECT_EQ(status.level, Diagnostics::ERROR);
+  EXPECT_EQ(status.message, "pair refused: an image is dark");
+  refusals.Clear();
+  EXPECT_FALSE(refusals.IsTold(status));
+  EXPECT_EQ(refusals.num(), 2u);
+}
+
 TEST(ConsoleWatch, TellsWhatLastsAndRepeatsItSeldom) {
   ConsoleWatch watch;
   int num_told = 0;

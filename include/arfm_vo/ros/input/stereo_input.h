@@ -41,21 +41,6 @@ struct StereoInputCounts {
                      const std::set<std::string>& published) const;
 };
 
-/// Tells on the console what keeps pairs from coming, and what to do about it; called once a
-/// second.
-class StereoInputWatch {
- public:
-  /// Returns what keeps pairs from coming since the last call; empty where they do come.
-  std::string Tell(const StereoInputCounts& counts, const StereoTopics& topics);
-  /// Nobody listens: what came is forgotten.
-  void Reset() { before_ = {}; }
-
- private:
-  ConsoleWatch watch_;
-  StereoInputCounts before_;
-  ros::Time time_before_;
-};
-
 /// What is done with each message of a rectified camera.
 struct StereoCallbacks {
   std::function<void(const sensor_msgs::ImageConstPtr&)> left, right;
@@ -78,11 +63,19 @@ class StereoInput {
               const StereoCallbacks& take);
   StereoInput(const StereoInput&) = delete;  // its callbacks count here
 
+  /// Tells on the console what keeps pairs from coming, and what to do about it; called once a
+  /// second. Returns what keeps them from coming since the last call; empty where they do come.
+  std::string TellObstacle();
+
   /// Of the thread that the callbacks run on. The pairs are the callbacks' to count.
   StereoInputCounts counts;
 
  private:
-  ros::Time left_stamp_, right_stamp_;
+  const StereoTopics topics_;
+  ConsoleWatch watch_;
+  StereoInputCounts before_;  // at the last call of TellObstacle
+  ros::Time time_before_;     // the same
+  ros::Time left_stamp_, right_stamp_, info_stamp_;
   image_transport::Subscriber left_, right_;
   ros::Subscriber left_info_, right_info_;
 };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
 
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "arfm_vo/base/rate_meter.h"
 #include "arfm_vo/base/running_median.h"
@@ -29,6 +31,25 @@ class PairTimes {
   double last_ms_ = 0;
 };
 
+/// What a node could not work on: counted, told on the console, at most every 5 s, and in the
+/// diagnostics until the next item is worked on.
+class Refusals {
+ public:
+  /// `item` is what the node works on, such as "pair".
+  explicit Refusals(std::string item) : item_(std::move(item)) {}
+  void Add(const std::string& why);
+  void Clear() { newest_.clear(); }
+  /// Where the newest item was refused, true and an ERROR in `status`.
+  bool IsTold(Diagnostics& status) const;
+  uint32_t num() const { return num_; }
+
+ private:
+  static constexpr double kRepeat_s = 5;
+  std::string item_, newest_;
+  double told_s_ = -kRepeat_s;  ///< when it was last told on the console
+  uint32_t num_ = 0;
+};
+
 /// Decides when a problem that is looked for again and again is told on the console: when it has
 /// lasted for `kPatience_s`, and then every `kRepeat_s` for as long as it lasts.
 class ConsoleWatch {
@@ -36,7 +57,7 @@ class ConsoleWatch {
   static constexpr double kPatience_s = 2, kRepeat_s = 10;
 
   /// Whether to tell `problem` now; empty: there is none. `now_s` is any steady time.
-  bool IsDue(const std::string& problem, double now_s);
+  bool IsDue(const std::string& problem, double now_s = ros::SteadyTime::now().toSec());
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -13,28 +13,21 @@
 
 namespace arfm_vo {
 
-/// Where the arguments ask for it (--help, -h), prints what the node does and its parameters with
-/// their defaults, without a master.
-template <class Options>
-bool TellHelp(int argc, char** argv, const char* name, const char* text) {
+/// The main of a node: constructs Node(public, private node handle) and spins, or what else `run`
+/// does. Wrong use and configuration end it with a clear error and exit status 1. Where the
+/// arguments ask for it (--help, -h), prints what the node does, which is `text`, and its
+/// parameters with their defaults, without a master.
+template <class Node, class Options>
+int RunNode(
+    int argc, char** argv, const char* name, const char* text,
+    void (*run)(Node&) = [](Node&) { ros::spin(); }) {
   for (int i = 1; i < argc; ++i) {
     if (argv[i] != std::string("--help") && argv[i] != std::string("-h")) continue;
     std::cout << "usage: rosrun arfm_vo " << name << " [_PARAMETER:=VALUE ..] [TOPIC:=OTHER ..]\n\n"
               << text << "\n\nprivate parameters and their defaults, as YAML:\n\n"
               << WriteYaml(Options());
-    return true;
+    return 0;
   }
-  return false;
-}
-
-/// The main of a node: constructs Node(public, private node handle) and spins, or what else `run`
-/// does. Wrong use and configuration end it with a clear error and exit status 1. `text` tells
-/// --help what it does.
-template <class Node, class Options>
-int RunNode(
-    int argc, char** argv, const char* name, const char* text,
-    void (*run)(Node&) = [](Node&) { ros::spin(); }) {
-  if (TellHelp<Options>(argc, argv, name, text)) return 0;
   KeepMemoryFlat();
   ros::init(argc, argv, name);
   const ros::NodeHandle keeper;  // the last handle that goes takes the log with it

@@ -46,8 +46,8 @@ class ArfmNode {
  private:
   /// How the pairs since the start fared.
   struct Figures {
-    uint32_t num_published = 0, num_refused = 0, num_strays = 0;
-    std::string refusal;  ///< why the newest pair was refused; empty where it was not
+    uint32_t num_published = 0, num_strays = 0;
+    Refusals refusals{"pair"};
     size_t num_left = 0, num_right = 0, num_points = 0;
     PairTimes times;
     bool is_idle = true;         ///< nobody subscribes to features
@@ -69,7 +69,6 @@ class ArfmNode {
   const ArfmNodeOptions options_;
   const StereoTopics topics_;
   // Of the thread that calls back:
-  StereoInputWatch input_watch_;
   ConsoleWatch drop_watch_;
   uint32_t num_dropped_before_ = 0;
   // Of the worker's thread:

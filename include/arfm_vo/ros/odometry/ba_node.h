@@ -1,13 +1,61 @@
 #pragma once
 
+#include <arfm_vo/KeyframeStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "arfm_vo/ros/odometry/adjusted_map.h"
+#include <optional>
+#include <string>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/worker.h"
+#include "arfm_vo/evaluation/trajectory_output.h"
+#include "arfm_vo/odometry/visual_odometry.h"
+#include "arfm_vo/ros/node/health.h"
+#include "arfm_vo/ros/odometry/learned_calibration.h"
 
 namespace arfm_vo {
 
-/// Keyframes in, the globally adjusted map out (Fig. 4).
+struct BaNodeOptions {
+  OdometryOptions algorithm;        ///< its keys stand beside those of the node; `global` is used
+  std::string map_frame = "map";    ///< adjusted; its newest pose may jump
+  std::string odom_frame = "odom";  ///< that of pose_node, continuous
+  bool publish_tf = true;           ///< map_frame -> odom_frame
+  double tf_rate_hz = 20;           ///< of the transform
+  double tf_tolerance_s = 0.1;      ///< how far into the future a transform is said to hold
+  double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
+  int max_path_poses = 1000;     ///< of path_optimized, at least 2; longer paths are thinned out
+  TrajectoryOutputOptions trajectory;  ///< its keys stand beside those of the node
+  LearnedCalibrationOptions learned;   ///< its keys stand beside those of the node
+
+  void Check() const {
+    algorithm.Check();
+    Require(!map_frame.empty(), "map_frame must not be empty");
+    Require(!odom_frame.empty(), "odom_frame must not be empty");
+    Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
+    Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
+    Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
+    Require(max_path_poses >= 2, "max_path_poses must be at least 2");
+  }
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    algorithm.VisitFields(visit);
+    visit("map_frame", map_frame);
+    visit("odom_frame", odom_frame);
+    visit("publish_tf", publish_tf);
+    visit("tf_rate_hz", tf_rate_hz);
+    visit("tf_tolerance_s", tf_tolerance_s);
+    visit("max_time_share", max_time_share);
+    visit("max_path_poses", max_path_poses);
+    trajectory.VisitFields(visit);
+    learned.VisitFields(visit);
+  }
+};
+
+/// Keyframes in, the globally adjusted map out (Fig. 4): map_update, path_optimized, landmarks.
 class BaNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter (BaNodeOptions).
@@ -16,10 +64,48 @@ class BaNode {
   ~BaNode();
 
  private:
+  /// How adjusting fares; told to the diagnostics while the worker may be busy.
+  struct Figures {
+    int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_adjustments = 0, num_failed = 0;
+    Refusals refusals{"keyframe"};
+    bool is_adjusting = false;
+    int iteration = 0;
+    double cost = 0, last_ms = 0, longest_ms = 0, columns_sigma_px = 0;
+    CorrectionBelief::Estimate radial_px, focal_length_excess;
+    Rigid3 map_from_odom;
+  };
+
+  void Subscribe(ros::NodeHandle& node);
+  void Report(Diagnostics& status) const;
   void SendTransform();
+  // On the worker's thread:
+  void Add(const KeyframeStamped& message);
+  std::optional<MapUpdate> Adjust();
+  void Publish() const;
+  void WarnOfCalibration(const CorrectionBelief& learnt);
+  /// Where a person states that the rover stands; `odometry` is the newest, null where there is
+  /// none.
+  void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
+                  const nav_msgs::OdometryConstPtr& odometry);
+  void Tell();
+  Rigid3 MapFromOdom() const { return map_from_adjusted_ * map_.map_from_odom(); }
 
   const BaNodeOptions options_;
-  AdjustedMap map_;
+  ros::Publisher updates_, path_, landmarks_;
+  // Of the worker's thread:
+  TrajectoryOutput trajectory_output_;
+  LearnedCalibration learned_;
+  PlacedMap map_;
+  MountLog mounts_;
+  Rigid3 map_from_adjusted_;  // moved where a person states where the rover stands
+  ros::Time newest_;          // keyframe's stamp
+  bool is_dirty_ = false;     // a keyframe came since the last adjustment
+  ros::WallTime settles_;
+  bool told_to_calibrate_ = false;
+  Figures figures_;
+  // Of all threads:
+  Shared<Figures> told_;
+  Shared<Trajectory> trajectory_;  // of the keyframes
   tf2_ros::TransformBroadcaster broadcaster_;
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;

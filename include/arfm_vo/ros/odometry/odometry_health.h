@@ -52,7 +52,7 @@ class OdometryHealth {
   /// on the console: the first pose, why there is none and what to do about it, that it is back.
   std::optional<ConsoleLine> Count(const StereoFrame& frame, const SessionUpdate& pose, double ms,
                                    double now_s);
-  void CountRefused(const std::string& why);
+  void CountRefused(const std::string& why) { refusals_.Add(why); }
   void CountDropped(uint32_t num_dropped) { num_dropped_ = num_dropped; }
   ScaleCheck& scale() { return scale_; }
   /// After a jump of time.
@@ -77,9 +77,9 @@ class OdometryHealth {
   PairTimes times_;
   SessionUpdate last_;
   bool is_new_ = false;  ///< a pair came since the last report
-  std::string refusal_;
+  Refusals refusals_{"pair"};
   uint32_t num_pairs_ = 0, num_tracked_ = 0, num_degraded_ = 0, num_lost_ = 0;
-  uint32_t num_refused_ = 0, num_dropped_ = 0;
+  uint32_t num_dropped_ = 0;
 };
 
 }  // namespace arfm_vo

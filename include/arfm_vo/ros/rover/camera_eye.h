@@ -27,7 +27,6 @@ class CameraEye {
  private:
   bool Set(sensor_msgs::SetCameraInfo::Request& request,
            sensor_msgs::SetCameraInfo::Response& response);
-  void Store(const sensor_msgs::CameraInfo& info);
 
   const std::string name_, url_;
   const DriveListener& drive_;

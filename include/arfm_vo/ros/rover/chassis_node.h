@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
 
-#include <functional>
 #include <optional>
 #include <random>
 #include <string>
@@ -72,9 +71,9 @@ class ChassisNode {
   void Look(double now_s);
   void Report(Diagnostics& diagnostics) const;
 
-  void TakeGoal(const geometry_msgs::PoseStamped& goal);
-  void TakePath(const nav_msgs::Path& path);
-  void TakeRoute(const std_msgs::Header& header, const std::function<Route()>& read);
+  /// A pose or a path.
+  template <class Goal>
+  void TakeGoal(const Goal& goal);
   void TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);
   void TakeEmergencyStop(const ros::MessageEvent<const std_msgs::Bool>& event);
   void TakeAnswer(const OperatorChallenge& answer);
