@@ -12,12 +12,9 @@ namespace arfm_vo {
 void BundleOptions::Check() const {
   Require(solver == BundleSolver::kCeres || strategy == StepStrategy::kLevenbergMarquardt,
           "bundle.strategy gauss_newton needs bundle.solver ceres");
-  Require(loss_threshold_sigma > 0, "bundle.loss_threshold_sigma must be positive");
   Require(max_iterations >= 1, "bundle.max_iterations must be at least 1");
   Require(function_tolerance >= 0, "bundle.function_tolerance must not be negative");
   Require(max_time_s > 0, "bundle.max_time_s must be positive");
-  Require(inlier_probability > 0 && inlier_probability < 1,
-          "bundle.inlier_probability must be in (0, 1)");
   Require(num_threads >= 1, "bundle.num_threads must be at least 1");
   Require(max_time_share > 0 && max_time_share <= 1, "bundle.max_time_share must be in (0, 1]");
 }

@@ -10,6 +10,8 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kMinScale = 0.3, kMaxScale = 3;
+/// Of the chi-square test of an observation.
+constexpr double kInlierProbability = 0.99;
 /// Redundancy below which the stated sigmas are taken at their word.
 constexpr double kMinFreedom = 20;
 
@@ -65,8 +67,8 @@ double CovarianceFactor(const BundleProblem& problem, const BundleSelection& sel
                         const BundleOptions& options, const Freedom& freedom,
                         const std::vector<double>& squared) {
   if (freedom.freedom < kMinFreedom) return 1;
-  const RobustLoss losses[2] = {RobustLoss(options.loss, options.loss_threshold_sigma, 2),
-                                RobustLoss(options.loss, options.loss_threshold_sigma, 4)};
+  const RobustLoss losses[2] = {RobustLoss(options.loss, kBundleLossThreshold, 2),
+                                RobustLoss(options.loss, kBundleLossThreshold, 4)};
   double weights = 0, slopes = 0, squares = 0;
   for (size_t i = 0; i < squared.size(); ++i) {
     if (!selection.observation_is_used[i]) continue;
@@ -128,8 +130,8 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
   result.point_is_used = selection.point_is_used;
   result.scale = MeasureScale(problem, selection, freedom, squared);
   const double variance = result.scale * result.scale;
-  const double bounds[2] = {variance * ChiSquareQuantile(2, options.inlier_probability),
-                            variance * ChiSquareQuantile(4, options.inlier_probability)};
+  const double bounds[2] = {variance * ChiSquareQuantile(2, kInlierProbability),
+                            variance * ChiSquareQuantile(4, kInlierProbability)};
   result.is_inlier.resize(squared.size());
   for (size_t i = 0; i < squared.size(); ++i) {
     const BundleObservation& observation = problem.observations[i];

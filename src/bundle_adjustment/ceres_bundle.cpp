@@ -70,20 +70,6 @@ class CeresBundle {
     ceres::Solver::Options options;
     const bool is_small = poses_.size() <= 40;
     options.linear_solver_type = is_small ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
-    switch (options_.linear_solver) {
-      case LinearSolver::kAutomatic:
-        break;
-      case LinearSolver::kDenseSchur:
-        options.linear_solver_type = ceres::DENSE_SCHUR;
-        break;
-      case LinearSolver::kSparseSchur:
-        options.linear_solver_type = ceres::SPARSE_SCHUR;
-        break;
-      case LinearSolver::kIterativeSchur:
-        options.linear_solver_type = ceres::ITERATIVE_SCHUR;
-        options.preconditioner_type = ceres::SCHUR_JACOBI;
-        break;
-    }
     if (options_.strategy == StepStrategy::kGaussNewton) {
       options.initial_trust_region_radius = kBoundlessRadius;
       options.max_trust_region_radius = kBoundlessRadius;
@@ -193,8 +179,8 @@ class CeresBundle {
   std::vector<PoseArray> poses_;
   std::vector<Eigen::Vector3d> points_;
   Coefficients correction_;
-  CeresLoss mono_loss_{RobustLoss(options_.loss, options_.loss_threshold_sigma, 2)};
-  CeresLoss stereo_loss_{RobustLoss(options_.loss, options_.loss_threshold_sigma, 4)};
+  CeresLoss mono_loss_{RobustLoss(options_.loss, kBundleLossThreshold, 2)};
+  CeresLoss stereo_loss_{RobustLoss(options_.loss, kBundleLossThreshold, 4)};
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
   ceres::Problem ceres_problem_;
 };

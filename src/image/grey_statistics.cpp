@@ -1,36 +1,18 @@
 #include "arfm_vo/image/grey_statistics.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <opencv2/core.hpp>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
-namespace {
-
-/// Sums of one row in chunks short enough for 32 bits, which the compiler vectorises.
-void AddRow(const uint8_t* row, int cols, uint64_t* sum, uint64_t* sum_of_squares) {
-  constexpr int kChunk = 1 << 15;
-  for (int begin = 0; begin < cols; begin += kChunk) {
-    const int end = std::min(cols, begin + kChunk);
-    uint32_t chunk_sum = 0, chunk_squares = 0;
-    for (int x = begin; x < end; ++x) {
-      const uint32_t grey = row[x];
-      chunk_sum += grey;
-      chunk_squares += grey * grey;
-    }
-    *sum += chunk_sum;
-    *sum_of_squares += chunk_squares;
-  }
-}
-
-}  // namespace
 
 GreyStatistics ComputeGreyStatistics(const cv::Mat& grey) {
   Require(!grey.empty(), "grey statistics: the image is empty");
   Require(grey.type() == CV_8UC1, "grey statistics: the image must be 8 bit grey");
-  uint64_t sum = 0, sum_of_squares = 0;
-  for (int y = 0; y < grey.rows; ++y) AddRow(grey.ptr(y), grey.cols, &sum, &sum_of_squares);
+  // Whole numbers below 2^53.
+  const auto sum = static_cast<uint64_t>(cv::sum(grey)[0]);
+  const auto sum_of_squares = static_cast<uint64_t>(cv::norm(grey, cv::NORM_L2SQR));
   const double count = static_cast<double>(grey.total());
   GreyStatistics statistics;
   statistics.mean = static_cast<double>(sum) / count;

@@ -4,7 +4,6 @@
 
 #include "arfm_vo/base/check.h"
 #include "patch_window.h"
-#include "symmetric.h"
 
 namespace arfm_vo {
 namespace {
@@ -52,16 +51,12 @@ std::optional<Patch> Patch::Sample(const cv::Mat& grey, const cv::Point2f& centr
   Patch patch;
   const PatchSums sums =
       ChoosePatchKernels().prepare(bordered, kPatchWindow.weights.data(),
-                                   {patch.values_.data(), patch.gradient_x_.data(),
-                                    patch.gradient_y_.data(), patch.raw_gradient_x_.data()});
-  patch.squared_values_ = sums.squared_values;
-  patch.hessian_ = cv::Vec3f(sums.hessian);
-  patch.squared_gradients_ = cv::Vec3f(sums.squared_gradients);
+                                   {patch.values.data(), patch.gradient_x.data(),
+                                    patch.gradient_y.data(), patch.raw_gradient_x.data()});
+  patch.squared_values = sums.squared_values;
+  patch.hessian = cv::Vec3f(sums.hessian);
+  patch.squared_gradients = cv::Vec3f(sums.squared_gradients);
   return patch;
-}
-
-cv::Vec3f Patch::UnitCovariance() const {
-  return Sandwich(InvertSymmetric(hessian_), squared_gradients_);
 }
 
 }  // namespace arfm_vo

@@ -21,7 +21,6 @@ bool LookAlike(const cv::Matx22f& a, const cv::Matx22f& b) {
 }  // namespace
 
 void LandmarkAlignerOptions::Check() const {
-  patch.Check();
   Require(max_magnification > 1, "alignment.max_magnification must be above 1");
   Require(min_sigma_px > 0, "alignment.min_sigma_px must be positive");
   Require(max_right_row_px > 0, "alignment.max_right_row_px must be positive");
@@ -54,7 +53,7 @@ std::optional<cv::Matx22f> SourceFromTarget(const StereoCamera& camera, const La
 }
 
 LandmarkAligner::LandmarkAligner(const StereoCamera& camera, const LandmarkAlignerOptions& options)
-    : camera_(camera), options_(options), aligner_(options.patch) {
+    : camera_(camera), options_(options) {
   camera.Check();
   options.Check();
 }
@@ -87,7 +86,7 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   const Eigen::Vector4d predicted = ProjectStereo4(camera_, correction_, x_in_camera);
   const Eigen::Vector2d late = ShiftOfRight(camera_, later_from_now_, x_in_camera);
   const cv::Point2f shift(static_cast<float>(late.x()), static_cast<float>(late.y()));
-  const PatchAlignment left = aligner_.Align(
+  const PatchAlignment left = AlignPatch(
       *patch, images.left, {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
   if (!left.IsAligned()) return std::nullopt;
 
@@ -105,9 +104,9 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
       use_right ? FindWarp(landmark, reference, right_from_world) : std::nullopt;
   if (right_warp) {
     if (LookAlike(*warp, *right_warp)) {
-      right = aligner_.Align(*patch, images.right, guess);
+      right = AlignPatch(*patch, images.right, guess);
     } else if (const auto right_patch = Patch::Sample(reference.left, place, *right_warp)) {
-      right = aligner_.Align(*right_patch, images.right, guess);
+      right = AlignPatch(*right_patch, images.right, guess);
     }
   }
   observation.has_right =

@@ -5,12 +5,16 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
-#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/ransac.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr int kSampleSize = 7;
+/// Sampson distance of an inlier.
+constexpr double kMaxErrorPx = 1.5;
+/// Fewer are no consensus: any seven matches agree.
+constexpr int kMinInliers = 15;
 
 bool IsFinite(const cv::Matx33d& matrix) {
   return std::all_of(matrix.val, matrix.val + 9, [](double value) { return std::isfinite(value); });
@@ -20,8 +24,7 @@ bool IsFinite(const cv::Matx33d& matrix) {
 class EpipolarProblem {
  public:
   EpipolarProblem(const std::vector<Keypoint>& first, const std::vector<Keypoint>& second,
-                  const Matches& matches, double max_error_px)
-      : max_error_px_(max_error_px) {
+                  const Matches& matches) {
     for (const Match& match : matches) {
       first_.push_back(first[match.first]);
       second_.push_back(second[match.second]);
@@ -55,7 +58,7 @@ class EpipolarProblem {
   double Classify(const cv::Matx33d& fundamental, std::vector<char>& is_inlier) const {
     double score = 0;
     for (size_t i = 0; i < first_.size(); ++i) {
-      const double error = SampsonDistance(fundamental, first_[i], second_[i]) / max_error_px_;
+      const double error = SampsonDistance(fundamental, first_[i], second_[i]) / kMaxErrorPx;
       is_inlier[i] = error <= 1;
       if (error < 1) score += 1 - error * error;
     }
@@ -64,16 +67,9 @@ class EpipolarProblem {
 
  private:
   std::vector<Keypoint> first_, second_;
-  double max_error_px_;
 };
 
 }  // namespace
-
-void EpipolarRansacOptions::Check() const {
-  ransac.Check();
-  Require(max_error_px > 0, "epipolar.max_error_px must be positive");
-  Require(min_inliers > kSampleSize, "epipolar.min_inliers must be more than 7");
-}
 
 double SampsonDistance(const cv::Matx33d& fundamental, const Keypoint& first,
                        const Keypoint& second) {
@@ -88,17 +84,15 @@ double SampsonDistance(const cv::Matx33d& fundamental, const Keypoint& first,
 
 std::optional<EpipolarGeometry> FindEpipolarGeometry(const std::vector<Keypoint>& first,
                                                      const std::vector<Keypoint>& second,
-                                                     const Matches& matches,
-                                                     const EpipolarRansacOptions& options) {
-  options.Check();
-  const EpipolarProblem problem(first, second, matches, options.max_error_px);
+                                                     const Matches& matches) {
+  const EpipolarProblem problem(first, second, matches);
   const auto report = Ransac<cv::Matx33d>(
-      problem.size(), kSampleSize, options.ransac,
+      problem.size(), kSampleSize, RansacOptions(),
       [&](const std::vector<int>& sample) { return problem.Estimate(sample); },
       [&](const cv::Matx33d& model, std::vector<char>& is_inlier) {
         return problem.Classify(model, is_inlier);
       });
-  if (!report || report->num_inliers < options.min_inliers) return std::nullopt;
+  if (!report || report->num_inliers < kMinInliers) return std::nullopt;
   return EpipolarGeometry{report->model, report->is_inlier, report->num_inliers};
 }
 

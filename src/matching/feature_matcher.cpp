@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/matching/epipolar_ransac.h"
 #include "arfm_vo/matching/exact_matcher.h"
+#include "arfm_vo/matching/flann_matcher.h"
 
 namespace arfm_vo {
 namespace {
@@ -28,9 +30,6 @@ void Keep(Matches& matches, IsWanted&& is_wanted) {
 }  // namespace
 
 void FeatureMatcherOptions::Check() const {
-  flann.Check();
-  selection.Check();
-  epipolar.Check();
   Require(max_row_difference_px >= 0, "matcher.max_row_difference_px must not be negative");
 }
 
@@ -45,9 +44,9 @@ Matches FeatureMatcher::MatchFeatures(const Features& first, const Features& sec
       strategy == MatchStrategy::kSurfFlann || strategy == MatchStrategy::kSurfFlannRansac;
   const bool uses_ransac =
       strategy == MatchStrategy::kSurfRansac || strategy == MatchStrategy::kSurfFlannRansac;
-  Matches matches = SelectMatches(uses_flann ? FindNeighboursByFlann(first, second, options_.flann)
-                                             : FindNeighboursExactly(first, second),
-                                  ratio_threshold, options_.selection);
+  Matches matches = SelectMatches(
+      uses_flann ? FindNeighboursByFlann(first, second) : FindNeighboursExactly(first, second),
+      ratio_threshold);
   if (options_.max_row_difference_px > 0) {
     Keep(matches, [&](size_t i) {
       return IsOnRow(first.keypoints[matches[i].first], second.keypoints[matches[i].second],
@@ -55,8 +54,7 @@ Matches FeatureMatcher::MatchFeatures(const Features& first, const Features& sec
     });
   }
   if (uses_ransac) {
-    const auto geometry =
-        FindEpipolarGeometry(first.keypoints, second.keypoints, matches, options_.epipolar);
+    const auto geometry = FindEpipolarGeometry(first.keypoints, second.keypoints, matches);
     if (!geometry) return {};
     Keep(matches, [&](size_t i) { return geometry->is_inlier[i] != 0; });
   }

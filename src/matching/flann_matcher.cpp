@@ -9,6 +9,11 @@
 namespace arfm_vo {
 namespace {
 
+constexpr int kTrees = 4;  ///< randomised kd-trees
+constexpr int kChecks =
+    32;                   ///< leaves looked at for a query: more find more of the true neighbours
+constexpr int kSeed = 1;  ///< of the trees
+
 /// FLANN draws from OpenCV's generator of this thread: seeds it, and puts it back at the end.
 class SeededGenerator {
  public:
@@ -21,15 +26,14 @@ class SeededGenerator {
   cv::RNG before_;
 };
 
-std::vector<Neighbours> FindOneWay(const cv::Mat& queries, const cv::Mat& train,
-                                   const FlannMatcherOptions& options) {
+std::vector<Neighbours> FindOneWay(const cv::Mat& queries, const cv::Mat& train) {
   std::vector<Neighbours> neighbours(queries.rows);
   if (queries.empty() || train.empty()) return neighbours;
-  const SeededGenerator generator(options.seed);
-  cv::flann::Index index(train, cv::flann::KDTreeIndexParams(options.trees));
+  const SeededGenerator generator(kSeed);
+  cv::flann::Index index(train, cv::flann::KDTreeIndexParams(kTrees));
   cv::Mat indices, squared_distances;
   index.knnSearch(queries, indices, squared_distances, std::min(2, train.rows),
-                  cv::flann::SearchParams(options.checks));
+                  cv::flann::SearchParams(kChecks));
   for (int i = 0; i < queries.rows; ++i) {
     for (int k = 0; k < indices.cols; ++k) {
       const int candidate = indices.at<int>(i, k);
@@ -48,18 +52,11 @@ void CheckDescriptors(const Features& features) {
 
 }  // namespace
 
-void FlannMatcherOptions::Check() const {
-  Require(trees >= 1 && trees <= 64, "flann.trees must be in 1..64");
-  Require(checks >= 1, "flann.checks must be at least 1");
-}
-
-TwoWayNeighbours FindNeighboursByFlann(const Features& first, const Features& second,
-                                       const FlannMatcherOptions& options) {
-  options.Check();
+TwoWayNeighbours FindNeighboursByFlann(const Features& first, const Features& second) {
   CheckDescriptors(first);
   CheckDescriptors(second);
-  return {FindOneWay(first.descriptors, second.descriptors, options),
-          FindOneWay(second.descriptors, first.descriptors, options)};
+  return {FindOneWay(first.descriptors, second.descriptors),
+          FindOneWay(second.descriptors, first.descriptors)};
 }
 
 }  // namespace arfm_vo

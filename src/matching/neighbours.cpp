@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "arfm_vo/base/check.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -20,19 +18,13 @@ float Neighbours::Ratio() const {
   return std::sqrt((squared_distance + kFloatNoise) / (second_squared_distance + kFloatNoise));
 }
 
-void MatchSelectionOptions::Check() const {
-  Require(max_distance > 0 && max_distance <= 2, "selection.max_distance must be in (0, 2]");
-}
-
-Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold,
-                      const MatchSelectionOptions& options) {
-  const float max_squared_distance =
-      static_cast<float>(options.max_distance * options.max_distance);
+Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold) {
+  constexpr float kMaxSquaredDistance = 4;  // of unit descriptors; rounding may say more
   Matches matches;
   for (int first = 0; first < static_cast<int>(neighbours.of_first.size()); ++first) {
     const Neighbours& found = neighbours.of_first[first];
-    if (found.nearest < 0 || found.squared_distance > max_squared_distance) continue;
-    if (options.cross_check && neighbours.of_second[found.nearest].nearest != first) continue;
+    if (found.nearest < 0 || found.squared_distance > kMaxSquaredDistance) continue;
+    if (neighbours.of_second[found.nearest].nearest != first) continue;
     if (found.Ratio() > ratio_threshold) continue;
     const bool is_lone = found.second_squared_distance == Neighbours::kNone;
     if (is_lone && found.squared_distance > kMaxLoneSquaredDistance) continue;

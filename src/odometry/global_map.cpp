@@ -5,7 +5,6 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
-#include "arfm_vo/bundle_adjustment/pose_graph.h"
 #include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
@@ -124,14 +123,17 @@ void GlobalMap::Close(const Loop& loop) {
 }
 
 void GlobalMap::BendOntoLoops() {
-  std::vector<Rigid3> poses;
+  BundleProblem graph;  // of poses alone
+  graph.camera = camera_;
+  graph.constraints = loops_;
   for (const Keyframe& keyframe : store_.keyframes) {
-    poses.push_back(keyframe.camera_from_world);
+    graph.pose_is_fixed.push_back(graph.camera_from_world.empty());
+    graph.camera_from_world.push_back(keyframe.camera_from_world);
   }
-  std::vector<PoseConstraint> constraints = loops_;
+  const std::vector<Rigid3>& poses = graph.camera_from_world;
   // An adjustment has found what the loops closed before it say, from more than they were.
   for (size_t i = 0; i < num_adjusted_loops_; ++i) {
-    PoseConstraint& loop = constraints[i];
+    PoseConstraint& loop = graph.constraints[i];
     loop.second_from_first = poses[loop.second] * poses[loop.first].Inverse();
   }
   for (int k = 0; k + 1 < num_keyframes(); ++k) {
@@ -141,9 +143,11 @@ void GlobalMap::BendOntoLoops() {
     step.information.setZero();
     step.information.diagonal().head<3>().setConstant(1 / (kStepSigma_rad * kStepSigma_rad));
     step.information.diagonal().tail<3>().setConstant(1 / (sigma_m * sigma_m));
-    constraints.push_back(step);
+    graph.constraints.push_back(step);
   }
-  const std::vector<Rigid3> bent = SolvePoseGraph(poses, constraints);
+  BundleOptions options;
+  options.function_tolerance = 1e-9;
+  const std::vector<Rigid3> bent = AdjustBundle(graph, options).camera_from_world;
   for (auto& [id, point] : store_.landmarks) {
     const int k = point.first_keyframe;
     point.x_in_world = bent[k].Inverse() * (poses[k] * point.x_in_world);

@@ -56,7 +56,7 @@ Correspondences LandmarkMatcher::MatchNear(const StereoFrame& frame, const Local
   const TwoWayNeighbours neighbours = FindPredictedNeighbours(
       predictions, StackDescriptors(landmarks), frame.features, options_.max_scale_ratio);
   return Correspond(frame, map.arrived(), landmarks,
-                    SelectMatches(neighbours, options_.guided_ratio, MatchSelectionOptions{}));
+                    SelectMatches(neighbours, options_.guided_ratio));
 }
 
 Correspondences LandmarkMatcher::MatchAll(const StereoFrame& frame, const LocalMap& map) const {
@@ -69,7 +69,7 @@ Correspondences LandmarkMatcher::MatchAll(const StereoFrame& frame, const LocalM
   known.descriptors = StackDescriptors(landmarks);
   const TwoWayNeighbours neighbours = FindNeighboursExactly(known, frame.features);
   return Correspond(frame, map.arrived(), landmarks,
-                    SelectMatches(neighbours, options_.unguided_ratio, MatchSelectionOptions{}));
+                    SelectMatches(neighbours, options_.unguided_ratio));
 }
 
 Correspondences LandmarkMatcher::MatchAsImages(const StereoFrame& frame,

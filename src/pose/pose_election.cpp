@@ -27,8 +27,8 @@ class Consensus {
       : camera_(camera),
         observations_(observations),
         min_inliers_(options.min_inliers),
-        bounds_{ChiSquareQuantile(2, options.inlier_probability),
-                ChiSquareQuantile(3, options.inlier_probability)} {
+        bounds_{ChiSquareQuantile(2, kInlierProbability),
+                ChiSquareQuantile(3, kInlierProbability)} {
     spreads_.reserve(observations.size());
     for (const PointObservation& observation : observations) {
       spreads_.emplace_back(observation.x_covariance);

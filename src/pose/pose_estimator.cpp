@@ -30,8 +30,6 @@ void PoseEstimatorOptions::Check() const {
   refinement.Check();
   Require(sample_size >= 4 && sample_size <= kMaxSample,
           "pose_estimator.sample_size must be in 4..8");
-  Require(inlier_probability > 0 && inlier_probability < 1,
-          "pose_estimator.inlier_probability must be in (0, 1)");
   Require(min_inliers >= sample_size, "pose_estimator.min_inliers must be at least sample_size");
   Require(min_inlier_share >= 0 && min_inlier_share <= 1,
           "pose_estimator.min_inlier_share must be in 0..1");

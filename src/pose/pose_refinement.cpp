@@ -16,6 +16,12 @@ namespace {
 /// Expected fall of the cost at which a search ends: a tenth of the pose's standard deviation while
 /// the inliers may change, a thousandth at the end.
 constexpr double kRoughly = 1e-2, kEnough = 1e-6;
+constexpr int kMaxIterations = 10;  ///< of each round
+constexpr int kMinInliers = 4;
+/// The measured scale of the residuals is kept in between, in stated standard deviations.
+constexpr double kMinScale = 0.3, kMaxScale = 3;
+/// Observations' worth of trust in the stated sigma_px.
+constexpr double kScalePrior = 10;
 
 /// What the loss needs to know for residuals of one number of coordinates.
 struct ResidualModel {
@@ -26,10 +32,10 @@ struct ResidualModel {
 
   ResidualModel(const PoseRefinementOptions& options, int num_coordinates)
       : loss(options.loss, options.loss_threshold_sigma, num_coordinates),
-        bound(ChiSquareQuantile(num_coordinates, options.inlier_probability)),
-        median(ChiSquareQuantile(num_coordinates, options.inlier_probability / 2)),
-        lost_weight(loss.Weight(bound) * (1 - ChiSquareProbability(num_coordinates + 2, bound) /
-                                                  options.inlier_probability)) {}
+        bound(ChiSquareQuantile(num_coordinates, kInlierProbability)),
+        median(ChiSquareQuantile(num_coordinates, kInlierProbability / 2)),
+        lost_weight(loss.Weight(bound) *
+                    (1 - ChiSquareProbability(num_coordinates + 2, bound) / kInlierProbability)) {}
 };
 
 /// The normal equations with the cost.
@@ -62,7 +68,7 @@ class Refiner {
       if (!HasEnoughInliers() || !Iterate(kRoughly)) return result_;
       const double last_scale = result_.scale;
       UpdateInformation();
-      MeasureScale(options_.max_scale);
+      MeasureScale(kMaxScale);
       const bool is_same = Classify();
       if (is_same && std::abs(result_.scale - last_scale) < 0.01 * last_scale) break;
     }
@@ -75,7 +81,7 @@ class Refiner {
  private:
   const ResidualModel& ModelOf(size_t i) const { return models_[observations_[i].has_right]; }
 
-  bool HasEnoughInliers() const { return result_.num_inliers >= options_.min_inliers; }
+  bool HasEnoughInliers() const { return result_.num_inliers >= kMinInliers; }
 
   /// New points join where they agree with the pose of these: on something that moves they agree
   /// with one another so well that they would take the pose along.
@@ -109,10 +115,9 @@ class Refiner {
     if (ratios.empty()) return;
     const auto middle = ratios.begin() + ratios.size() / 2;
     std::nth_element(ratios.begin(), middle, ratios.end());
-    const double prior = options_.scale_prior_weight;
     const double count = static_cast<double>(ratios.size());
-    const double variance = (count * *middle + prior) / (count + prior);
-    result_.scale = std::clamp(std::sqrt(variance), options_.min_scale, max_scale);
+    const double variance = (count * *middle + kScalePrior) / (count + kScalePrior);
+    result_.scale = std::clamp(std::sqrt(variance), kMinScale, max_scale);
   }
 
   /// Returns whether the inliers stay the same.
@@ -146,7 +151,7 @@ class Refiner {
   bool Iterate(double enough) {
     Linearization equations = Linearize(result_.camera_from_world);
     double damping = 0;
-    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       const ScaledNormalMatrix matrix(equations.hessian);
       if (!matrix.IsFullRank()) {
         result_.status = RefinementStatus::kRankDeficient;
@@ -196,7 +201,7 @@ class Refiner {
     result_.rms_px = std::sqrt(squared_px / num_coordinates);
     const double freedom = std::max(1.0, num_coordinates - 6);
     // The stated noise stands in where the residuals are too small or too few to tell.
-    const double least = options_.min_scale * options_.min_scale * inverse_variance;
+    const double least = kMinScale * kMinScale * inverse_variance;
     const double b = std::max(square / freedom, least);
     const double a = std::max(slope / num_coordinates, 0.1);
     if (!matrix.IsFullRank()) {
@@ -222,15 +227,8 @@ class Refiner {
 }  // namespace
 
 void PoseRefinementOptions::Check() const {
-  Require(max_iterations >= 1, "refinement.max_iterations must be at least 1");
   Require(max_rounds >= 1, "refinement.max_rounds must be at least 1");
   Require(loss_threshold_sigma > 0, "refinement.loss_threshold_sigma must be positive");
-  Require(inlier_probability > 0 && inlier_probability < 1,
-          "refinement.inlier_probability must be in (0, 1)");
-  Require(min_scale > 0 && min_scale <= 1, "refinement.min_scale must be in (0, 1]");
-  Require(max_scale >= 1, "refinement.max_scale must be at least 1");
-  Require(scale_prior_weight >= 0, "refinement.scale_prior_weight must not be negative");
-  Require(min_inliers >= 3, "refinement.min_inliers must be at least 3");
 }
 
 PoseRefinement RefinePose(const StereoCamera& camera,

@@ -43,8 +43,8 @@ StereoPoints TriangulateByMotion(const StereoCamera& camera, const StereoCorrect
                                  double keypoint_sigma) {
   const Rigid3 before_from_now = before.camera_from_world * now.camera_from_world.Inverse();
   StereoPoints points;
-  for (const Match& match : SelectMatches(FindNeighboursExactly(now.features, before.features),
-                                          kMaxRatio, MatchSelectionOptions{})) {
+  for (const Match& match :
+       SelectMatches(FindNeighboursExactly(now.features, before.features), kMaxRatio)) {
     const Keypoint& keypoint = now.features.keypoints[match.first];
     const Keypoint& other = before.features.keypoints[match.second];
     const double sigma = keypoint_sigma * std::hypot(keypoint.scale, other.scale) / camera.fx;

@@ -7,14 +7,16 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
-
 namespace arfm_vo {
 namespace {
 
 constexpr int kSize = 12;    ///< samples a side, at half size
 constexpr int kStride = 16;  ///< of a row of the template, zero from kSize on
 constexpr int kNumSamples = kSize * kSize;
+/// Least correlation of the best place.
+constexpr double kMinZncc = 0.8;
+/// Most of (1 - best) / (1 - second-best correlation).
+constexpr double kMaxAmbiguity = 0.7;
 
 /// Grey values less their mean, as 16 bit integers: at most 255 * 12 * 12 * 128 in a sum.
 struct Template {
@@ -108,13 +110,6 @@ float ParabolaPeak(float before, float at, float after) {
 
 }  // namespace
 
-void RowSearchOptions::Check() const {
-  Require(min_zncc > -1 && min_zncc < 1, "row_search.min_zncc must be in (-1, 1)");
-  Require(max_ambiguity > 0 && max_ambiguity <= 1, "row_search.max_ambiguity must be in (0, 1]");
-}
-
-RowSearch::RowSearch(const RowSearchOptions& options) : options_(options) { options.Check(); }
-
 void RowSearch::SetImages(const cv::Mat& left, const cv::Mat& right) {
   cv::pyrDown(left, left_);
   cv::pyrDown(right, right_);
@@ -137,14 +132,14 @@ std::optional<cv::Point2f> RowSearch::Find(const cv::Point2f& left_pixel, double
   const std::vector<float> scores = CorrelateStrip(patch, right_, first, right_y, last - first + 1);
   const int best =
       static_cast<int>(std::max_element(scores.begin() + 1, scores.end() - 1) - scores.begin());
-  if (scores[best] < options_.min_zncc) return std::nullopt;
+  if (scores[best] < kMinZncc) return std::nullopt;
   constexpr int kPeakWidth = 2;
   float second = -1;
   for (int i = 0; i < static_cast<int>(scores.size()); ++i) {
     if (std::abs(i - best) > kPeakWidth) second = std::max(second, scores[i]);
   }
   constexpr float kRounding = 1e-3f;  // two perfect places can't be told apart
-  if (1 - scores[best] + kRounding > options_.max_ambiguity * (1 - second + kRounding)) {
+  if (1 - scores[best] + kRounding > kMaxAmbiguity * (1 - second + kRounding)) {
     return std::nullopt;
   }
   const float peak = ParabolaPeak(scores[best - 1], scores[best], scores[best + 1]);

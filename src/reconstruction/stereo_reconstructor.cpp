@@ -5,6 +5,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/pixel_scale.h"
+#include "arfm_vo/image/slant_alignment.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
@@ -12,6 +13,11 @@ namespace {
 
 /// Before the rows are learnt they may be off by this much more.
 constexpr double kUnknownRowsPx = 2;
+
+/// No point is better than this.
+constexpr double kSigmaFloorPx = 0.07;
+/// Times the alignment's prediction, as rows show.
+constexpr double kSigmaInflation = 2;
 
 /// Where a smaller share of the left keypoints is matched it is worth a look: 0.17..0.44 where the
 /// eyes are swapped, 0.47 and more where they are in place, in the recordings of docs/stress.md.
@@ -27,15 +33,9 @@ cv::Point2f Position(const Keypoint& keypoint) { return {keypoint.x, keypoint.y}
 
 void StereoReconstructionOptions::Check() const {
   search.Check();
-  selection.Check();
-  alignment.Check();
-  row_search.Check();
   matcher.Check();
   threshold.Check();
-  slant.Check();
   Require(max_row_deviation > 0, "max_row_deviation must be positive");
-  Require(sigma_floor_px > 0, "sigma_floor_px must be positive");
-  Require(sigma_inflation > 0, "sigma_inflation must be positive");
   Require(keypoint_sigma > 0, "keypoint_sigma must be positive");
 }
 
@@ -44,9 +44,7 @@ StereoReconstructor::StereoReconstructor(const StereoCamera& camera,
     : camera_(camera),
       options_(options),
       matcher_(options.matcher),
-      aligner_(options.alignment, options.slant),
-      row_model_(camera, CorrectionBelief::OfCalibration(camera)),
-      row_search_(options.row_search) {
+      row_model_(camera, CorrectionBelief::OfCalibration(camera)) {
   camera.Check();
   options.Check();
   options_.search.max_disparity_px *= PixelScale(camera.width);
@@ -61,8 +59,7 @@ Matches StereoReconstructor::MatchKeypoints(const Features& left, const Features
   }
   StereoSearchOptions search = options_.search;
   if (!row_model_.IsLearnt()) search.max_row_difference_px += kUnknownRowsPx;
-  return SelectMatches(FindStereoNeighbours(expected, right, search), max_ratio,
-                       options_.selection);
+  return SelectMatches(FindStereoNeighbours(expected, right, search), max_ratio);
 }
 
 bool StereoReconstructor::FitBetterInExchange(const Features& left, const Features& right,
@@ -96,15 +93,15 @@ std::optional<cv::Point2f> StereoReconstructor::SearchRow(const cv::Point2f& pla
 StereoReconstructor::Sightings StereoReconstructor::Refine(
     const Features& left, std::vector<std::optional<cv::Point2f>> guesses,
     const StereoImages& images) {
-  const auto inflation = static_cast<float>(options_.sigma_inflation * options_.sigma_inflation);
-  const auto floor = static_cast<float>(options_.sigma_floor_px * options_.sigma_floor_px);
+  constexpr auto kInflation = static_cast<float>(kSigmaInflation * kSigmaInflation);
+  constexpr auto kFloor = static_cast<float>(kSigmaFloorPx * kSigmaFloorPx);
   if (options_.search_rows) row_search_.SetImages(images.left, images.right);
   std::vector<SlantAlignment> alignments(left.size());
   cv::parallel_for_(cv::Range(0, left.size()), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const cv::Point2f place = Position(left.keypoints[i]);
       if (!guesses[i] && options_.search_rows) guesses[i] = SearchRow(place);
-      if (guesses[i]) alignments[i] = aligner_.Align(images.left, place, images.right, *guesses[i]);
+      if (guesses[i]) alignments[i] = AlignSlanted(images.left, place, images.right, *guesses[i]);
     }
   });
   Sightings sightings;
@@ -112,9 +109,9 @@ StereoReconstructor::Sightings StereoReconstructor::Refine(
     const SlantAlignment& slanted = alignments[i];
     const PatchAlignment& alignment = slanted.alignment;
     if (!alignment.IsAligned()) continue;
-    cv::Vec3f covariance = inflation * alignment.covariance;
-    covariance[0] += floor;
-    covariance[2] += floor;
+    cv::Vec3f covariance = kInflation * alignment.covariance;
+    covariance[0] += kFloor;
+    covariance[2] += kFloor;
     sightings.push_back({i, alignment.position, covariance, slanted.disparity_gradient});
   }
   return sightings;

@@ -57,12 +57,7 @@ void RunWindows() {
     options.solver = BundleSolver::kOwn;
     RunWindow("own", options, sigma);
     options.solver = BundleSolver::kCeres;
-    for (const auto& [name, solver] : ListNames(LinearSolver{})) {
-      if (solver == LinearSolver::kAutomatic) continue;
-      options.linear_solver = solver;
-      RunWindow(("ceres " + name).c_str(), options, sigma);
-    }
-    options.linear_solver = LinearSolver::kAutomatic;
+    RunWindow("ceres", options, sigma);
   }
 }
 

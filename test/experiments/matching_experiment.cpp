@@ -76,7 +76,7 @@ class SurfPair {
 
   const Features& first() const { return first_; }
   const Features& second() const { return second_; }
-  Matches Select(double ratio) const { return SelectMatches(neighbours_, ratio, {}); }
+  Matches Select(double ratio) const { return SelectMatches(neighbours_, ratio); }
 
   void PrintSelected(Row row) const { PrintMatches(row, Select(row.ratio)); }
   void PrintMatches(Row row, const Matches& matches) const {
@@ -197,7 +197,7 @@ void PrintMethods(const JudgedPair& pair, int num_points) {
     row.ms = std::chrono::duration<double, std::milli>(end - start).count();
     for (int percent = 50; percent <= 100; percent += 2) {
       row.ratio = percent / 100.0;
-      const Matches matches = SelectMatches(neighbours, row.ratio, {});
+      const Matches matches = SelectMatches(neighbours, row.ratio);
       row.matches = static_cast<int>(matches.size());
       row.correct = CountCorrect(pair, first.points, second.points, matches);
       Print(pair, row);

@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kSize = 160;
 
-PatchAlignmentOptions LooseOptions() {
-  PatchAlignmentOptions options;
-  options.max_sigma_px = 2;
-  options.min_zncc = 0.5;
-  return options;
+PatchAlignmentLimits LooseLimits() {
+  PatchAlignmentLimits limits;
+  limits.max_sigma_px = 2;
+  limits.min_zncc = 0.5;
+  return limits;
 }
 
 /// Errors of many alignments of one image with another that is moved by (dx, dy).
@@ -25,14 +25,13 @@ struct Errors {
   double sum_x = 0, sum_y = 0, sum_squared = 0, sum_squared_over_variance = 0;
 
   Errors(const cv::Mat& image, const cv::Mat& moved, double dx, double dy) {
-    const PatchAligner aligner(LooseOptions());
     for (int y = 20; y < kSize - 20; y += 5) {
       for (int x = 20; x < kSize - 20; x += 5) {
         const cv::Point2f point(x + 0.1f * (y % 10), y + 0.1f * (x % 7));
         const cv::Point2f truth = point + cv::Point2f(dx, dy);
         const auto patch = Patch::Sample(image, point);
         const cv::Point2f guess = truth + cv::Point2f(0.6f * (x % 3 - 1), 0.5f * (y % 3 - 1));
-        const auto alignment = aligner.Align(*patch, moved, guess);
+        const auto alignment = AlignPatch(*patch, moved, guess, LooseLimits());
         if (!alignment.IsAligned()) {
           ++failed;
           continue;
@@ -91,9 +90,9 @@ TEST(PatchAlignment, BrightnessAndContrastDoNotMatter) {
 
 /// The middle of the texture and what the aligner makes of it in `moved`.
 PatchAlignment AlignMiddle(const cv::Mat& image, const cv::Mat& moved, const cv::Point2f& offset,
-                           const PatchAlignmentOptions& options = LooseOptions()) {
+                           const PatchAlignmentLimits& limits = LooseLimits()) {
   const cv::Point2f middle(kSize / 2, kSize / 2);
-  return PatchAligner(options).Align(*Patch::Sample(image, middle), moved, middle + offset);
+  return AlignPatch(*Patch::Sample(image, middle), moved, middle + offset, limits);
 }
 
 TEST(PatchAlignment, FindsAPatchThatIsSeenLarger) {
@@ -101,7 +100,7 @@ TEST(PatchAlignment, FindsAPatchThatIsSeenLarger) {
   const cv::Mat image = texture.Render(0, 0), larger = texture.Render(0.3, -0.4, 0, 1, 1.4);
   const cv::Point2f middle(kSize / 2, kSize / 2);
   const auto patch = Patch::Sample(image, middle, cv::Matx22f(1 / 1.4f, 0, 0, 1 / 1.4f));
-  const auto alignment = PatchAligner(LooseOptions()).Align(*patch, larger, middle);
+  const auto alignment = AlignPatch(*patch, larger, middle, LooseLimits());
   ASSERT_TRUE(alignment.IsAligned());
   EXPECT_NEAR(alignment.position.x, middle.x + 0.3f, 0.03);
   EXPECT_NEAR(alignment.position.y, middle.y - 0.4f, 0.03);
@@ -114,9 +113,8 @@ TEST(PatchAlignment, AWarpThatChangesNothingGivesTheSamePatch) {
   const cv::Point2f middle(80.3f, 80.7f);
   const auto straight = Patch::Sample(image, middle);
   const auto warped = Patch::Sample(image, middle, cv::Matx22f(1.000001f, 0, 0, 1));
-  const PatchAligner aligner(LooseOptions());
-  const cv::Point2f difference = aligner.Align(*straight, moved, middle).position -
-                                 aligner.Align(*warped, moved, middle).position;
+  const cv::Point2f difference = AlignPatch(*straight, moved, middle, LooseLimits()).position -
+                                 AlignPatch(*warped, moved, middle, LooseLimits()).position;
   EXPECT_LT(cv::norm(difference), 1e-3);
 }
 
@@ -135,12 +133,11 @@ TEST(PatchAlignment, OfAStraightEdgeHasTooLittleTexture) {
 TEST(PatchAlignment, InAnotherTextureHasLowCorrelationOrDoesNotSettle) {
   const cv::Mat image = BlobTexture(kSize, 1.5, 1).Render(0, 0);
   const cv::Mat other = BlobTexture(kSize, 1.5, 2).Render(0, 0);
-  PatchAlignmentOptions options;
-  options.min_zncc = 0.9;
-  const PatchAligner aligner(options);
+  PatchAlignmentLimits limits;
+  limits.min_zncc = 0.9;
   for (int x = 20; x < 140; x += 5) {
     const cv::Point2f point(x, 80);
-    EXPECT_FALSE(aligner.Align(*Patch::Sample(image, point), other, point).IsAligned());
+    EXPECT_FALSE(AlignPatch(*Patch::Sample(image, point), other, point, limits).IsAligned());
   }
 }
 
@@ -151,17 +148,17 @@ TEST(PatchAlignment, InTheNegativeHasLowCorrelation) {
 
 TEST(PatchAlignment, MovesNoFartherThanAllowed) {
   const BlobTexture texture(kSize, 2.5, 1);
-  PatchAlignmentOptions options = LooseOptions();
-  options.max_shift_px = 1;
-  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1.5, 0), {0, 0}, options);
+  PatchAlignmentLimits limits = LooseLimits();
+  limits.max_shift_px = 1;
+  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1.5, 0), {0, 0}, limits);
   EXPECT_EQ(alignment.status, AlignmentStatus::kMovedTooFar);
 }
 
 TEST(PatchAlignment, GivesUpAfterTooManyIterations) {
   const BlobTexture texture(kSize, 1.5, 1);
-  PatchAlignmentOptions options = LooseOptions();
-  options.max_iterations = 1;
-  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1, 0), {0, 0}, options);
+  PatchAlignmentLimits limits = LooseLimits();
+  limits.max_iterations = 1;
+  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1, 0), {0, 0}, limits);
   EXPECT_EQ(alignment.status, AlignmentStatus::kNotConverged);
 }
 
@@ -189,12 +186,6 @@ TEST(Patch, AtTheBorderThereIsNone) {
 
 TEST(Patch, OfAColourImageThrows) {
   EXPECT_THROW(Patch::Sample(cv::Mat(kSize, kSize, CV_8UC3), {80, 80}), std::invalid_argument);
-}
-
-TEST(PatchAlignmentOptions, CheckNamesTheBadKey) {
-  PatchAlignmentOptions options;
-  options.max_iterations = 0;
-  EXPECT_THROW(PatchAligner{options}, std::invalid_argument);
 }
 
 }  // namespace

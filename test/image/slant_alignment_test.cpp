@@ -42,7 +42,7 @@ cv::Mat MakeRight(const cv::Mat& left, const cv::Vec2f& gradient) {
 SlantAlignment AlignWith(const cv::Vec2f& gradient, const cv::Point2f& guess_error) {
   const cv::Mat left = MakeTexture();
   const cv::Point2f truth(kCentre.x - kDisparity, kCentre.y);
-  return SlantAligner({}, {}).Align(left, kCentre, MakeRight(left, gradient), truth + guess_error);
+  return AlignSlanted(left, kCentre, MakeRight(left, gradient), truth + guess_error);
 }
 
 void ExpectFound(const cv::Vec2f& gradient) {
@@ -54,14 +54,14 @@ void ExpectFound(const cv::Vec2f& gradient) {
   EXPECT_NEAR(found.disparity_gradient[1], gradient[1], 0.05);
 }
 
-TEST(SlantAligner, FindsASurfaceThatFacesTheCamera) { ExpectFound({0, 0}); }
+TEST(AlignSlanted, FindsASurfaceThatFacesTheCamera) { ExpectFound({0, 0}); }
 
-TEST(SlantAligner, FindsTheGround) { ExpectFound({0, 0.3f}); }
+TEST(AlignSlanted, FindsTheGround) { ExpectFound({0, 0.3f}); }
 
-TEST(SlantAligner, FindsAWallAlongTheWay) { ExpectFound({0.15f, 0}); }
+TEST(AlignSlanted, FindsAWallAlongTheWay) { ExpectFound({0.15f, 0}); }
 
-TEST(SlantAligner, StaysNearItsGuessOverAllRounds) {
-  PatchAlignmentOptions tight;
+TEST(AlignSlanted, StaysNearItsGuessOverAllRounds) {
+  PatchAlignmentLimits tight;
   tight.max_shift_px = 0.7;
   const cv::Mat left = MakeTexture();
   int num_found = 0;
@@ -69,7 +69,7 @@ TEST(SlantAligner, StaysNearItsGuessOverAllRounds) {
     for (float error = -2; error <= 2; error += 0.1f) {
       const cv::Point2f guess(kCentre.x - kDisparity + error, kCentre.y);
       const SlantAlignment found =
-          SlantAligner(tight, {}).Align(left, kCentre, MakeRight(left, {slant, 0.2f}), guess);
+          AlignSlanted(left, kCentre, MakeRight(left, {slant, 0.2f}), guess, tight);
       if (!found.alignment.IsAligned()) continue;
       ++num_found;
       EXPECT_LE(cv::norm(found.alignment.position - guess), 0.7) << slant << ", " << error;
@@ -78,21 +78,15 @@ TEST(SlantAligner, StaysNearItsGuessOverAllRounds) {
   EXPECT_GT(num_found, 10);
 }
 
-TEST(SlantAligner, SaysThatItIsOutOfTheImage) {
+TEST(AlignSlanted, SaysThatItIsOutOfTheImage) {
   const cv::Mat left = MakeTexture();
-  const SlantAlignment found = SlantAligner({}, {}).Align(left, {2, 2}, left, {2, 2});
+  const SlantAlignment found = AlignSlanted(left, {2, 2}, left, {2, 2});
   EXPECT_EQ(found.alignment.status, AlignmentStatus::kOutOfImage);
 }
 
-TEST(SlantAligner, FindsNothingWithoutTexture) {
+TEST(AlignSlanted, FindsNothingWithoutTexture) {
   const cv::Mat flat(80, 120, CV_8U, cv::Scalar(90));
-  EXPECT_FALSE(SlantAligner({}, {}).Align(flat, kCentre, flat, kCentre).alignment.IsAligned());
-}
-
-TEST(SlantAlignmentOptions, CheckNamesTheKey) {
-  SlantAlignmentOptions options;
-  options.max_gradient = 1;
-  EXPECT_THROW(options.Check(), std::invalid_argument);
+  EXPECT_FALSE(AlignSlanted(flat, kCentre, flat, kCentre).alignment.IsAligned());
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr int kSize = 240;
 
 RowSearch SearchIn(const cv::Mat& left, const cv::Mat& right) {
-  RowSearch search({});
+  RowSearch search;
   search.SetImages(left, right);
   return search;
 }

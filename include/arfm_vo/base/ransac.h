@@ -13,16 +13,14 @@
 namespace arfm_vo {
 
 struct RansacOptions {
-  int max_iterations = 500;   ///< samples drawn at most
-  int min_iterations = 10;    ///< samples drawn at least
-  double confidence = 0.999;  ///< probability that at least one sample holds no outlier
-  int seed = 1;               ///< of the samples: the same seed, the same result
+  int max_iterations = 500;  ///< samples drawn at most
+  int min_iterations = 10;   ///< samples drawn at least
+  int seed = 1;              ///< of the samples: the same seed, the same result
 
   void Check() const {
     Require(max_iterations >= 1, "ransac.max_iterations must be at least 1");
     Require(min_iterations >= 1 && min_iterations <= max_iterations,
             "ransac.min_iterations must be in 1..max_iterations");
-    Require(confidence > 0 && confidence < 1, "ransac.confidence must be in (0, 1)");
   }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
@@ -31,12 +29,13 @@ struct RansacOptions {
   }
 };
 
-/// Samples to draw until one holds no outlier with the wanted confidence.
+/// Samples to draw until one holds no outlier with a probability of 0.999.
 inline int CountSamples(double inlier_share, int sample_size, const RansacOptions& options) {
+  constexpr double kConfidence = 0.999;
   const double good_sample = std::pow(std::clamp(inlier_share, 0.0, 1.0), sample_size);
   if (good_sample <= 1e-12) return options.max_iterations;
   if (good_sample >= 1 - 1e-12) return options.min_iterations;
-  const double wanted = std::log(1 - options.confidence) / std::log(1 - good_sample);
+  const double wanted = std::log(1 - kConfidence) / std::log(1 - good_sample);
   return std::clamp(static_cast<int>(std::min(wanted, 1e9)) + 1, options.min_iterations,
                     options.max_iterations);
 }

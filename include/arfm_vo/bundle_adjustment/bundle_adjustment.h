@@ -26,26 +26,15 @@ inline std::vector<std::pair<std::string, BundleSolver>> ListNames(BundleSolver)
   return {{"own", BundleSolver::kOwn}, {"ceres", BundleSolver::kCeres}};
 }
 
-/// How Ceres solves for a step. Automatic: dense for few poses, sparse for many.
-enum class LinearSolver { kAutomatic, kDenseSchur, kSparseSchur, kIterativeSchur };
-
-inline std::vector<std::pair<std::string, LinearSolver>> ListNames(LinearSolver) {
-  return {{"automatic", LinearSolver::kAutomatic},
-          {"dense_schur", LinearSolver::kDenseSchur},
-          {"sparse_schur", LinearSolver::kSparseSchur},
-          {"iterative_schur", LinearSolver::kIterativeSchur}};
-}
+constexpr double kBundleLossThreshold = 2;  ///< sigmas of a residual of one coordinate
 
 struct BundleOptions {
   BundleSolver solver = BundleSolver::kOwn;                   ///< own, or Ceres's
   StepStrategy strategy = StepStrategy::kLevenbergMarquardt;  ///< Gauss-Newton: Ceres only
-  LinearSolver linear_solver = LinearSolver::kAutomatic;      ///< of Ceres
   LossKind loss = LossKind::kHuber;                           ///< robust loss of the residuals
-  double loss_threshold_sigma = 2;                            ///< of a residual of one coordinate
   int max_iterations = 20;                                    ///< of the adjustment
   double function_tolerance = 1e-5;    ///< stop where the cost falls by a smaller share
   double max_time_s = 60;              ///< stop after the iteration that passes it
-  double inlier_probability = 0.99;    ///< of the chi-square test of an observation
   int num_threads = 1;                 ///< that adjust
   double max_time_share = 1;           ///< of the wall time; a thread sleeps in between (Pacer)
   bool with_point_covariance = false;  ///< of the landmarks, as a result

@@ -10,8 +10,7 @@ namespace arfm_vo {
 
 /// A small square of grey values around a point, prepared for alignment with other images; it can
 /// be kept with a landmark without its image.
-class Patch {
- public:
+struct Patch {
   static constexpr int kSize = 12;  ///< samples a side; the point lies in the middle
   static constexpr int kNumSamples = kSize * kSize;
   static constexpr float kHalfSpan = 0.5f * (kSize - 1);
@@ -23,23 +22,15 @@ class Patch {
   static std::optional<Patch> Sample(const cv::Mat& grey, const cv::Point2f& centre,
                                      const cv::Matx22f& source_from_patch = cv::Matx22f::eye());
 
-  /// Covariance of the aligned position (xx, xy, yy), px^2, for noise of one grey level; the less
-  /// texture the larger, infinite where a direction has none.
-  cv::Vec3f UnitCovariance() const;
-
- private:
-  friend class PatchAligner;
-  friend class SlantAligner;
-
   // What neither brightness nor contrast explains: all three are orthogonal to a constant, and the
   // gradients to the values, under the window, whose weights w are multiplied in.
-  alignas(32) Samples values_;
-  alignas(32) Samples gradient_x_;
-  alignas(32) Samples gradient_y_;
-  alignas(32) Samples raw_gradient_x_;  ///< as it is
-  float squared_values_ = 0;     ///< sum of w value^2
-  cv::Vec3f hessian_;            ///< sums of w gx^2, w gx gy, w gy^2
-  cv::Vec3f squared_gradients_;  ///< the same with w^2
+  alignas(32) Samples values;
+  alignas(32) Samples gradient_x;
+  alignas(32) Samples gradient_y;
+  alignas(32) Samples raw_gradient_x;  ///< as it is
+  float squared_values = 0;            ///< sum of w value^2
+  cv::Vec3f hessian;                   ///< sums of w gx^2, w gx gy, w gy^2
+  cv::Vec3f squared_gradients;         ///< the same with w^2
 };
 
 }  // namespace arfm_vo

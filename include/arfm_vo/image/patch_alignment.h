@@ -8,14 +8,12 @@
 
 namespace arfm_vo {
 
-struct PatchAlignmentOptions {
-  int max_iterations = 12;       ///< Gauss-Newton steps
-  double convergence_px = 0.02;  ///< the last step is shorter than this
-  double max_shift_px = 3;       ///< from the initial guess
-  double min_zncc = 0.8;         ///< correlation at the aligned position
-  double max_sigma_px = 0.5;     ///< predicted; more means too little texture
-
-  void Check() const;
+/// What an alignment may take and must reach.
+struct PatchAlignmentLimits {
+  int max_iterations = 12;    ///< Gauss-Newton steps
+  double max_shift_px = 3;    ///< from the initial guess
+  double min_zncc = 0.8;      ///< correlation at the aligned position
+  double max_sigma_px = 0.5;  ///< predicted; more means too little texture
 };
 
 enum class AlignmentStatus {
@@ -39,23 +37,10 @@ struct PatchAlignment {
   bool IsAligned() const { return status == AlignmentStatus::kAligned; }
 };
 
-/// Finds a patch in another image to a fraction of a pixel: inverse compositional Lucas-Kanade
-/// (Baker and Matthews 2004) over translation, brightness and contrast; the latter two are
-/// eliminated beforehand.
-class PatchAligner {
- public:
-  explicit PatchAligner(const PatchAlignmentOptions& options);
-
-  /// Searches `grey` (CV_8UC1) around `guess`.
-  PatchAlignment Align(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess) const;
-
- private:
-  PatchAlignment Refine(const Patch& patch, const cv::Mat& grey, const cv::Point2f& start,
-                        const cv::Vec3f& inverse_hessian) const;
-  void Judge(const Patch& patch, const Patch::Samples& samples, float gain,
-             const cv::Vec3f& inverse_hessian, PatchAlignment& alignment) const;
-
-  PatchAlignmentOptions options_;
-};
+/// Finds a patch in another image (CV_8UC1), around `guess`, to a fraction of a pixel: inverse
+/// compositional Lucas-Kanade (Baker and Matthews 2004) over translation, brightness and contrast;
+/// the latter two are eliminated beforehand.
+PatchAlignment AlignPatch(const Patch& patch, const cv::Mat& grey, const cv::Point2f& guess,
+                          const PatchAlignmentLimits& limits = {});
 
 }  // namespace arfm_vo

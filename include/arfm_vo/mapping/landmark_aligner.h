@@ -11,7 +11,6 @@
 namespace arfm_vo {
 
 struct LandmarkAlignerOptions {
-  PatchAlignmentOptions patch;
   double max_magnification = 3;  ///< size of the landmark now over that in its reference
   double min_sigma_px = 0.1;     ///< no observation is trusted more than this
   double max_right_row_px = 2;   ///< |v_right - v_left|; more is a wrong match
@@ -47,7 +46,6 @@ class LandmarkAligner {
   StereoCorrection correction_;
   Rigid3 later_from_now_;
   LandmarkAlignerOptions options_;
-  PatchAligner aligner_;
 };
 
 /// The 2 x 2 matrix that takes small pixel steps around a landmark from `target` to `source`, two

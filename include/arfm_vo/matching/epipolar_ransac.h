@@ -4,23 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "arfm_vo/base/ransac.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/matching/match.h"
 
 namespace arfm_vo {
-
-struct EpipolarRansacOptions {
-  RansacOptions ransac;
-  double max_error_px = 1.5;  ///< Sampson distance of an inlier
-  int min_inliers = 15;       ///< fewer are no consensus: any seven matches agree
-
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_error_px", max_error_px);
-  }
-};
 
 /// x_second^T fundamental x_first = 0 for the matches that agree with one motion of the camera.
 struct EpipolarGeometry {
@@ -38,7 +25,6 @@ double SampsonDistance(const cv::Matx33d& fundamental, const Keypoint& first,
 /// (OpenCV's). Nothing where there are too few matches, no consensus, or they don't determine one.
 std::optional<EpipolarGeometry> FindEpipolarGeometry(const std::vector<Keypoint>& first,
                                                      const std::vector<Keypoint>& second,
-                                                     const Matches& matches,
-                                                     const EpipolarRansacOptions& options);
+                                                     const Matches& matches);
 
 }  // namespace arfm_vo

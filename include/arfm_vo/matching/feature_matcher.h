@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "arfm_vo/matching/epipolar_ransac.h"
-#include "arfm_vo/matching/flann_matcher.h"
+#include "arfm_vo/features/features.h"
+#include "arfm_vo/matching/match.h"
 
 namespace arfm_vo {
 
@@ -25,9 +25,6 @@ inline std::vector<std::pair<std::string, MatchStrategy>> ListNames(MatchStrateg
 
 struct FeatureMatcherOptions {
   MatchStrategy strategy = MatchStrategy::kSurfFlannRansac;  ///< of stereo
-  FlannMatcherOptions flann;
-  MatchSelectionOptions selection;
-  EpipolarRansacOptions epipolar;
   /// Rectified pairs: rows of a match may differ by this times the larger scale over 1.2, and
   /// disparity is not negative; 0: any match, for pairs that are not rectified.
   double max_row_difference_px = 0;
@@ -36,8 +33,6 @@ struct FeatureMatcherOptions {
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("strategy", strategy);
-    visit("flann", flann);
-    visit("epipolar", epipolar);
   }
 };
 

@@ -5,24 +5,10 @@
 
 namespace arfm_vo {
 
-struct FlannMatcherOptions {
-  int trees = 4;    ///< randomised kd-trees
-  int checks = 32;  ///< leaves looked at for a query: more find more of the true neighbours
-  int seed = 1;     ///< of the trees
-
-  void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("trees", trees);
-    visit("checks", checks);
-  }
-};
-
 /// Finds the two nearest neighbours of every descriptor in both directions with OpenCV's FLANN
 /// (Muja and Lowe 2009): approximately, but always the same for the same input. With 4 trees and 32
 /// checks the nearest is right for some 85 % of SURF descriptors. Throws std::invalid_argument
 /// where descriptors are not [N x 64] CV_32FC1.
-TwoWayNeighbours FindNeighboursByFlann(const Features& first, const Features& second,
-                                       const FlannMatcherOptions& options = {});
+TwoWayNeighbours FindNeighboursByFlann(const Features& first, const Features& second);
 
 }  // namespace arfm_vo

@@ -36,17 +36,9 @@ struct TwoWayNeighbours {
   std::vector<Neighbours> of_first, of_second;
 };
 
-/// The choice of matches among nearest neighbours.
-struct MatchSelectionOptions {
-  bool cross_check = true;  ///< both keypoints must be each other's nearest
-  double max_distance = 2;  ///< of the descriptors, 0..2; 2 lets all pass
-
-  void Check() const;
-};
-
-/// The matches whose ratio (of the first image's keypoint, nearest over second nearest; Lowe 2004)
-/// is at most `ratio_threshold`; 1 switches the ratio test off. In the order of the first image.
-Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold,
-                      const MatchSelectionOptions& options);
+/// The matches that are each other's nearest and whose ratio (of the first image's keypoint,
+/// nearest over second nearest; Lowe 2004) is at most `ratio_threshold`; 1 switches the ratio test
+/// off. In the order of the first image.
+Matches SelectMatches(const TwoWayNeighbours& neighbours, double ratio_threshold);
 
 }  // namespace arfm_vo

@@ -12,10 +12,9 @@ namespace arfm_vo {
 
 struct PoseEstimatorOptions {
   RansacOptions ransac;
-  int sample_size = 5;               ///< points of an EPnP sample, 4..8
-  double inlier_probability = 0.99;  ///< of the chi-square test within RANSAC
-  int min_inliers = 15;              ///< fewer are no pose
-  double min_inlier_share = 0.15;    ///< of the observations' votes
+  int sample_size = 5;             ///< points of an EPnP sample, 4..8
+  int min_inliers = 15;            ///< fewer are no pose
+  double min_inlier_share = 0.15;  ///< of the observations' votes
   PoseRefinementOptions refinement;
 
   /// The same, which looks for another pose also beside one with a majority.

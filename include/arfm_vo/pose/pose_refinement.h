@@ -10,6 +10,9 @@
 
 namespace arfm_vo {
 
+/// Of the chi-square test that tells inliers, at the measured scale.
+constexpr double kInlierProbability = 0.99;
+
 /// Whether a step that raises the cost is shortened (Levenberg-Marquardt) or ends the search.
 enum class StepKind { kGaussNewton, kLevenbergMarquardt };
 
@@ -20,16 +23,10 @@ inline std::vector<std::pair<std::string, StepKind>> ListNames(StepKind) {
 
 struct PoseRefinementOptions {
   StepKind step = StepKind::kLevenbergMarquardt;  ///< of the iteration
-  int max_iterations = 10;                        ///< of each round
   int max_rounds = 4;                 ///< a round measures scale and inliers anew, then iterates
   LossKind loss = LossKind::kCauchy;  ///< robust loss of the residuals
   double loss_threshold_sigma = 2.4;  ///< of a residual of one coordinate, in measured scale;
                                       ///< customary: Huber 1.3, Cauchy 2.4, Tukey 4.7
-  double inlier_probability = 0.99;   ///< of the chi-square test, at the measured scale
-  double min_scale = 0.3;             ///< the measured scale of the residuals is kept in
-  double max_scale = 3;               ///< min_scale..max_scale, in stated standard deviations
-  double scale_prior_weight = 10;     ///< observations' worth of trust in the stated sigma_px
-  int min_inliers = 4;                ///< points, at least 3
 
   void Check() const;
   template <class Visitor>
@@ -41,7 +38,7 @@ struct PoseRefinementOptions {
 
 enum class RefinementStatus {
   kConverged,
-  kTooFewPoints,   ///< fewer than min_inliers agree with the pose
+  kTooFewPoints,   ///< fewer than 4 agree with the pose
   kRankDeficient,  ///< the points do not fix all six directions
 };
 

@@ -6,19 +6,10 @@
 
 namespace arfm_vo {
 
-struct RowSearchOptions {
-  double min_zncc = 0.8;       ///< least correlation of the best place
-  double max_ambiguity = 0.7;  ///< (1 - best) / (1 - second-best correlation), 0..1
-
-  void Check() const;
-};
-
 /// Finds points of the left image along their rows in the right one by correlation of 24 x 24 px
 /// (12 x 12 at half size), for keypoints that the detector did not find again there.
 class RowSearch {
  public:
-  explicit RowSearch(const RowSearchOptions& options);
-
   /// Takes a rectified pair (CV_8UC1, same size).
   void SetImages(const cv::Mat& left, const cv::Mat& right);
   /// The place in the right image, to about a pixel, of a left pixel whose row is off by
@@ -28,7 +19,6 @@ class RowSearch {
                                   double min_disparity_px, double max_disparity_px) const;
 
  private:
-  RowSearchOptions options_;
   cv::Mat left_, right_;  ///< half size
 };
 

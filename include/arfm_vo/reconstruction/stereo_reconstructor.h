@@ -5,7 +5,6 @@
 
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/image/slant_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/guided_matcher.h"
@@ -25,17 +24,11 @@ inline RatioThresholdOptions FixedThreshold(double ratio) {
 struct StereoReconstructionOptions {
   bool guided = true;  ///< search near rows and possible disparities; false: by `matcher`
   StereoSearchOptions search;
-  MatchSelectionOptions selection;
   FeatureMatcherOptions matcher;  ///< the paper's four strategies, over the whole image
   RatioThresholdOptions threshold = FixedThreshold(0.9);
   bool refine_subpixel = true;  ///< align patches, rather than trust the detector's positions
-  PatchAlignmentOptions alignment;
-  SlantAlignmentOptions slant;
   bool search_rows = true;  ///< look along the row for keypoints without a match (needs refinement)
-  RowSearchOptions row_search;
   double max_row_deviation = 3;            ///< from the expected row, in standard deviations
-  double sigma_floor_px = 0.07;            ///< no point is better than this
-  double sigma_inflation = 2;              ///< times the alignment's prediction, as rows show
   double keypoint_sigma = kKeypointSigma;  ///< where positions are not refined
 
   void Check() const;
@@ -108,7 +101,6 @@ class StereoReconstructor {
   StereoCamera camera_;
   StereoReconstructionOptions options_;
   FeatureMatcher matcher_;
-  SlantAligner aligner_;
   RowModel row_model_;
   RowSearch row_search_;
   double row_agreement_ = 1;
