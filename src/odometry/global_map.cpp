@@ -5,6 +5,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "arfm_vo/bundle_adjustment/pose_graph.h"
 #include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
@@ -123,17 +124,14 @@ void GlobalMap::Close(const Loop& loop) {
 }
 
 void GlobalMap::BendOntoLoops() {
-  BundleProblem graph;  // of poses alone
-  graph.camera = camera_;
-  graph.constraints = loops_;
+  std::vector<Rigid3> poses;
   for (const Keyframe& keyframe : store_.keyframes) {
-    graph.pose_is_fixed.push_back(graph.camera_from_world.empty());
-    graph.camera_from_world.push_back(keyframe.camera_from_world);
+    poses.push_back(keyframe.camera_from_world);
   }
-  const std::vector<Rigid3>& poses = graph.camera_from_world;
+  std::vector<PoseConstraint> constraints = loops_;
   // An adjustment has found what the loops closed before it say, from more than they were.
   for (size_t i = 0; i < num_adjusted_loops_; ++i) {
-    PoseConstraint& loop = graph.constraints[i];
+    PoseConstraint& loop = constraints[i];
     loop.second_from_first = poses[loop.second] * poses[loop.first].Inverse();
   }
   for (int k = 0; k + 1 < num_keyframes(); ++k) {
@@ -143,11 +141,9 @@ void GlobalMap::BendOntoLoops() {
     step.information.setZero();
     step.information.diagonal().head<3>().setConstant(1 / (kStepSigma_rad * kStepSigma_rad));
     step.information.diagonal().tail<3>().setConstant(1 / (sigma_m * sigma_m));
-    graph.constraints.push_back(step);
+    constraints.push_back(step);
   }
-  BundleOptions options;
-  options.function_tolerance = 1e-9;
-  const std::vector<Rigid3> bent = AdjustBundle(graph, options).camera_from_world;
+  const std::vector<Rigid3> bent = SolvePoseGraph(poses, constraints);
   for (auto& [id, point] : store_.landmarks) {
     const int k = point.first_keyframe;
     point.x_in_world = bent[k].Inverse() * (poses[k] * point.x_in_world);
