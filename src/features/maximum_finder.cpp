@@ -26,7 +26,7 @@ void TakeEvery(int stride, const float* from, int num, float* to) {
 }  // namespace
 
 void MaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int layer,
-                                     int threads) {
+                                 int threads) {
   const int step = space_.Step(octave);
   const int rows = (integral.rows() + step - 1) / step, cols = (integral.cols() + step - 1) / step;
   const int size = BoxFilterSize(octave, layer);
@@ -54,8 +54,8 @@ void MaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int 
 }
 
 std::vector<ScaleSpaceMaximum> MaximumFinder::Find(const IntegralImage& integral,
-                                                       const SurfDetectorOptions& options,
-                                                       int threads) {
+                                                   const SurfDetectorOptions& options,
+                                                   int threads) {
   const SurfKernels& kernels = ChooseSurfKernels();
   const auto threshold = static_cast<float>(options.hessian_threshold);
   space_.initial_step = options.initial_step;

@@ -34,7 +34,7 @@ class MaximumFinder {
 /// of scale s, turned to its orientation, summed in 4 x 4 regions as (sum dx, sum dy, sum |dx|,
 /// sum |dy|). Samples beyond the image are taken at its border. Fills the descriptors of
 /// features.keypoints, and their angles (0 where upright).
-void DescribeKeypoints(const IntegralImage& integral, const SurfDescriptorOptions& options, int threads,
-                  Features& features);
+void DescribeKeypoints(const IntegralImage& integral, const SurfDescriptorOptions& options,
+                       int threads, Features& features);
 
 }  // namespace arfm_vo

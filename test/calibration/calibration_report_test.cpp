@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/calibration/pair_detection.h"
-#include "calibration/rendered_board.h"
 #include "base/shared_data.h"
+#include "calibration/rendered_board.h"
 
 namespace arfm_vo {
 namespace {

@@ -99,8 +99,9 @@ TEST(YamlReader, KeysLeftOutKeepTheirDefaults) {
 }
 
 TEST(YamlReader, NamesAnUnknownKeyWithItsFullNameAndLine) {
-  EXPECT_EQ(ErrorOf("count: 1\npose:\n  ransac:\n    max_iteration: 5\n"),
-            "file.yaml:4: pose.ransac.max_iteration: unknown key; known here: max_iterations, seed");
+  EXPECT_EQ(
+      ErrorOf("count: 1\npose:\n  ransac:\n    max_iteration: 5\n"),
+      "file.yaml:4: pose.ransac.max_iteration: unknown key; known here: max_iterations, seed");
   EXPECT_THAT(ErrorOf("layers: [{scale: 3}, {skale: 3}]"),
               testing::HasSubstr("file.yaml:1: layers[1].skale: unknown key"));
 }

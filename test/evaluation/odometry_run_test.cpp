@@ -93,7 +93,8 @@ TEST(RunOdometry, HoldsTheLastPoseWhereAPairIsLost) {
 
 TEST(FormatRun, SaysTheErrorsWhereTheTruthIsKnown) {
   const std::string text = FormatRun(RunFakes(101));
-  EXPECT_THAT(text, testing::StartsWith("pairs: 101\nlost: 1\ndegraded: 0\npath_length_m: 102.0000\n"));
+  EXPECT_THAT(text,
+              testing::StartsWith("pairs: 101\nlost: 1\ndegraded: 0\npath_length_m: 102.0000\n"));
   EXPECT_THAT(text, testing::HasSubstr("\nend_error_percent: 2.00000\n"));
   EXPECT_THAT(text, testing::EndsWith("\nlength_ratio: 1.02000\n"));
   EXPECT_THAT(text, testing::HasSubstr("\nlive_length_ratio: 1.01000\n"));
@@ -127,12 +128,13 @@ TEST(FormatTiming, HasAColumnAStage) {
   run.memory_mb = {90, 91.25};
   run.states[0] = {PoseStatus::kTracked, Reason::kNone, 5.25, 90, 80};
   run.states[1] = {PoseStatus::kNoConsensus, Reason::kGroundHidden, -1, 30, 0};
-  EXPECT_EQ(FormatTiming(run),
-            "frame,stamp_s,total_ms,memory_mb,state,reason,log_odds,matches,inliers,features,"
-            "adjustment\n"
-            "0,0,7.500,90.00,tracked,\"\",5.2,90,80,2.000,\n"
-            "1,0.5,8.000,91.25,no consensus,\"what is seen moves otherwise than the ground is known "
-            "to\",-1.0,30,0,2.000,5.250\n");
+  EXPECT_EQ(
+      FormatTiming(run),
+      "frame,stamp_s,total_ms,memory_mb,state,reason,log_odds,matches,inliers,features,"
+      "adjustment\n"
+      "0,0,7.500,90.00,tracked,\"\",5.2,90,80,2.000,\n"
+      "1,0.5,8.000,91.25,no consensus,\"what is seen moves otherwise than the ground is known "
+      "to\",-1.0,30,0,2.000,5.250\n");
 }
 
 class RunFilesTest : public testing::Test {

@@ -1,3 +1,5 @@
+#include "features/plain_surf.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "arfm_vo/features/surf.h"
 #include "base/shared_data.h"
-#include "features/plain_surf.h"
 
 namespace arfm_vo {
 namespace {

@@ -11,8 +11,8 @@ struct NumberRow {
   std::vector<double> values;
 };
 
-/// Reads a decimal number that is all of `text` ("-1.5e+3", "+2", "inf"), in any locale. False, with
-/// `number` as it was, where it is not one or a double cannot hold it.
+/// Reads a decimal number that is all of `text` ("-1.5e+3", "+2", "inf"), in any locale. False,
+/// with `number` as it was, where it is not one or a double cannot hold it.
 bool ParseNumber(const std::string& text, double& number);
 
 /// Finite numbers separated by white space. Throws std::invalid_argument beginning with `place`

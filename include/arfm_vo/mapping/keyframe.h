@@ -19,7 +19,7 @@ struct Keyframe {
   /// The right camera has turned since the keyframe before, and older ones tell nothing of its
   /// calibration.
   std::optional<RightTurn> right_turn;
-  cv::Mat left;                   ///< grey, for templates of patches; the local map's alone have it
+  cv::Mat left;  ///< grey, for templates of patches; the local map's alone have it
 };
 
 }  // namespace arfm_vo

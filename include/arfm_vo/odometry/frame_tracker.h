@@ -56,9 +56,9 @@ struct TrackedFrame {
 struct Expectation {
   std::optional<PredictedPose> predicted;
   GroundPrior if_none{}, if_come{};  ///< where nothing large has come before the scene, or has
-  bool use_right = true;   ///< whether the right image is worth looking at
-  bool may_turn = false;   ///< whether to tell how the right camera stands
-  bool is_wary = false;    ///< whether to look for a rival even where most points agree
+  bool use_right = true;             ///< whether the right image is worth looking at
+  bool may_turn = false;             ///< whether to tell how the right camera stands
+  bool is_wary = false;              ///< whether to look for a rival even where most points agree
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or

@@ -54,10 +54,10 @@ class Verdict {
 
   double baseline_m_;
   double stamp_s_ = 0;
-  Belief right_belongs_{0.95};  ///< the right picture is of this moment and rig
-  Belief fixed_{0.01};          ///< something is fixed before the camera: so it is on few rigs
-  Belief another_moves_{0.01};  ///< something large moves on its own
-  Belief ground_{0.98};         ///< the poses up to here are the ground's
+  Belief right_belongs_{0.95};     ///< the right picture is of this moment and rig
+  Belief fixed_{0.01};             ///< something is fixed before the camera: so it is on few rigs
+  Belief another_moves_{0.01};     ///< something large moves on its own
+  Belief ground_{0.98};            ///< the poses up to here are the ground's
   GroundPrior if_none_, if_come_;  ///< see Expectation
   Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
 };
