@@ -2,7 +2,7 @@
 
 namespace arfm_vo {
 
-void ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
+const Keyframe* ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
   const Keyframe* anchor = nullptr;
   Rigid3 anchor_in_map;
   for (const auto& keyframe : update.keyframes) {
@@ -11,7 +11,7 @@ void ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
     anchor = known;
     anchor_in_map = keyframe.camera_from_world;
   }
-  if (anchor == nullptr) return;
+  if (anchor == nullptr) return nullptr;
   map.ForgetRight(update.keyframes.front().id);
   const Rigid3 odom_from_map = anchor->camera_from_world.Inverse() * anchor_in_map;
   const Rigid3 map_from_odom = odom_from_map.Inverse();
@@ -23,6 +23,7 @@ void ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
     if (known == map.landmarks().end()) continue;
     map.MoveLandmark(landmark.id, odom_from_map * landmark.x_in_world, known->second.covariance);
   }
+  return anchor;
 }
 
 }  // namespace arfm_vo

@@ -68,7 +68,8 @@ PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_ke
           own.by_correction + carried * drift.by_correction};
 }
 
-void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
+void DriftEstimator::SetCorrection(const CorrectionBelief& correction, KeyframeId anchor,
+                                   const std::map<KeyframeId, Rigid3>& moved) {
   using Placing = CorrectionBelief::Placing;
   const Placing unknown = correction.PlacingCovariance();
   // In directions of their own (unknown_ = L L^T, unknown = L V d V^T L^T) what is learnt, d < 1,
@@ -83,8 +84,13 @@ void DriftEstimator::SetCorrection(const CorrectionBelief& correction) {
     kept = directions * ratios.eigenvalues().cwiseMax(1).cwiseInverse().asDiagonal() *
            directions.inverse();
   }
-  covariance_ +=
-      by_correction_ * (unknown_ - kept * unknown * kept.transpose()) * by_correction_.transpose();
+  MatrixXd staying = by_correction_;
+  const auto of_anchor = Drift(anchor).by_correction;
+  for (const auto& [keyframe, from_anchor] : moved) {
+    const int i = Find(keyframe);
+    if (i >= 0) staying.middleRows<6>(6 * i) = CarryStep(from_anchor) * of_anchor;
+  }
+  covariance_ += staying * (unknown_ - kept * unknown * kept.transpose()) * staying.transpose();
   by_correction_ *= kept;
   unknown_ = unknown;
 }

@@ -7,6 +7,7 @@
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/base/pixel_scale.h"
 #include "right_turn.h"
+#include "still_keypoints.h"
 
 namespace arfm_vo {
 
@@ -117,9 +118,11 @@ TrackedFrame FrameTracker::Localise(Correspondences matches, const StereoFrame& 
 
 void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
                          TrackedFrame& tracked) const {
-  const double rest = frame.rest_log_ratio;
-  const auto is_at_rest = [&](const Rigid3& pose) {
-    return IsAtRest(camera_, tracked.matches, pose, map.keyframes().back().camera_from_world);
+  // Nothing where the pose has moved.
+  const auto find_rest = [&](const Rigid3& pose, char flag) -> std::optional<double> {
+    const Rigid3& before = map.keyframes().back().camera_from_world;
+    if (!IsAtRest(camera_, tracked.matches, pose, before)) return std::nullopt;
+    return RestLogRatio(camera_, frame, tracked.matches, tracked.agrees, flag);
   };
   const auto motion = [&](const Rigid3& pose) {
     return expected.predicted ? expected.predicted->LogOdds(pose) : 0;
@@ -127,13 +130,12 @@ void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Ex
   // What moves on its own goes on as smoothly, unless it has hidden the ground just now.
   double smoothest = motion(tracked.pose.camera_from_world);
   if (tracked.pose.rival) smoothest = std::max(smoothest, motion(*tracked.pose.rival));
-  const auto weigh = [&](const Rigid3& pose, char flag, bool rests) {
+  const auto weigh = [&](const Rigid3& pose, char flag, const std::optional<double>& rest) {
     const auto likely = [&](double probability, const GroundPrior& prior) {
       const double hidden_before = 1 - prior.ground - prior.just_hidden;
       const double if_not = hidden_before * std::exp(smoothest) + prior.just_hidden;
-      return LogLikelihoods{
-          std::log(probability * prior.ground) + motion(pose) + (rests ? rest : 0),
-          std::log(probability * if_not)};
+      return LogLikelihoods{std::log(probability * prior.ground) + motion(pose) + rest.value_or(0),
+                            std::log(probability * if_not)};
     };
     GroundBelief ground = tracked.matches.Weigh(camera_, tracked.agrees, flag,
                                                 likely(1 - map.arrived(), expected.if_none),
@@ -142,14 +144,15 @@ void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Ex
     return ground;
   };
   const Rigid3& pose = tracked.pose.camera_from_world;
-  const bool rests = is_at_rest(pose);
-  tracked.is_odd_rest = rests && rest <= 0;
-  const GroundBelief ground = weigh(pose, 1, rests);
+  const std::optional<double> rest = find_rest(pose, 1);
+  tracked.is_odd_rest = rest && *rest <= 0;
+  const GroundBelief ground = weigh(pose, 1, rest);
   tracked.log_odds = ground.log_odds;
   tracked.arrived = ground.arrived;
   if (!tracked.pose.rival) return;
   const Rigid3& rival = *tracked.pose.rival;
-  tracked.log_odds_of_rival = weigh(rival, kAgreesWithRival, is_at_rest(rival)).log_odds +
+  const std::optional<double> rival_rest = find_rest(rival, kAgreesWithRival);
+  tracked.log_odds_of_rival = weigh(rival, kAgreesWithRival, rival_rest).log_odds +
                               (tracked.is_odd_rest ? kFixedNotPassing : 0);
 }
 

@@ -60,7 +60,7 @@ class LocalOdometry::Implementation {
     update.can_start = is_left_good && verdict_.right_fault() != Reason::kSwapped &&
                        static_cast<int>(frame.points.size()) >= options_.min_points_to_start;
     update.median_row_residual_px = MedianRowResidual(frame.points);
-    FlagStill(camera_, newest_features_, frame);
+    FlagStill(newest_features_, frame);
     adjustment_.Finish(map_, covariance_);
     update.stage_ms.emplace_back("wait_bundle", stopwatch.LapMs());
     if (map_.keyframes().empty()) {
@@ -95,9 +95,9 @@ class LocalOdometry::Implementation {
 
   void Apply(const MapUpdate& update) {
     adjustment_.Finish(map_, covariance_);
-    SetCorrection(turns_.Follow(update.correction, update.keyframes.back().id, camera_));
+    SetCorrection(turns_.Follow(update.correction, update.keyframes.back().id, camera_),
+                  ApplyMapUpdate(update, map_));
     turns_.Interrupt(correction_, camera_);
-    ApplyMapUpdate(update, map_);
   }
 
   void Reset() {
@@ -114,8 +114,8 @@ class LocalOdometry::Implementation {
   const LocalMap& map() const { return map_; }
 
  private:
-  void SetCorrection(const CorrectionBelief& correction) {
-    if (!(correction == correction_)) covariance_.SetCorrection(correction);
+  void SetCorrection(const CorrectionBelief& correction, const Keyframe* anchor = nullptr) {
+    if (!(correction == correction_)) covariance_.SetCorrection(correction, map_, anchor);
     correction_ = correction;
     tracker_.SetCorrection(correction.mean);
   }
@@ -170,7 +170,7 @@ class LocalOdometry::Implementation {
     covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
     covariance_.AddPose(map_.keyframes().back(), update.pose.camera_from_world,
                         FindDrift(camera_, correction_.mean, map_, update, options_.bundle.solver));
-    update.covariance_from_start = covariance_.OfNewest();
+    update.covariance_from_start = covariance_.OfNewest() + update.doubt;
   }
 
   /// Whether the right camera has turned since the pair before; that is taken over.
@@ -220,7 +220,7 @@ class LocalOdometry::Implementation {
     const Keyframe& keyframe = map_.AddKeyframe(frame, images.left, update.pose.camera_from_world,
                                                 update.observations, contradicting_);
     if (const auto turn = turns_.Before(keyframe.id)) map_.Turn(*turn);
-    covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id);
+    covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id, update.doubt);
     if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
     adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
   }

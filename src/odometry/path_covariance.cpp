@@ -17,7 +17,7 @@ PoseDrift FindDrift(const StereoCamera& camera, const StereoCorrection& correcti
                     const BundleOptions& solver) {
   const Keyframe& before = map.keyframes().back();
   const LandmarkObservations& now = update.observations;
-  PoseDrift drift{update.pose.covariance};
+  PoseDrift drift{update.pose.covariance - update.doubt};
   BundleProblem problem;
   problem.camera = camera;
   BundleResult result;
@@ -49,6 +49,16 @@ PoseDrift FindDrift(const StereoCamera& camera, const StereoCorrection& correcti
   return drift;
 }
 
+void PathCovariance::SetCorrection(const CorrectionBelief& correction, const LocalMap& map,
+                                   const Keyframe* anchor) {
+  std::map<KeyframeId, Rigid3> moved;
+  for (const Keyframe& keyframe : map.keyframes()) {
+    if (anchor == nullptr || keyframe.id >= anchor->id) break;
+    moved[keyframe.id] = keyframe.camera_from_world * anchor->camera_from_world.Inverse();
+  }
+  drift_.SetCorrection(correction, anchor == nullptr ? 0 : anchor->id, moved);
+}
+
 void PathCovariance::Begin(const Rigid3& camera_from_world, const Matrix6& covariance) {
   newest_ = PoseDrift{covariance};
   newest_rotation_ = camera_from_world.RotationMatrix();
@@ -62,7 +72,8 @@ void PathCovariance::AddPose(const Keyframe& newest, const Rigid3& camera_from_w
   newest_rotation_ = camera_from_world.RotationMatrix();
 }
 
-void PathCovariance::AddKeyframe(KeyframeId keyframe, KeyframeId oldest) {
+void PathCovariance::AddKeyframe(KeyframeId keyframe, KeyframeId oldest, const Matrix6& doubt) {
+  way_.AddDoubt(newest_rotation_.transpose() * doubt.bottomRightCorner<3, 3>() * newest_rotation_);
   drift_.Add(keyframe, newest_);
   drift_.Forget(oldest);
 }

@@ -59,32 +59,44 @@ std::vector<char> FindStill(const Features& before, const Features& now) {
   return is_still;
 }
 
-double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame) {
+}  // namespace
+
+void FlagStill(const Features& before, StereoFrame& frame) {
+  frame.is_still = FindStill(before, frame.features);
+}
+
+double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame,
+                    const Correspondences& matches, const std::vector<char>& agrees, char flag) {
   // A region that is still may be covered; one where most has moved tells against rest.
   const double if_still = std::log(1 / kCovered),
                if_moved = std::log(kAnotherPasses / (1 - kCovered));
-  int num[Correspondences::kRegions] = {}, num_still[Correspondences::kRegions] = {};
+  struct Region {
+    int num = 0, num_still = 0, num_matches = 0, num_agreeing = 0;
+  } of_region[Correspondences::kRegions];
+  const auto region_at = [&](double u, double v) -> Region& {
+    return of_region[Correspondences::RegionOf(camera, u, v)];
+  };
+  if (std::count(frame.is_still.begin(), frame.is_still.end(), 1) == 0) return 0;
   for (int i = 0; i < frame.features.size(); ++i) {
     const Keypoint& keypoint = frame.features.keypoints[i];
-    const int region = Correspondences::RegionOf(camera, keypoint.x, keypoint.y);
-    ++num[region];
-    num_still[region] += frame.is_still[i];
+    Region& region = region_at(keypoint.x, keypoint.y);
+    ++region.num;
+    region.num_still += frame.is_still[i];
+  }
+  for (size_t i = 0; i < matches.points.size(); ++i) {
+    Region& region = region_at(matches.points[i].pixels.x(), matches.points[i].pixels.y());
+    ++region.num_matches;
+    region.num_agreeing += agrees[i] == flag;
   }
   double log_ratio = 0;
-  if (std::count(frame.is_still.begin(), frame.is_still.end(), 1) == 0) return log_ratio;
-  for (int i = 0; i < Correspondences::kRegions; ++i) {
-    if (num[i] < kEnough) continue;
-    const double share = static_cast<double>(num_still[i]) / num[i];
+  for (const Region& region : of_region) {
+    if (region.num < kEnough) continue;
+    double share = static_cast<double>(region.num_still) / region.num;
+    if (region.num_matches >= kEnough)
+      share = std::min(share, static_cast<double>(region.num_agreeing) / region.num_matches);
     log_ratio += share > kMostStill ? if_still : share < kFewStill ? if_moved : 0;
   }
   return log_ratio;
-}
-
-}  // namespace
-
-void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame) {
-  frame.is_still = FindStill(before, frame.features);
-  frame.rest_log_ratio = RestLogRatio(camera, frame);
 }
 
 FixedPoints::FixedPoints(const StereoCamera& camera, const StereoFrame& frame,

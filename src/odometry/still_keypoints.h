@@ -5,14 +5,22 @@
 
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
+#include "arfm_vo/odometry/correspondences.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
 
-/// Sets StereoFrame::is_still and rest_log_ratio by the features of the newest keyframe: still is
-/// what is fixed to the camera, or all that a resting camera sees. Something fixed may cover a part
-/// of the picture, so each of its 4 x 3 regions counts once.
-void FlagStill(const StereoCamera& camera, const Features& before, StereoFrame& frame);
+/// Sets StereoFrame::is_still by the features of the newest keyframe: still is what is fixed to the
+/// camera, or all that a resting camera sees.
+void FlagStill(const Features& before, StereoFrame& frame);
+
+/// How much likelier what is still is where the camera rests than where it has moved, in
+/// logarithms. Something fixed may cover a part of the picture, so each of its 4 x 3 regions counts
+/// once; and what lies far away moves by less than a keypoint errs, so that a region counts as
+/// still by the share of its `matches` whose flag (`agrees`, [N]) is `flag` besides: those of the
+/// resting pose.
+double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame,
+                    const Correspondences& matches, const std::vector<char>& agrees, char flag);
 
 /// Those of `frame.points` that are fixed before the camera: still, though they must have moved in
 /// the picture as the camera has moved since the newest keyframe.

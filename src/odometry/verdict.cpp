@@ -134,13 +134,14 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
     return false;
   }
   if (pose.rival) {
-    pose.covariance +=
+    update.doubt +=
         (1 - probability) * (of_rival / others) * SpreadTo(*pose.rival, pose.camera_from_world);
   }
   if (predicted && std::isfinite(predicted->sigma_shift_m)) {
-    pose.covariance +=
+    update.doubt +=
         (1 - probability) / others * SpreadTo(predicted->camera_from_world, pose.camera_from_world);
   }
+  pose.covariance += update.doubt;
   if (right_fault_ != Reason::kNone) {
     TellRightFault(update);
   } else {

@@ -94,6 +94,25 @@ TEST(DriftEstimator, AnUnknownCorrectionErrsAlikeInEachStep) {
   EXPECT_NEAR(drift.Covariance(30)(5, 5), settled + std::pow(30 * 0.01 * 0.1, 2) + changed, 1e-6);
 }
 
+/// The adjustment that tells the correction moves older keyframes to where they were against the
+/// newest one, which stays with the error that it has.
+TEST(DriftEstimator, KeyframesThatMoveWithAnAnchorErrAsItDoes) {
+  const auto learn = [](const std::map<KeyframeId, Rigid3>& moved) {
+    DriftEstimator drift;
+    drift.SetCorrection(CorrectionBelief::Isotropic(0.5));
+    PoseDrift driven;
+    driven.by_correction(5, 0) = 0.01;
+    drift.Add(0, driven);
+    driven.by_correction(5, 0) = 0.1;
+    drift.Add(1, driven);
+    drift.SetCorrection(CorrectionBelief::Isotropic(0.1), 1, moved);
+    drift.Update({0, 1}, {1, 0}, Chain(2, 1e12));  // no more unsure than the older one
+    return std::sqrt(drift.Covariance(1)(5, 5));
+  };
+  EXPECT_NEAR(learn({{0, Rigid3()}}), 0.1 * 0.5, 0.002);
+  EXPECT_NEAR(learn({}), 0.01 * 0.5, 0.002);
+}
+
 TEST(DriftEstimator, WhatIsForgottenLeavesTheRestAsItWas) {
   DriftEstimator drift;
   for (int k = 0; k < 4; ++k) drift.Add(k, Noise(k * kOne));

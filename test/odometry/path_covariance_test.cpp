@@ -88,6 +88,17 @@ TEST_F(PathCovarianceTest, DoubtOfTheWayCountsInEveryDirection) {
               1e-12);
 }
 
+TEST_F(PathCovarianceTest, DoubtOfAKeyframeStaysWhereItsStepWouldLead) {
+  const Rigid3 turned(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())),
+                      Eigen::Vector3d::Zero());
+  Matrix6 of_step = Matrix6::Zero();
+  of_step(5, 5) = 0.09;  // ahead of the turned camera, beside the first one
+  path_.AddPose(first_, turned, {});
+  path_.AddKeyframe(1, 0, of_step);
+  GoTo(Ahead(1), true);
+  EXPECT_NEAR((PlaceVariances(path_.OfNewest()) - Eigen::Vector3d(0.09, 0, 0)).norm(), 0, 1e-9);
+}
+
 TEST_F(PathCovarianceTest, APoseThatIsRecognisedForgetsTheWayBefore) {
   GoTo(Ahead(3), false);
   path_.Begin(Ahead(1), kOne);

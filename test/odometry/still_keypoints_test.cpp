@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "mapping/stereo_frames.h"
 
 namespace arfm_vo {
@@ -21,8 +23,21 @@ StereoFrame MakeGrid(double covered_px, double moved_px, double disparity_px = 3
 }
 
 StereoFrame Flagged(StereoFrame frame) {
-  FlagStill(kCamera, MakeGrid(0, 0).features, frame);
+  FlagStill(MakeGrid(0, 0).features, frame);
   return frame;
+}
+
+/// Where of the matches, one a point, those agree with the resting pose that `agrees`(u) says.
+double Rest(const StereoFrame& frame, const std::function<bool(double u)>& agrees) {
+  Correspondences matches;
+  std::vector<char> flags;
+  for (const Keypoint& keypoint : frame.features.keypoints) {
+    PointObservation point;
+    point.pixels << keypoint.x, keypoint.y, keypoint.x - 35;
+    matches.points.push_back(point);
+    flags.push_back(agrees(keypoint.x));
+  }
+  return RestLogRatio(kCamera, frame, matches, flags, 1);
 }
 
 int NumStill(const StereoFrame& frame) {
@@ -32,19 +47,27 @@ int NumStill(const StereoFrame& frame) {
 TEST(StillKeypoints, ARestingCameraSeesAllWhereTheyWere) {
   const StereoFrame frame = Flagged(MakeGrid(0, 0));
   EXPECT_EQ(NumStill(frame), frame.features.size());
-  EXPECT_GT(frame.rest_log_ratio, 5);
+  EXPECT_GT(Rest(frame, [](double) { return true; }), 5);
 }
 
 TEST(StillKeypoints, AMovingOneSeesNone) {
   const StereoFrame frame = Flagged(MakeGrid(0, 15));
   EXPECT_EQ(NumStill(frame), 0);
-  EXPECT_EQ(frame.rest_log_ratio, 0);  // they may as well be others
+  // They may as well be others.
+  EXPECT_EQ(Rest(frame, [](double) { return false; }), 0);
 }
 
 TEST(StillKeypoints, WhatCoversAThirdDoesNotMakeItRest) {
   const StereoFrame frame = Flagged(MakeGrid(kCamera.width / 3., 15));
   EXPECT_GT(NumStill(frame), 0.25 * frame.features.size());
-  EXPECT_LT(frame.rest_log_ratio, -5);
+  EXPECT_LT(Rest(frame, [](double u) { return u < kCamera.width / 3.; }), -5);
+}
+
+/// All keypoints are where they were, within what keypoints err; their matches know better.
+TEST(StillKeypoints, WhatCoversAThirdDoesNotMakeItRestBeforeWhatHardlyMoves) {
+  const StereoFrame frame = Flagged(MakeGrid(kCamera.width / 3., 1));
+  EXPECT_EQ(NumStill(frame), frame.features.size());
+  EXPECT_LT(Rest(frame, [](double u) { return u < kCamera.width / 3.; }), -5);
 }
 
 TEST(StillKeypoints, AnotherDescriptorIsAnotherThing) {

@@ -57,6 +57,7 @@ TEST_F(VerdictTest, ARivalThatIsAsLikelyWidensTheCovarianceToIt) {
   EXPECT_EQ(update.pose.status, PoseStatus::kDegraded);
   EXPECT_EQ(update.reason, Reason::kGroupsDiffer);
   EXPECT_NEAR(update.pose.covariance(3, 3), 0.5, 0.1);
+  EXPECT_EQ(update.doubt, update.pose.covariance);
   EXPECT_TRUE(verdict_.IsUnsure());
 }
 

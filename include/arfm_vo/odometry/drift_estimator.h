@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/pose_information.h"
@@ -40,8 +41,10 @@ class DriftEstimator {
               const PoseInformation& information);
 
   /// What is known of the stereo correction that the poses from now on go by. Errors made with one
-  /// that was known less well stay.
-  void SetCorrection(const CorrectionBelief& correction);
+  /// that was known less well stay: those of each keyframe, but of one that an adjustment has moved
+  /// to `moved` (keyframe_from_anchor) against another, the anchor, those of that one.
+  void SetCorrection(const CorrectionBelief& correction, KeyframeId anchor = 0,
+                     const std::map<KeyframeId, Rigid3>& moved = {});
 
   /// Covariance of a known keyframe, zero of an unknown one.
   Matrix6 Covariance(KeyframeId keyframe) const { return Covariance(Drift(keyframe)); }

@@ -20,6 +20,9 @@ struct OdometryUpdate {
   double stamp_s = 0;
   PoseEstimate pose;              ///< as known at once, before any later correction
   Reason reason = Reason::kNone;  ///< why there is no pose, or one to be wary of
+  /// Of the step to where the camera is if the pose is not the ground's: part of pose.covariance,
+  /// which may be wrong as a whole, once and for all that follows.
+  Eigen::Matrix<double, 6, 6> doubt = Eigen::Matrix<double, 6, 6>::Zero();
   double log_odds = 0;  ///< that the pose is the ground's and not that of what moves on its own
   /// As pose.covariance, but against the first camera of all: what the map has drifted added.
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();

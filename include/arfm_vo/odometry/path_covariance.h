@@ -20,8 +20,8 @@ class UnknownWay {
     }
     newest_ = centre;
   }
-  /// Where the camera is may be wrong by this besides, in any direction.
-  void AddDoubt(double sigma_m) { closed_ += sigma_m * sigma_m * Eigen::Matrix3d::Identity(); }
+  /// Where the camera is may be wrong by this besides (m^2, axes of the world).
+  void AddDoubt(const Eigen::Matrix3d& covariance) { closed_ += covariance; }
   /// Of the place, m^2, axes of the world.
   Eigen::Matrix3d Covariance() const {
     return closed_ + (newest_ - start_) * (newest_ - start_).transpose();
@@ -45,8 +45,10 @@ class PathCovariance {
  public:
   using Matrix6 = DriftEstimator::Matrix6;
 
-  /// As DriftEstimator::SetCorrection.
-  void SetCorrection(const CorrectionBelief& correction) { drift_.SetCorrection(correction); }
+  /// As DriftEstimator::SetCorrection; unless null, an adjustment has moved the keyframes of `map`
+  /// against the newest one that it knew, `anchor`.
+  void SetCorrection(const CorrectionBelief& correction, const LocalMap& map,
+                     const Keyframe* anchor);
 
   /// The newest pose is not told by those before it: the first of a map, or one recognised.
   void Begin(const Rigid3& camera_from_world, const Matrix6& covariance);
@@ -54,11 +56,14 @@ class PathCovariance {
   void FollowWay(const Rigid3& camera_from_world, bool are_depths_known) {
     way_.Follow(camera_from_world.Inverse().translation, are_depths_known);
   }
-  void AddDoubtOfWay(double sigma_m) { way_.AddDoubt(sigma_m); }
+  void AddDoubtOfWay(double sigma_m) {
+    way_.AddDoubt(sigma_m * sigma_m * Eigen::Matrix3d::Identity());
+  }
   /// The newest pose; `own` is its drift against `newest`, the newest keyframe.
   void AddPose(const Keyframe& newest, const Rigid3& camera_from_world, const PoseDrift& own);
-  /// The newest pose has become a keyframe; those older than `oldest` have left the map.
-  void AddKeyframe(KeyframeId keyframe, KeyframeId oldest);
+  /// The newest pose has become a keyframe; it, and all that follows, may stand where a step of
+  /// this covariance leads. Keyframes older than `oldest` have left the map.
+  void AddKeyframe(KeyframeId keyframe, KeyframeId oldest, const Matrix6& doubt = Matrix6::Zero());
   /// The newest keyframes were adjusted.
   void Update(const LocalBundle& window, const PoseInformation& information) {
     drift_.Update(window.keyframes, window.problem.pose_is_fixed, information);

@@ -24,7 +24,6 @@ struct StereoFrame {
   double row_agreement = 1;        ///< share of what both eyes saw that lies on the rows it should
   /// [features] seen at the same place of the picture at the newest keyframe; empty: not known.
   std::vector<char> is_still;
-  double rest_log_ratio = 0;   ///< by them: that the camera rests, not that it has moved
   GreyStatistics grey;         ///< of the left image, eqs 4, 5
   double ratio_threshold = 0;  ///< nearest / second-nearest distance that was allowed
 
