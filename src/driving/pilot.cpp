@@ -20,10 +20,6 @@ PoseWatchOptions PoseOptionsFor(const PilotOptions& options) {
   return pose;
 }
 
-std::string InWords(const Fault& fault) {
-  return ToString(fault.reason) + (fault.detail.empty() ? "" : " " + fault.detail);
-}
-
 }  // namespace
 
 Pilot::Pilot(const PilotOptions& options)
@@ -34,6 +30,7 @@ Pilot::Pilot(const PilotOptions& options)
       chassis_(options.chassis),
       motion_watch_(options.motion, options.kinematics.gauge_m),
       operator_(options.operator_watch),
+      pictures_(PoseOptionsFor(options).max_pose_age_s),
       goal_limits_(options.goal_limits),
       tracks_(PoseOptionsFor(options).max_pose_age_s + 1),
       slip_(options.slip, kinematics_),
@@ -45,14 +42,15 @@ Pilot::Pilot(const PilotOptions& options)
 }
 
 Reply Pilot::Start(double now_s) {
-  if (const auto fault = FindStartFault(now_s)) return {false, "not started: " + InWords(*fault)};
+  if (const auto fault = FindStartFault(now_s)) return {false, "not started: " + ToString(*fault)};
   commanded_s_ = now_s;
   if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked)
     return {true, "already started"};
+  if (IsVelocityFresh(now_s) && !velocity_.IsZero())
+    return {false, "not started: " + velocity_source_ + " commands a velocity already"};
   DropOldRoute();
   state_ = DriveState::kArming;
-  reason_ = StopReason::kNone;
-  detail_.clear();
+  why_ = {};
   has_started_ = true;
   armed_s_ = now_s;
   pose_.AgreeOnMap();
@@ -67,8 +65,7 @@ void Pilot::Stop() {
   EndRoute(GoalOutcome::kCancelled, {StopReason::kStopped, ""});
   state_ = DriveState::kStandby;
   waiting_since_s_ = last_tick_s_;
-  reason_ = StopReason::kStopped;
-  detail_.clear();
+  why_ = {StopReason::kStopped, ""};
   velocity_s_ = kNeverCommanded_s;
 }
 
@@ -83,7 +80,7 @@ void Pilot::SetEmergencyStop(const std::string& source, bool is_set) {
 
 Reply Pilot::SetRoute(Route route) {
   if (state_ == DriveState::kBlocked)
-    return {false, "goal refused: the rover is blocked: " + InWords({reason_, detail_})};
+    return {false, "goal refused: the rover is blocked: " + ToString(why_)};
   if (DropOldRoute()) return {false, "goal refused: the rover is in standby; start it first"};
   if (!predicted_) return {false, "goal refused: the rover has no pose"};
   const std::string flaw = goal_limits_.FindFlaw(route, *predicted_);
@@ -107,7 +104,7 @@ Reply Pilot::SetVelocity(double now_s, const PlanarMotion& motion, const std::st
     return {false, "velocity refused: it is not finite"};
   }
   if (route_) return {false, "velocity refused: a goal is being driven to"};
-  if (IsMovedByAnother(now_s, source)) {
+  if (source != velocity_source_ && IsVelocityFresh(now_s) && !velocity_.IsZero()) {
     velocity_s_ = kNeverCommanded_s;
     Distrust({StopReason::kVelocityConflict, "(" + velocity_source_ + ", " + source + ")"});
     return {false, std::string("velocity refused: ") + ToString(StopReason::kVelocityConflict)};
@@ -162,19 +159,8 @@ void Pilot::EndRoute(GoalOutcome outcome, const Fault& fault) {
   route_.reset();
 }
 
-RoverPose Pilot::PredictPose(double now_s) const {
-  return pose_.PredictInMap(tracks_.At(now_s).value_or(pose_.LastSighting().ways));
-}
-
 bool Pilot::IsSeenAtRest() const {
   return pose_.HasPose() && pose_.LastSighting().taken_s >= at_rest_since_s_ + options_.settle_s;
-}
-
-void Pilot::FollowRoute() {
-  const int stage =
-      static_cast<int>(route_->NextWaypoint()) * 8 + static_cast<int>(route_->Phase());
-  progress_.Observe(driven_s_, stage, route_->Cost(*predicted_));
-  if (route_->HasArrived()) EndRoute(GoalOutcome::kArrived);
 }
 
 PlanarMotion Pilot::WantedMotion(double now_s) {
@@ -182,18 +168,15 @@ PlanarMotion Pilot::WantedMotion(double now_s) {
   PlanarMotion wanted = velocity_;
   if (route_) {
     wanted = route_->Update(*predicted_, is_at_rest);
-    FollowRoute();
-    if (!route_) return {};
+    const int stage =
+        static_cast<int>(route_->NextWaypoint()) * 8 + static_cast<int>(route_->Phase());
+    progress_.Observe(driven_s_, stage, route_->Cost(*predicted_));
+    if (route_->HasArrived()) {
+      EndRoute(GoalOutcome::kArrived);
+      return {};
+    }
   }
   return stop_look_go_.Gate(wanted, tracks_.At(now_s).value_or(TrackWays{}), is_at_rest);
-}
-
-void Pilot::NoteMotion(double now_s, double dt_s, const PlanarMotion& motion) {
-  if (!motion.IsZero()) {
-    at_rest_since_s_ = now_s;
-    driven_s_ += dt_s;
-  }
-  motion_ = motion;
 }
 
 DriveCommand Pilot::Tick(double now_s) {
@@ -210,7 +193,11 @@ DriveCommand Pilot::Tick(double now_s) {
   } else {
     limiter_.Halt();
   }
-  NoteMotion(now_s, dt_s, motion);
+  if (!motion.IsZero()) {
+    at_rest_since_s_ = now_s;
+    driven_s_ += dt_s;
+  }
+  motion_ = motion;
   const bool is_lamp_on = state_ == DriveState::kWarning || state_ == DriveState::kDriving;
   const DriveCommand command{has_started_, state_ != DriveState::kStandby,
                              kinematics_.ChassisMotionFor(motion), is_lamp_on};
@@ -223,11 +210,12 @@ DriveCommand Pilot::Tick(double now_s) {
 PilotStatus Pilot::Status() const {
   PilotStatus status;
   status.state = state_;
-  status.reason = reason_;
-  status.detail = detail_;
+  status.reason = why_.reason;
+  status.detail = why_.detail;
   status.has_goal = route_.has_value();
   status.motion = motion_;
   status.slip = slip_.Estimate();
+  status.contradicted_s = contradicted_s_;
   status.operator_round_trip_s = operator_.RoundTrip();
   status.is_tilt_near_limit = pose_.IsTiltNearLimit();
   if (route_) {

@@ -1,8 +1,12 @@
 // The part of the pilot that decides whether the rover may move.
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/pilot.h"
 
 namespace arfm_vo {
 namespace {
+
+/// What was stamped before the clock was set is forgotten by then, in the tf buffer too.
+constexpr double kOldStamps_s = 10;
 
 std::string Join(const std::set<std::string>& names) {
   std::string text;
@@ -17,6 +21,25 @@ bool IsJump(StopReason reason) {
 }
 
 }  // namespace
+
+void Pilot::ObserveClockSet(double now_s, double step_s) {
+  clock_set_s_ = now_s;
+  Distrust({StopReason::kClockSet, Format("by %+.2f s", step_s)});
+}
+
+std::vector<CheckLine> Pilot::Check(double now_s) const {
+  const auto chassis = chassis_.FindFault(now_s);
+  const bool is_free = emergency_sources_.empty(), is_alone = operator_.IsMissing();
+  const bool was_set = clock_set_s_ && now_s - *clock_set_s_ <= kOldStamps_s;
+  std::vector<CheckLine> lines = {
+      {CheckItem::kEmergencyStop, is_free, is_free ? "none is set" : Join(emergency_sources_)},
+      {CheckItem::kOperator, !is_alone,
+       is_alone ? "does not answer " + operator_.DescribeRefused() : "answers or is not required"},
+      {CheckItem::kChassis, !chassis, chassis ? ToString(*chassis) : "answers"},
+      {CheckItem::kClock, !was_set, was_set ? "was set just now" : "goes on evenly"}};
+  for (CheckLine& line : pictures_.Check(now_s)) lines.push_back(std::move(line));
+  return lines;
+}
 
 std::optional<Fault> Pilot::FindStartFault(double now_s) const {
   if (!emergency_sources_.empty())
@@ -48,24 +71,12 @@ bool Pilot::IsVelocityFresh(double now_s) const {
   return now_s - velocity_s_ <= options_.velocity_timeout_s;
 }
 
-bool Pilot::IsMovedByAnother(double now_s, const std::string& source) const {
-  return source != velocity_source_ && IsVelocityFresh(now_s) && !velocity_.IsZero();
-}
-
 void Pilot::Block(const Fault& fault) {
   if (route_) Report(GoalOutcome::kBlocked, fault);
   if (state_ != DriveState::kBlocked) waiting_since_s_ = last_tick_s_;
   state_ = DriveState::kBlocked;
-  reason_ = fault.reason;
-  detail_ = fault.detail;
+  why_ = fault;
   velocity_s_ = kNeverCommanded_s;
-}
-
-void Pilot::TellMotionAtRest(const Fault& fault) {
-  if (reason_ == StopReason::kRunaway) return;  // says it already
-  if (state_ != DriveState::kStandby && state_ != DriveState::kBlocked) return Block(fault);
-  reason_ = fault.reason;
-  detail_ = fault.detail;
 }
 
 void Pilot::Distrust(const Fault& fault) {
@@ -73,8 +84,8 @@ void Pilot::Distrust(const Fault& fault) {
       fault.reason == StopReason::kMapStep || fault.reason == StopReason::kHeldUp;
   if (!keeps_route) EndRoute(GoalOutcome::kCancelled, fault);
   // Topics have no order between them: a pose of a new epoch may come before the epoch.
-  const bool is_explained =
-      state_ == DriveState::kBlocked && fault.reason == StopReason::kNewEpoch && IsJump(reason_);
+  const bool is_explained = state_ == DriveState::kBlocked &&
+                            fault.reason == StopReason::kNewEpoch && IsJump(why_.reason);
   if (is_explained || (state_ != DriveState::kStandby && state_ != DriveState::kBlocked))
     Block(fault);
 }
@@ -83,7 +94,7 @@ void Pilot::Pause(double now_s, StopReason reason) {
   if (state_ != DriveState::kPaused) pause_start_s_ = now_s;
   commanded_s_ = kNeverCommanded_s;  // whoever commanded it has seen it stop
   state_ = DriveState::kPaused;
-  reason_ = reason;
+  why_.reason = reason;
   flawed_s_ = now_s;
   stop_look_go_.Reset();
   if (now_s - pause_start_s_ > options_.max_pause_s)
@@ -95,21 +106,30 @@ bool Pilot::DropOldRoute() {
   const bool is_blocked = state_ == DriveState::kBlocked;
   if ((state_ != DriveState::kStandby && !is_blocked) || !waiting_since_s_) return false;
   if (last_tick_s_ - *waiting_since_s_ <= options_.goal_limits.max_standby_s) return false;
-  EndRoute(GoalOutcome::kCancelled,
-           is_blocked ? Fault{reason_, detail_} : Fault{StopReason::kNotStarted, ""});
+  EndRoute(GoalOutcome::kCancelled, is_blocked ? why_ : Fault{StopReason::kNotStarted, ""});
   return true;
 }
 
 void Pilot::JudgePose(double now_s) {
-  if (const auto fault = pose_.Judge(now_s, tracks_)) Distrust(*fault);
-  predicted_ = pose_.HasPose() ? std::optional(PredictPose(now_s)) : std::nullopt;
-  if (!pose_.HasPose() || pose_.LastSighting().taken_s <= compared_s_) return;
+  if (const auto fault = pose_.Judge(now_s, tracks_)) {
+    if (fault->reason != StopReason::kMapStep) contradicted_s_ = now_s;
+    Distrust(*fault);
+  }
+  predicted_.reset();
+  if (!pose_.HasPose()) return;
+  predicted_ = pose_.PredictInMap(tracks_.At(now_s).value_or(pose_.LastSighting().ways));
+  if (pose_.LastSighting().taken_s <= compared_s_) return;
   compared_s_ = pose_.LastSighting().taken_s;
   slip_.Add(pose_.LastSightingInOdom(), pose_.LastSighting().ways);
 }
 
 void Pilot::UpdateState(double now_s) {
-  if (const auto fault = motion_watch_.FindMotionAtRest(now_s)) TellMotionAtRest(*fault);
+  const bool waits = state_ == DriveState::kStandby || state_ == DriveState::kBlocked;
+  const auto motion_at_rest = motion_watch_.FindMotionAtRest(now_s);
+  if (motion_at_rest && why_.reason != StopReason::kRunaway) {  // which says it already
+    if (!waits) Block(*motion_at_rest);
+    why_ = *motion_at_rest;
+  }
   DropOldRoute();
   if (state_ == DriveState::kStandby || state_ == DriveState::kBlocked) return;
   if (const auto fault = FindBlockingFault(now_s)) return Block(*fault);
@@ -117,12 +137,14 @@ void Pilot::UpdateState(double now_s) {
   const bool needs_pose = route_ || options_.velocity_needs_pose;
   const auto pose_fault = needs_pose ? pose_.FindFault(now_s) : std::nullopt;
   if (pose_fault) return Pause(now_s, *pose_fault);
+  if (needs_pose && !pictures_.HasSettled() && !options_.IsOverridden(CheckItem::kExposure))
+    return Pause(now_s, StopReason::kExposure);
   if (state_ == DriveState::kPaused && now_s - flawed_s_ < options_.resume_after_s) return;
   GoOn(now_s);
 }
 
 void Pilot::GoOn(double now_s) {
-  reason_ = StopReason::kNone;
+  why_.reason = StopReason::kNone;
   const bool has_work = route_ || IsVelocityFresh(now_s);
   if (!has_work) {
     state_ = DriveState::kReady;

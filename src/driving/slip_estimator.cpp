@@ -11,6 +11,8 @@ namespace {
 /// Below this share of the window, forward way and turning (as the outer tracks' way) are not
 /// judged.
 constexpr double kMinShare = 0.6;
+/// Tracks that skid in a turn move the base aside too, so direction is judged of straight ways.
+constexpr double kStraightShare = 0.9;
 
 double Ratio(double track, double sight) {
   return (track - sight) / std::max(std::abs(track), std::abs(sight));
@@ -26,6 +28,8 @@ void SlipOptions::Check() const {
   Require(max_leap_m > 0 && max_leap_m <= 100, "slip.max_leap_m must be in (0, 100]");
   Require(level_window_m >= 0.05 && level_window_m <= 100,
           "slip.level_window_m must be in 0.05..100");
+  Require(straight_window_m >= 0.05 && straight_window_m <= 100,
+          "slip.straight_window_m must be in 0.05..100");
   Require(max_level_ratio > 0 && max_level_ratio <= 1, "slip.max_level_ratio must be in (0, 1]");
   Require(level_deg >= 0 && level_deg <= 60, "slip.level_deg must be in 0..60");
 }
@@ -46,7 +50,10 @@ void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
       level_since_m_ = 0;
     } else {
       sample.sight_forward_m = last.sight_forward_m + last_from_base.translation.x();
-      sample.sight_turn_rad = last.sight_turn_rad + LogSO3(last_from_base.rotation).z();
+      const double turn_rad = LogSO3(last_from_base.rotation).z();
+      sample.sight_turn_rad = last.sight_turn_rad + turn_rad;
+      const Eigen::Vector3d way = ExpSO3({0, 0, -turn_rad / 2}) * last_from_base.translation;
+      sample.sight_sideways_m = last.sight_sideways_m + way.y();  // across the arc
       sample.track_path_m = last.track_path_m + (std::abs(ways.left_m - last.ways.left_m) +
                                                  std::abs(ways.right_m - last.ways.right_m)) /
                                                     2;
@@ -57,7 +64,8 @@ void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
   const bool rests = samples_.size() > 1 && sample.track_path_m == samples_.back().track_path_m;
   if (rests) samples_.pop_back();
   samples_.push_back(sample);
-  const double kept_m = std::max(options_.window_m, options_.level_window_m);
+  const double kept_m =
+      std::max({options_.window_m, options_.level_window_m, options_.straight_window_m});
   while (samples_.size() > 2 && sample.track_path_m - samples_[1].track_path_m >= kept_m)
     samples_.pop_front();
 }
@@ -78,29 +86,41 @@ std::optional<Slip> SlipEstimator::Over(double window_m) const {
   slip.track_forward_m = track.forward_mps;
   slip.track_turn_rad = track.turn_radps;
   slip.sight_forward_m = last.sight_forward_m - first.sight_forward_m;
+  slip.sight_sideways_m = last.sight_sideways_m - first.sight_sideways_m;
   slip.sight_turn_rad = last.sight_turn_rad - first.sight_turn_rad;
   if (std::abs(track.forward_mps) >= kMinShare * path_m)
     slip.forward_ratio = Ratio(slip.track_forward_m, slip.sight_forward_m);
-  if (kinematics_.FasterTrack({0, track.turn_radps}) >= kMinShare * path_m)
+  const double turn_m = kinematics_.FasterTrack({0, track.turn_radps});
+  if (std::abs(track.forward_mps) - turn_m >= kStraightShare * path_m)
+    slip.sideways_ratio = std::abs(slip.sight_sideways_m / slip.sight_forward_m);
+  if (turn_m >= kMinShare * path_m)
     slip.turn_ratio = Ratio(slip.track_turn_rad, slip.sight_turn_rad);
   return slip;
 }
 
+std::optional<Slip> SlipEstimator::OverLevel(double window_m) const {
+  const bool is_level =
+      !samples_.empty() && samples_.back().track_path_m - level_since_m_ >= window_m;
+  return is_level ? Over(window_m) : std::nullopt;
+}
+
 std::optional<std::string> SlipEstimator::FindExcess() const {
   const auto text = [](const Slip& slip) {
-    return Format("(tracks %.2f m and %.0f deg, sight %.2f m and %.0f deg)", slip.track_forward_m,
-                  slip.track_turn_rad * 180 / M_PI, slip.sight_forward_m,
-                  slip.sight_turn_rad * 180 / M_PI);
+    return Format("(tracks %.2f m and %.0f deg, sight %.2f m, %.2f m aside and %.0f deg)",
+                  slip.track_forward_m, slip.track_turn_rad * 180 / M_PI, slip.sight_forward_m,
+                  slip.sight_sideways_m, slip.sight_turn_rad * 180 / M_PI);
   };
   const std::optional<Slip> slip = Estimate();
   if (slip && (std::abs(slip->forward_ratio.value_or(0)) > options_.max_slip_ratio ||
                std::abs(slip->turn_ratio.value_or(0)) > options_.max_turn_slip_ratio))
     return text(*slip);
-  const std::optional<Slip> level = Over(options_.level_window_m);
-  if (!level || samples_.back().track_path_m - level_since_m_ < options_.level_window_m)
-    return std::nullopt;
-  if (std::abs(level->forward_ratio.value_or(0)) <= options_.max_level_ratio) return std::nullopt;
-  return text(*level);
+  const std::optional<Slip> level = OverLevel(options_.level_window_m);
+  if (level && std::abs(level->forward_ratio.value_or(0)) > options_.max_level_ratio)
+    return text(*level);
+  const std::optional<Slip> straight = OverLevel(options_.straight_window_m);
+  if (straight && straight->sideways_ratio.value_or(0) > options_.max_level_ratio)
+    return text(*straight);
+  return std::nullopt;
 }
 
 }  // namespace arfm_vo

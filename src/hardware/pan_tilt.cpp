@@ -71,6 +71,7 @@ void PanTilt::SetSpeeds() {
 
 void PanTilt::Close(const std::string& problem) {
   unit_.reset();
+  is_homed_ = false;
   state_ = PanTiltState::kClosed;
   problem_ = problem;
   backoff_.Fail(now_());
@@ -85,6 +86,7 @@ void PanTilt::StartHoming() {
 void PanTilt::ContinueHoming() {
   if (unit_->PollHoming()) {
     must_home_ = has_lost_position_ = false;
+    is_homed_ = true;
     state_ = PanTiltState::kReady;
   } else if (now_() > homing_deadline_s_) {
     Close("homing did not end in time");

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/stop_look_go.h"
 
@@ -55,7 +56,8 @@ TEST(SlipEstimator, WrongOptionsAreRefused) {
   SlipOptions options;
   options.window_m = 0;
   EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
-  for (double SlipOptions::*field : {&SlipOptions::level_window_m, &SlipOptions::max_level_ratio}) {
+  for (double SlipOptions::*field : {&SlipOptions::level_window_m, &SlipOptions::max_level_ratio,
+                                     &SlipOptions::straight_window_m}) {
     options = {};
     options.*field = 0;
     EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
@@ -95,7 +97,7 @@ TEST(SlipEstimator, OverLevelGroundLessSlipIsAllowed) {
   EXPECT_FALSE(Driven(6, 0.82, 600).FindExcess());
   EXPECT_FALSE(Driven(4.9, 0.78, 490).FindExcess());
   EXPECT_EQ(*Driven(6, 0.78, 600).FindExcess(),
-            "(tracks 5.00 m and 0 deg, sight 3.90 m and 0 deg)");
+            "(tracks 5.00 m and 0 deg, sight 3.90 m, 0.00 m aside and 0 deg)");
   EXPECT_TRUE(Driven(6, 1.28, 600).FindExcess());
 }
 
@@ -109,6 +111,44 @@ TEST(SlipEstimator, OnASlopeAndFiveMetresAfterItTheTracksMaySlipMore) {
              {way_m, way_m});
     EXPECT_EQ(slip.FindExcess().has_value(), i >= 690 + 499) << i;
   }
+}
+
+Rigid3 RotatedBy(const Eigen::Quaterniond& rotation) { return {rotation, Eigen::Vector3d::Zero()}; }
+
+/// Tracks that go `track_m` in an arc of 1 / `per_m`, seen by eyes that look `aside_deg` aside of
+/// where the head says.
+SlipEstimator SeenAside(double aside_deg, double track_m, double per_m = 0,
+                        const Eigen::Quaterniond& ground = Eigen::Quaterniond::Identity()) {
+  SlipEstimator slip({}, kKinematics);
+  const Eigen::Quaterniond aside = ExpSO3({0, 0, aside_deg * M_PI / 180});
+  TrackWays ways;
+  RoverPose pose;
+  for (double way_m = 0; way_m <= track_m; way_m += 0.05) {
+    const Rigid3 odom_from_base(ExpSO3({0, 0, pose.heading_rad}), {pose.x_m, pose.y_m, 0});
+    slip.Add(RotatedBy(aside) * RotatedBy(ground) * odom_from_base * RotatedBy(aside).Inverse(),
+             ways);
+    const double turn_rad = 0.05 * per_m, half_m = turn_rad * 0.583 / 2;
+    pose = Advance(pose, 0.05, turn_rad);
+    ways = {ways.left_m + 0.05 - half_m, ways.right_m + 0.05 + half_m};
+  }
+  return slip;
+}
+
+/// The head's belt has slipped: the head says 0, and the path by sight points aside.
+TEST(SlipEstimator, SightThatGoesAsideOfStraightTracksIsToldWithinAMetre) {
+  EXPECT_FALSE(SeenAside(15, 0.98).FindExcess());
+  EXPECT_EQ(*SeenAside(15, 1.06).FindExcess(),
+            "(tracks 1.00 m and 0 deg, sight 0.97 m, 0.26 m aside and 0 deg)");
+  EXPECT_TRUE(SeenAside(-15, 1.06).FindExcess());
+  EXPECT_TRUE(SeenAside(15, 1.06, 0.3).FindExcess());
+  EXPECT_FALSE(SeenAside(8, 4).FindExcess());
+}
+
+TEST(SlipEstimator, NeitherAnArcNorATurnNorASlopeIsAWayAside) {
+  EXPECT_FALSE(SeenAside(0, 4, 0.3).FindExcess());
+  EXPECT_NEAR(*SeenAside(0, 4, 0.3).Estimate()->sideways_ratio, 0, 1e-9);
+  EXPECT_FALSE(SeenAside(15, 2, 1).Estimate()->sideways_ratio);
+  EXPECT_FALSE(SeenAside(15, 4, 0, ExpSO3({0.15, 0, 0})).FindExcess());
 }
 
 TEST(SlipEstimator, TurningIsJudgedByItself) {

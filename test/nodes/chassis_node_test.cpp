@@ -174,6 +174,7 @@ class World {
     OdometryStatus status;
     status.header.stamp = ros::Time::now();
     status.epoch = 1;
+    status.num_features = status.num_stereo_points = 300;
     odometry_status_.publish(status);
   }
   nav_msgs::Odometry Odometry(const Rigid3& pose) const {

@@ -91,8 +91,8 @@ std::vector<Fault> OperatorFaults() {
            d.pilot().SetVelocity(d.Now(), {-0.1, 0}, "/another");
          };
        },
-       "one of them ends", [](SimulatedDrive& d) { d.each_tick_ = [&d] { SendVelocity(d); }; }, "",
-       TimeSince(0), Stopper::kDriver, true},
+       "both are let go", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", TimeSince(0),
+       Stopper::kDriver, true},
   };
 }
 
@@ -148,9 +148,10 @@ void CreepSideways(SimulatedDrive& d) {
 
 std::vector<Fault> WrongPoseFaults() {
   const auto mend = [](SimulatedDrive& d) {
-    d.told_from_true_ = d.map_from_odom_ = Rigid3();
+    d.told_from_true_ = d.map_from_odom_ = d.base_from_told_ = Rigid3();
     d.each_tick_ = [] {};
   };
+  const Rigid3 aside = PlaceOnLevelGround({0, 0, M_PI / 12});
   const auto tilt = [](SimulatedDrive& d) {
     d.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
   };
@@ -174,6 +175,8 @@ std::vector<Fault> WrongPoseFaults() {
        "", [](SimulatedDrive& d) { d.is_tf_missing_ = false; }},
       {"rover slides sideways at 0.1 m/s", CreepSideways, "", mend,
        "0.1 m and 30 % of the way, in 3 s", TimeSince(1.85)},
+      {"head's belt slips by 15 degrees", [aside](SimulatedDrive& d) { d.base_from_told_ = aside; },
+       "", mend},
       {"rover is tilted by 26 degrees", tilt, "level it", mend, "25 degrees"},
   };
 }
@@ -267,6 +270,8 @@ std::vector<Fault> NodeFaults() {
   return {
       {"node ends (SIGINT, SIGTERM)", [](SimulatedDrive& d) { d.EndDriver(); }, "new node",
        kNothing},
+      {"computer's clock is set by 30 s",
+       [](SimulatedDrive& d) { d.pilot().ObserveClockSet(d.Now(), 30); }, "", kNothing},
       {"node hangs or is killed", [](SimulatedDrive& d) { d.is_driver_hung_ = true; }, "new node",
        kNothing, "", TimeSince(0), Stopper::kChassisTimeout},
   };
@@ -335,16 +340,12 @@ Row Measure(const Fault& fault) {
   return row;
 }
 
-std::vector<Row> MeasureAll() {
-  std::vector<Row> rows;
+const std::vector<Row>& Rows() {
+  static std::vector<Row> rows;
+  if (!rows.empty()) return rows;
   for (const auto& faults : {OperatorFaults(), PoseFaults(), WrongPoseFaults(), ChassisFaults(),
                              MotionFaults(), BusFaults(), NodeFaults()})
     for (const Fault& fault : faults) rows.push_back(Measure(fault));
-  return rows;
-}
-
-const std::vector<Row>& Rows() {
-  static const std::vector<Row> rows = MeasureAll();
   return rows;
 }
 
@@ -355,20 +356,21 @@ std::string Milliseconds(double duration_s) {
 
 std::string Table() {
   std::ostringstream text;
-  text << "# Faults, and how the rover stops\n\n"
-       << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is "
-          "injected into a "
-          "simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real chassis, on a "
-          "simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the moment it "
-          "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
-          "last frame that moves); *tracks stand* is when both tracks run below 1 mm/s, their own "
-          "inertia\n(time constant 0.1 s) included. Where no stop frame gets through, the chassis' "
-          "own command timeout of\n500 ms stops it. Every fault is then mended, to see what it "
-          "takes to go on. No\nprocess and no ROS clock takes part: what the nodes do in the "
-          "running graph is not measured here.\n\n"
-       << "| fault | limit | stop after the fault, ms | after the limit, ms | tracks stand, ms | "
-          "status says | to go on |\n"
-       << "|---|---|---|---|---|---|---|\n";
+  text
+      << "# Faults, and how the rover stops\n\n"
+      << "Made by `scripts/measure.sh fault_table` (the test `FaultTable`): each fault is "
+         "injected into a simulated rover that\ndrives at 0.1 m/s, over the CAN frames of the real "
+         "chassis, on a simulated clock of 1 ms. *Stop* is the time\nfrom the fault, and from the "
+         "moment it "
+         "exceeds its limit, to the stop frame on the bus (where nothing gets\nthrough: to the "
+         "last frame that moves); *tracks stand* is when both tracks run below 1 mm/s, their own "
+         "inertia\n(time constant 0.1 s) included. Where no stop frame gets through, the chassis' "
+         "own command timeout of\n500 ms stops it. Every fault is then mended, to see what it "
+         "takes to go on. No\nprocess and no ROS clock takes part: what the nodes do in the "
+         "running graph is not measured here.\n\n"
+      << "| fault | limit | stop after the fault, ms | after the limit, ms | tracks stand, ms | "
+         "status says | to go on |\n"
+      << "|---|---|---|---|---|---|---|\n";
   for (const Row& row : Rows()) {
     const bool by_timeout = row.fault.stopper == Stopper::kChassisTimeout;
     text << "| " << row.fault.name << " | " << row.fault.limit << " | "
@@ -380,8 +382,6 @@ std::string Table() {
   }
   return text.str();
 }
-
-TEST(FaultTable, HoldsAtLeastFifteenFaults) { EXPECT_GE(Rows().size(), 15u); }
 
 TEST(FaultTable, EveryFaultStopsTheRoverWithin200Milliseconds) {
   for (const Row& row : Rows()) {

@@ -71,7 +71,7 @@ class SimulatedDrive {
   double sigma_m_ = 0.01;
   double stamp_offset_s_ = 0;
   std::optional<Rigid3> false_pose_;
-  Rigid3 told_from_true_, map_from_odom_;  ///< how the odometry and the map go wrong
+  Rigid3 told_from_true_, map_from_odom_, base_from_told_;  ///< how odometry, map, head go wrong
   uint32_t epoch_ = 1;
   bool has_operator_ = true;
   StopReason no_pose_reason_ = StopReason::kPoseMissing;
@@ -114,7 +114,7 @@ class SimulatedDrive {
     if (has_pose_ && has_covariance_) covariance_taken_s_ = taken_s;
     if (has_pose_) pilot().ObserveEpoch(epoch_, taken_s);
     if (is_tf_missing_) pilot().ObserveNoPose(no_pose_reason_);
-    const Rigid3 told = told_from_true_ * sight.world_from_base;
+    const Rigid3 told = told_from_true_ * sight.world_from_base * base_from_told_;
     if (has_pose_ && !is_tf_missing_)
       pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(told), map_from_odom_});
     if (has_pose_ && has_covariance_) pilot().ObserveUncertainty(Now(), {taken_s, sigma_m_, 0.01});

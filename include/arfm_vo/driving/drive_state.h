@@ -33,6 +33,7 @@ enum class StopReason {
   kPoseInvalid,    ///< the pose is not finite, or stands on end, or comes from the future
   kPoseStale,
   kPoseUncertain,      ///< covariance too large, missing or stale: the odometry is lost
+  kExposure,           ///< the camera's automatic exposure has not settled
   kEpochMissing,       ///< the odometry does not tell its epoch
   kNewEpoch,           ///< the odometry has started anew: the old goal means nothing
   kPoseContradiction,  ///< the pose jumps against what the tracks say
@@ -43,6 +44,7 @@ enum class StopReason {
   kOutsideFence,
   kOperatorLost,      ///< nobody answers the challenges in time
   kHeldUp,            ///< chassis_node itself did not run for too long
+  kClockSet,          ///< the computer's clock was set: what is stamped is of another time
   kRemoteLost,        ///< the chassis has lost its remote control
   kForeignCommands,   ///< another driver sends motion commands on the bus
   kRunaway,           ///< the tracks run faster than commanded
@@ -62,6 +64,8 @@ struct Fault {
 /// Names as messages show them.
 const char* ToString(DriveState state);
 const char* ToString(StopReason reason);
+/// The reason, and what it measures.
+std::string ToString(const Fault& fault);
 
 /// What became of a goal.
 enum class GoalOutcome { kArrived, kBlocked, kCancelled, kReplaced };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/driving/picture_watch.h"
 #include "arfm_vo/driving/pilot_options.h"
 #include "arfm_vo/driving/pilot_status.h"
 #include "arfm_vo/driving/progress_watch.h"
@@ -53,6 +54,9 @@ class Pilot {
   /// Of the odometry, with a pair of `taken_s`. Another than before drops the goal and blocks.
   void ObserveEpoch(uint32_t epoch, double taken_s);
   void ObserveTracks(double now_s, int left_mm, int right_mm);
+  /// The computer's clock was set by `step_s`: drops the goal and blocks.
+  void ObserveClockSet(double now_s, double step_s);
+  PictureWatch& picture_watch() { return pictures_; }
   /// Of the bus, of other drivers, and of the age of all other feedback.
   ChassisWatch& chassis_watch() { return chassis_; }
   /// What the chassis measures of its own motion.
@@ -60,13 +64,15 @@ class Pilot {
 
   DriveCommand Tick(double now_s);
 
+  /// The start-up check, as far as the watches know; Start looks at a part of it.
+  std::vector<CheckLine> Check(double now_s) const;
+
   PilotStatus Status() const;
   /// What became of goals since the last call.
   std::vector<GoalResult> TakeResults();
 
  private:
   static constexpr double kNeverCommanded_s = -std::numeric_limits<double>::infinity();
-
   std::optional<Fault> FindStartFault(double now_s) const;
   std::optional<Fault> FindBlockingFault(double now_s) const;
   std::optional<Fault> FindDrivingFault() const;
@@ -75,18 +81,13 @@ class Pilot {
   void GoOn(double now_s);
   void Distrust(const Fault& fault);
   void Block(const Fault& fault);
-  void TellMotionAtRest(const Fault& fault);
   void Pause(double now_s, StopReason reason);
   void EndRoute(GoalOutcome outcome, const Fault& fault = {});
   void Report(GoalOutcome outcome, const Fault& fault);
   bool IsVelocityFresh(double now_s) const;
-  bool IsMovedByAnother(double now_s, const std::string& source) const;
   bool DropOldRoute();
-  RoverPose PredictPose(double now_s) const;
   bool IsSeenAtRest() const;
   PlanarMotion WantedMotion(double now_s);
-  void FollowRoute();
-  void NoteMotion(double now_s, double dt_s, const PlanarMotion& motion);
 
   PilotOptions options_;
   TrackKinematics kinematics_;
@@ -95,25 +96,24 @@ class Pilot {
   ChassisWatch chassis_;
   MotionWatch motion_watch_;
   OperatorWatch operator_;
+  PictureWatch pictures_;
   GoalLimits goal_limits_;
   TrackHistory tracks_;
   SlipEstimator slip_;
   StopLookGo stop_look_go_;
   ProgressWatch progress_;
-
   DriveState state_ = DriveState::kStandby;
-  StopReason reason_ = StopReason::kNotStarted;
+  Fault why_{StopReason::kNotStarted, ""};
   bool has_started_ = false;
-  std::string detail_;
   std::set<std::string> emergency_sources_;
   std::optional<GoalController> route_;
   std::optional<RoverPose> predicted_;
   PlanarMotion velocity_, motion_;
   std::string velocity_source_;
-  double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0;
-  double commanded_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
-  std::optional<double> waiting_since_s_;
-  double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;
+  double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0, commanded_s_ = 0;
+  double warned_since_s_ = 0, compared_s_ = 0, last_tick_s_ = 0, driven_s_ = 0;
+  double at_rest_since_s_ = 0;
+  std::optional<double> waiting_since_s_, contradicted_s_, clock_set_s_;
   std::vector<GoalResult> results_;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "arfm_vo/driving/chassis_watch.h"
 #include "arfm_vo/driving/goal_controller.h"
 #include "arfm_vo/driving/goal_limits.h"
@@ -8,6 +11,7 @@
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/speed_limiter.h"
+#include "arfm_vo/driving/start_check.h"
 #include "arfm_vo/driving/stop_look_go.h"
 #include "arfm_vo/driving/track_kinematics.h"
 
@@ -34,8 +38,14 @@ struct PilotOptions {
   double max_stall_s = 20;           ///< driving time in which a goal must come nearer
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
   bool velocity_needs_pose = true;   ///< cmd_vel drives with a good pose only
+  /// Items of the start-up check that need not be well; what cannot be known on this rover.
+  std::vector<CheckItem> overridden_checks;
 
   void Check() const;
+  bool IsOverridden(CheckItem item) const {
+    return std::find(overridden_checks.begin(), overridden_checks.end(), item) !=
+           overridden_checks.end();
+  }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("kinematics", kinematics);
@@ -58,6 +68,7 @@ struct PilotOptions {
     visit("max_stall_s", max_stall_s);
     visit("velocity_timeout_s", velocity_timeout_s);
     visit("velocity_needs_pose", velocity_needs_pose);
+    visit("overridden_checks", overridden_checks);
   }
 };
 

@@ -49,6 +49,7 @@ struct PilotStatus {
   PlanarMotion motion;  ///< commanded, of the base
   std::optional<Slip> slip;
   bool is_tilt_near_limit = false;
+  std::optional<double> contradicted_s;         ///< when the pose last contradicted the tracks
   std::optional<double> operator_round_trip_s;  ///< nothing without an operator
 };
 

@@ -19,7 +19,10 @@ struct SlipOptions {
   /// is of a wrong baseline, or of something else than the ground.
   double level_window_m = 5;
   double max_level_ratio = 0.2;  ///< above it the rover stops
-  double level_deg = 5;          ///< ground that tilts the rover more is not level
+  /// Where the tracks go straight, sight that tells a way aside by that ratio is of eyes that look
+  /// elsewhere than the head says.
+  double straight_window_m = 1;
+  double level_deg = 5;  ///< ground that tilts the rover more is not level
 
   void Check() const;
   template <class Visitor>
@@ -30,6 +33,7 @@ struct SlipOptions {
     visit("max_leap_m", max_leap_m);
     visit("level_window_m", level_window_m);
     visit("max_level_ratio", max_level_ratio);
+    visit("straight_window_m", straight_window_m);
     visit("level_deg", level_deg);
   }
 };
@@ -40,7 +44,9 @@ struct SlipOptions {
 struct Slip {
   std::optional<double> forward_ratio;
   std::optional<double> turn_ratio;
-  double sight_forward_m = 0, track_forward_m = 0;
+  std::optional<double>
+      sideways_ratio;  ///< of sight: aside over ahead, where the tracks go straight
+  double sight_forward_m = 0, sight_sideways_m = 0, track_forward_m = 0;
   double sight_turn_rad = 0, track_turn_rad = 0;
 };
 
@@ -67,14 +73,16 @@ class SlipEstimator {
     Rigid3 odom_from_base;
     TrackWays ways;
     double track_path_m = 0;  // sums since the last reset
-    double sight_forward_m = 0, sight_turn_rad = 0;
+    double sight_forward_m = 0, sight_sideways_m = 0, sight_turn_rad = 0;
   };
   /// The last `window_m` of the tracks' way; nothing where so much has not been driven.
   std::optional<Slip> Over(double window_m) const;
+  /// The same; nothing where not all of it was level.
+  std::optional<Slip> OverLevel(double window_m) const;
 
   SlipOptions options_;
   TrackKinematics kinematics_;
-  std::deque<Sample> samples_;  // the last level_window_m, or window_m where that is more
+  std::deque<Sample> samples_;  // the last of the longest window
   double level_since_m_ = 0;    // of Sample::track_path_m: level ground from here on
 };
 

@@ -65,6 +65,8 @@ class PanTilt {
 
   PanTiltState state() const { return state_; }
   bool IsSettled() const { return state_ == PanTiltState::kReady && unit_->IsSettled(); }
+  /// Since the unit was opened, or opened anew.
+  bool IsHomed() const { return is_homed_; }
   /// True where a limit was hit unexpectedly: home again.
   bool HasLostPosition() const { return has_lost_position_; }
   /// Of the last failure; empty while all is well.
@@ -89,7 +91,7 @@ class PanTilt {
   Backoff backoff_;
   std::unique_ptr<PanTiltUnit> unit_;
   PanTiltState state_ = PanTiltState::kClosed;
-  bool must_home_, has_lost_position_ = false;
+  bool must_home_, has_lost_position_ = false, is_homed_ = false;
   double homing_deadline_s_ = 0;
   int num_failed_reads_ = 0, num_opened_ = 0, num_reopened_ = 0;
   std::string problem_ = "not opened yet";

@@ -7,6 +7,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <filesystem>
 
 #include "arfm_vo/base/array_checks.h"
@@ -49,6 +50,18 @@ CameraEye::CameraEye(const ros::NodeHandle& node, const std::string& name, const
   // The manager's own service knows no reason to refuse.
   ros::ServiceManager::instance()->unadvertiseService(node_.resolveName(kService));
   server_ = node_.advertiseService(kService, &CameraEye::Set, this);
+}
+
+std::optional<double> CameraEye::AgeInDays() {
+  try {
+    const auto path = PathOf(manager_.resolveURL(url_, name_));
+    const auto written = std::filesystem::last_write_time(path);
+    const std::chrono::duration<double> age =
+        std::filesystem::file_time_type::clock::now() - written;
+    return age.count() / (24 * 3600);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 void CameraEye::Publish(const cv::Mat& grey, const std_msgs::Header& header) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/ros/messages/conversions.h"
@@ -100,9 +101,18 @@ uint32_t EpochReader::Read(const ros::MessageEvent<const OdometryStatus>& event)
 double DrivingClock::Now() {
   if (!ros::Time::isSimTime()) return ros::SteadyTime::now().toSec();
   const ros::Time now = ros::Time::now();
-  if (!last_.isZero()) simulated_s_ += std::max(0.0, now.toSec() - last_.toSec());
+  const double step_s = last_.isZero() ? 0 : now.toSec() - last_.toSec();
+  (step_s > 0 ? simulated_s_ : back_s_) += step_s;
   last_ = now;
   return simulated_s_;
+}
+
+double DrivingClock::TakeStep() {
+  if (ros::Time::isSimTime()) return std::exchange(back_s_, 0);
+  const double before_s = offset_.offset_s();
+  const int num_before = offset_.num_jumps();
+  offset_.ToWall(0);
+  return offset_.num_jumps() == num_before ? 0 : offset_.offset_s() - before_s;
 }
 
 }  // namespace arfm_vo

@@ -39,6 +39,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       driver_(options_.pilot, OpenCanBus(options_.can, ChassisLink::Filters())),
       publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
                  options_.base_frame),
+      check_(options_.baseline_m),
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
@@ -61,6 +62,7 @@ void ChassisNode::Listen(ros::NodeHandle& node) {
   subscribe("operator_answer", &ChassisNode::TakeAnswer);
   subscribe("odom", &ChassisNode::TakeOdometry);
   subscribe("status", &ChassisNode::TakeOdometryStatus);
+  subscribers_.push_back(node.subscribe("/diagnostics", 100, &StartCheck::Take, &check_));
 }
 
 void ChassisNode::Serve(ros::NodeHandle& private_node) {
@@ -80,7 +82,8 @@ void ChassisNode::Serve(ros::NodeHandle& private_node) {
     servers_.push_back(private_node.advertiseService(options));
   };
   Pilot& pilot = driver_.pilot();
-  serve("start", [this, &pilot] { return pilot.Start(clock_.Now()); });
+  serve("start", [this] { return Start(); });
+  serve("check", [this] { return Reply{Check(true).empty(), "start-up check" + Check(false)}; });
   serve("stop", [&pilot] { return pilot.Stop(), Reply{true, "stopped"}; });
   serve("cancel", [&pilot] { return pilot.CancelRoute(), Reply{true, "no goal"}; });
   serve("clear_errors", [this] { return ClearErrors(); });
@@ -88,6 +91,13 @@ void ChassisNode::Serve(ros::NodeHandle& private_node) {
   serve("release_emergency_stop", [&pilot] {
     return pilot.ReleaseEmergencyStops(), Reply{true, "released"};
   });
+}
+
+Reply ChassisNode::Start() {
+  const DriveState state = driver_.pilot().Status().state;
+  const bool begins = state == DriveState::kStandby || state == DriveState::kBlocked;
+  const std::string flaws = begins ? Check(true) : "";
+  return flaws.empty() ? driver_.pilot().Start(clock_.Now()) : Reply{false, "not started:" + flaws};
 }
 
 Reply ChassisNode::ClearErrors() {
@@ -114,6 +124,7 @@ void ChassisNode::Tick() {
   const double now_s = clock_.Now();
   if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
   last_tick_s_ = now_s;
+  if (const double step_s = clock_.TakeStep()) driver_.pilot().ObserveClockSet(now_s, step_s);
   // Not by driving time: simulated time may stand still, or run slowly.
   ChallengeOperator(ros::SteadyTime::now().toSec());
   Look(now_s);
@@ -200,8 +211,11 @@ void ChassisNode::TakeOdometry(const nav_msgs::Odometry& odometry) {
 }
 
 void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatus>& event) {
-  const double taken_s = clock_.At(event.getConstMessage()->header.stamp);
+  const OdometryStatus& status = *event.getConstMessage();
+  const double taken_s = clock_.At(status.header.stamp);
   driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
+  driver_.pilot().picture_watch().Observe(
+      {taken_s, status.grey_mean, status.num_features, status.num_stereo_points});
 }
 
 }  // namespace arfm_vo

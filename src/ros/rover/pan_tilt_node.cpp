@@ -97,6 +97,7 @@ void PanTiltNode::PublishReadings(const PanTiltReadings& readings) {
       ++num_readings_;
     }
   }
+  last_pan_ = readings.pan;
   // Where an axis has lost its place, its readings would turn the map.
   last_tilt_ = head_.HasLostPosition() ? std::nullopt : readings.tilt;
 }
@@ -131,6 +132,8 @@ void PanTiltNode::ReportAxis(PtuAxis axis, const std::string& joint,
 
 void PanTiltNode::Report(Diagnostics& diagnostics) {
   diagnostics.add("state", ToString(head_.state()));
+  diagnostics.add("homed", head_.IsHomed());
+  if (last_pan_) diagnostics.addf("pan (deg)", "%.1f", last_pan_->position_rad * 180 / M_PI);
   diagnostics.add("readings", num_readings_);
   diagnostics.add("goals refused", num_refused_);
   diagnostics.add("times opened anew", head_.num_reopened());

@@ -129,6 +129,7 @@ StereoCameraNode::StereoCameraNode(ros::NodeHandle node, ros::NodeHandle private
   updater_.add("calibration", [this](Diagnostics& diagnostics) {
     const VideoOptions& video = options_.camera.video;
     ReportCalibration(left_.Loaded(), right_.Loaded(), video.width, video.height, diagnostics);
+    if (const auto days = right_.AgeInDays()) diagnostics.addf("age (days)", "%.1f", *days);
   });
   timer_ =
       node.createSteadyTimer(ros::WallDuration(kReport_s),

@@ -174,6 +174,27 @@ TEST_F(SimulatedTime, DrivingTimeGoesOnWithItAndNeverBack) {
   EXPECT_NEAR(clock.At(ros::Time(50)) - start_s, 1.5, 1e-9);
 }
 
+TEST_F(SimulatedTime, ALeapBackIsToldOnce) {
+  Set(100);
+  DrivingClock clock;
+  for (const double now_s : {100.0, 102.0, 72.0, 73.0}) {
+    Set(now_s);
+    clock.Now();
+    EXPECT_EQ(clock.TakeStep(), now_s == 72 ? -30 : 0) << now_s;
+  }
+}
+
+/// As by NTP: the computer's clock is set, or steered by up to 83 ms a second.
+TEST(DrivingClock, AClockThatIsSetIsToldOnceAndOneThatIsSteeredIsNot) {
+  ros::Time::init();
+  double set_s = 1e9;
+  DrivingClock clock([&] { return ros::SteadyTime::now().toSec() + set_s; });
+  for (const double step_s : {0.0, 0.001, -0.001, 30.0, 0.0, -30.0, 0.0}) {
+    set_s += step_s;
+    EXPECT_NEAR(clock.TakeStep(), std::abs(step_s) < 1 ? 0 : step_s, 1e-3) << step_s;
+  }
+}
+
 TEST(DrivingClock, IsSteadyWhereTimeIsTheMachines) {
   ros::Time::init();
   DrivingClock clock;

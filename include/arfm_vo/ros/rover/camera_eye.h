@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 
 #include "arfm_vo/ros/rover/drive_listener.h"
@@ -23,6 +24,8 @@ class CameraEye {
   void Publish(const cv::Mat& grey, const std_msgs::Header& header);
   /// The calibration, whatever its size; K[0] is 0 where there is none.
   sensor_msgs::CameraInfo Loaded() { return manager_.getCameraInfo(); }
+  /// Since its file was written; nothing where there is none.
+  std::optional<double> AgeInDays();
 
  private:
   bool Set(sensor_msgs::SetCameraInfo::Request& request,

@@ -12,10 +12,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/driving/route.h"
+#include "arfm_vo/hardware/clock_offset.h"
 
 namespace arfm_vo {
 
@@ -84,13 +86,22 @@ class EpochReader {
 /// comes from /clock, of that clock without its leaps back.
 class DrivingClock {
  public:
+  /// `wall` is the clock that ROS time is of where it is not simulated.
+  explicit DrivingClock(ClockOffset::Clock wall = [] { return ros::WallTime::now().toSec(); })
+      : offset_([] { return ros::SteadyTime::now().toSec(); }, std::move(wall), 0) {}
+
   double Now();
+  /// By how much ROS time was set since the last call, s, forward positive; 0 where it was not. To
+  /// be called each tick: a clock that is steered moves by less than 10 ms in that time. Of
+  /// simulated time leaps back alone are told: what leaps ahead may run fast.
+  double TakeStep();
   /// The driving time at which ROS time was `stamp`, by the clocks of now; for any stamp.
   double At(const ros::Time& stamp) { return Now() - (ros::Time::now().toSec() - stamp.toSec()); }
 
  private:
+  ClockOffset offset_;  // of ROS time over the steady clock
   ros::Time last_;
-  double simulated_s_ = 0;
+  double simulated_s_ = 0, back_s_ = 0;
 };
 
 }  // namespace arfm_vo

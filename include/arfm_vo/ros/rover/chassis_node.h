@@ -16,6 +16,7 @@
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
+#include "arfm_vo/ros/rover/start_check.h"
 
 namespace arfm_vo {
 
@@ -28,6 +29,7 @@ struct ChassisNodeOptions {
   double max_clock_stall_s = 1;
   double max_map_age_s = 1;   ///< of map -> odom: a ba_node that has ended is noticed
   double max_goal_age_s = 5;  ///< of a goal's stamp
+  double baseline_m = 0;      ///< of the lenses, by a tape measure; 0: nobody has measured it
   PilotOptions pilot;
 
   void Check() const {
@@ -38,6 +40,7 @@ struct ChassisNodeOptions {
             "max_clock_stall_s must be in (0, 600]");
     Require(max_map_age_s >= 0.1 && max_map_age_s <= 3600, "max_map_age_s must be in 0.1..3600");
     Require(max_goal_age_s > 0 && max_goal_age_s <= 3600, "max_goal_age_s must be in (0, 3600]");
+    Require(baseline_m >= 0 && baseline_m < 10, "baseline_m must be in 0..10");
     pilot.Check();
   }
   template <class Visitor>
@@ -49,6 +52,7 @@ struct ChassisNodeOptions {
     visit("max_clock_stall_s", max_clock_stall_s);
     visit("max_map_age_s", max_map_age_s);
     visit("max_goal_age_s", max_goal_age_s);
+    visit("baseline_m", baseline_m);
     visit("pilot", pilot);
   }
 };
@@ -64,6 +68,10 @@ class ChassisNode {
  private:
   void Listen(ros::NodeHandle& node);
   void Serve(ros::NodeHandle& private_node);
+  Reply Start();
+  std::string Check(bool flaws_only) {
+    return check_.Describe(clock_.Now(), driver_, options_.pilot, flaws_only);
+  }
   Reply ClearErrors();
   void SetPace(ros::NodeHandle& node);
   void Tick();
@@ -90,6 +98,7 @@ class ChassisNode {
   GoalReader goal_reader_;
   ChassisDriver driver_;
   ChassisPublisher publisher_;
+  StartCheck check_;
   ros::Time seen_;               // stamp of the newest sighting
   double seen_s_ = 0;            // the same in driving time
   ros::SteadyTime clock_moved_;  // when driving time last went on

@@ -73,7 +73,7 @@ class PanTiltNode {
   const PanTiltNodeOptions options_;
   PanTilt head_;
   ClockOffset clock_;
-  std::optional<PtuReading> last_tilt_;
+  std::optional<PtuReading> last_pan_, last_tilt_;
   uint32_t num_readings_ = 0, num_refused_ = 0;
   std::string said_;  ///< the problem that was last logged
   ros::Publisher joint_states_, settled_, refused_;
