@@ -17,6 +17,9 @@ from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 
 
+PATIENCE_S = 10  # with the start-up check
+
+
 def make_goal(x_m, y_m, heading_deg):
     goal = PoseStamped()
     goal.header.frame_id = "map"
@@ -69,7 +72,10 @@ class Errand:
                     print("start: %s within %g s" % (what, timeout_s))
                     return False
                 time.sleep(0.01)
-        return call("start") and self.wait_until_ready(end_s)
+        # Exposure settles, and other nodes come up, meanwhile.
+        while not rospy.ServiceProxy("chassis_node/check", Trigger)().success and time.monotonic() < end_s - timeout_s + PATIENCE_S:
+            time.sleep(0.1)
+        return call("check") and call("start") and self.wait_until_ready(end_s)
 
     def wait_until_ready(self, end_s):
         """The chassis takes commands, and the pose is one to drive by: a goal is refused before."""

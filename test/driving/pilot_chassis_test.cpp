@@ -117,43 +117,6 @@ TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
-TEST_F(PilotTest, AClockThatIsSetDropsTheGoalAndBlocks) {
-  StartDriving();
-  pilot_.ObserveClockSet(now_s_, 30);
-  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
-  EXPECT_EQ(State(), DriveState::kBlocked);
-  EXPECT_EQ(pilot_.Status().detail, "by +30.00 s");
-  EXPECT_FALSE(pilot_.Status().has_goal);
-}
-
-TEST_F(PilotTest, TheCheckTellsEachWatch) {
-  const auto lines = [this] {
-    std::string text;
-    for (const CheckLine& line : pilot_.Check(now_s_)) text += line.ToString() + "\n";
-    return text;
-  };
-  EXPECT_NE(lines().find("no chassis: chassis is silent (system state: not heard yet)"),
-            std::string::npos);
-  Start();
-  EXPECT_EQ(lines(),
-            "yes emergency_stop: none is set\nyes operator: answers or is not required\n"
-            "yes chassis: answers\n"
-            "yes clock: goes on evenly\nnot known camera: the odometry tells of no picture\n"
-            "not known exposure: the odometry tells of no picture\n"
-            "not known both_eyes: the odometry tells of no picture\n");
-  Run(2);
-  pilot_.ObserveClockSet(now_s_, -30);
-  pilot_.SetEmergencyStop("/button", true);
-  has_operator_ = false;
-  chassis_.is_emergency_stop = true;
-  Run(1);
-  for (const char* no : {"no emergency_stop: by /button", "no operator", "no chassis: emergency",
-                         "no clock: was set just now"})
-    EXPECT_NE(lines().find(no), std::string::npos) << no;
-  Run(10);
-  EXPECT_NE(lines().find("yes clock"), std::string::npos);
-}
-
 TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   StartDriving();
   pilot_.chassis_watch().ObserveForeignCommand(now_s_);

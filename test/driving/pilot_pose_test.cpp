@@ -85,33 +85,6 @@ TEST_F(PilotTest, ALongPauseNeedsANewStart) {
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
-/// A camera that was switched on just now: what it sees may be told wrong.
-TEST_F(PilotTest, BeforeTheExposureHasSettledNothingIsDrivenUnlessOverridden) {
-  PilotOptions options = Options();
-  for (const bool is_overridden : {false, true}) {
-    if (is_overridden) options.overridden_checks = {CheckItem::kExposure};
-    pilot_ = Pilot(options);
-    Start();
-    pilot_.SetRoute({{5, 0, {}}});
-    const double start_s = now_s_;
-    while (now_s_ < start_s + 2) {
-      pilot_.picture_watch().Observe({now_s_, 20 + 40 * (now_s_ - start_s), 400, 300});
-      EXPECT_EQ(Run(0.1).chassis_motion.IsZero(), !is_overridden);
-    }
-    EXPECT_EQ(Reason(), is_overridden ? StopReason::kNone : StopReason::kExposure);
-  }
-}
-
-TEST_F(PilotTest, AnExposureThatHasSettledIsDrivenByAfterAWarning) {
-  Start();
-  pilot_.SetRoute({{5, 0, {}}});
-  for (int i = 0; i < 50; ++i) {
-    pilot_.picture_watch().Observe({now_s_, 100, 400, 300});
-    Run(0.1);
-  }
-  EXPECT_EQ(State(), DriveState::kDriving);
-}
-
 TEST_F(PilotTest, AnUncertainPosePauses) {
   for (const double sigma_m : {2.1, 99.99, kNaN}) {
     pilot_ = Pilot(Options());

@@ -33,19 +33,6 @@ TEST_F(PilotTest, AVelocityOfBeforeABlockIsForgotten) {
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
 }
 
-/// A joystick that is held, or a planner that runs already.
-TEST_F(PilotTest, AVelocityThatIsCommandedBeforeTheStartForbidsIt) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  pilot_.SetVelocity(now_s_, {0.1, 0}, "/joystick");
-  const Reply reply = pilot_.Start(now_s_);
-  EXPECT_FALSE(reply.is_accepted);
-  EXPECT_EQ(reply.text, "not started: /joystick commands a velocity already");
-  EXPECT_TRUE(Run(0.1).chassis_motion.IsZero());
-  pilot_.SetVelocity(now_s_, {0, 0}, "/joystick");
-  EXPECT_TRUE(pilot_.Start(now_s_).is_accepted);
-}
-
 TEST_F(PilotTest, AfterAStopTheSpeedGrowsFromNothing) {
   StartDriving();
   pilot_.CancelRoute();

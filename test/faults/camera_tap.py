@@ -87,6 +87,20 @@ class Hold:
         return pairs
 
 
+class Settling:
+    """The exposure begins at half and settles in 3 s, as that of a camera that was switched on."""
+
+    def __init__(self):
+        self.begin_s = None
+
+    def __call__(self, pair):
+        stamp_s = pair[IMAGES[0]].header.stamp.to_sec()
+        self.begin_s = self.begin_s or stamp_s
+        gain = min(1, 0.5 + (stamp_s - self.begin_s) / 6)
+        grey = bytes(int(gain * value) for value in range(256))
+        return [{**pair, **{name: with_data(pair[name], bytes(pair[name].data).translate(grey)) for name in IMAGES}}]
+
+
 def swap(pair):
     left, right = IMAGES
     return [{**pair, left: pair[right], right: pair[left]}]

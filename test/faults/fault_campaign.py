@@ -34,7 +34,7 @@ from rosgraph_msgs.msg import Clock  # noqa: E402
 from table import WATCH_S, table  # noqa: E402
 
 MAX_STOP_S = 0.3  # after the fault, or after its limit
-MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included; and while a wrong pose is told
+MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included
 # A row in which the campaign itself did not run for so long says nothing of the rover: it is measured anew.
 MAX_HELD_UP_S = 0.3
 MAX_TRIES = 3
@@ -116,7 +116,6 @@ class Campaign:
         row = {"name": fault.name, "promise": fault.promise, "limit_s": max(fault.limit_s, limit_ended_s - injected_s)}
         row["held_up_s"] = held_up_s
         row["moves"] = self.rover.moves()
-        row["pose_off_m"] = self.rover.sight.error_m()
         row["wrong_way_m"] = self.rover.sight.wrong_way_m(end_way_m)
         row["dead"] = [node for node, pid in self.pids.items() if not os.path.exists("/proc/%d" % pid)]
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
@@ -144,7 +143,7 @@ class Campaign:
 
     def is_kept(self, fault, row):
         is_dead = row["dead"] and not (fault.ends_node or fault.ends_graph)
-        if row["arrived"] or is_dead or row["unwarned"] or row["wrong_way_m"] > MAX_WAY_M:
+        if row["arrived"] or is_dead or row["unwarned"] or row["wrong_way_m"] > fault.max_wrong_way_m:
             return False
         if fault.promise == EITHER:
             return row["moves"] or row["told"] != []

@@ -9,6 +9,7 @@ import time
 import rospy
 from fault import Fault, NotPermitted
 from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool
 
 
 def step_clock(seconds):
@@ -76,7 +77,7 @@ def kill_master(campaign):
 def machine_faults():
     slow = lambda c: time.sleep(3)  # noqa: E731
     rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds),
-                  "drives on or chassis_node was held up or pose is stale or odometry has started anew or no pose", slow, 1)
+                  "drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose", slow, 1)
             for seconds in (1, -1, 3600, -3600)]
     return rows + [
         Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3, is_load=True),
@@ -91,4 +92,6 @@ def last_faults():
     """After these the graph is not what it was."""
     # roslaunch notices within a second that its master is gone and ends all nodes; chassis_node says farewell. (A roscore
     # that was started by itself would leave the nodes with the connections that they have, the operator's among them.)
-    return [Fault("roscore killed", kill_master, "-", limit_s=1.0, ends_graph=True)]
+    return [Fault("computer's clock is set by %s30 s" % sign, lambda c, ahead=sign == "+": rospy.ServiceProxy(
+        "simulator_node/set_clock", SetBool)(ahead), "chassis_node was held up or clock was set", lambda c: time.sleep(3), 1)
+            for sign in "+-"] + [Fault("roscore killed", kill_master, "-", limit_s=1.0, ends_graph=True)]

@@ -46,6 +46,9 @@ def operator_faults():
     mended = link(lambda heard: heard[-1], 0.5)
     return [
         Fault("stop service called", lambda c: c.rover.call("chassis_node/stop"), "stopped by hand"),
+        Fault("a joystick is held at the start", lambda c: (c.rover.call("chassis_node/stop"), setattr(c.rover, "speed_mps", 0.1)),
+              "stopped by hand", lambda c: setattr(c.rover, "speed_mps", None),
+              is_well=lambda c: not c.rover.call("chassis_node/start").success),
         Fault("goal cancelled", lambda c: c.rover.call("chassis_node/cancel"), "-"),
         Fault("two nodes publish cmd_vel", second_velocity, "two nodes command velocities", unburden, by_velocity=True),
         *(Fault("operator does not answer: " + name, link(answer), "operator does not answer", mended, 0.9) for name, answer in (

@@ -12,7 +12,6 @@ import rosgraph
 import roslib.packages
 import rosnode
 import rospy
-import rosservice
 from arfm_vo.msg import DriveStatus, GoalReport, OdometryStatus, OperatorChallenge
 from geometry_msgs.msg import PoseStamped, Twist, Vector3
 from ports import find_free_port
@@ -212,10 +211,3 @@ def start_again(node):
     """The node with the parameters that it had."""
     remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
     return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def has_service(name):
-    try:
-        return rosservice.get_service_node(name) is not None
-    except rosservice.ROSServiceIOException:
-        return False

@@ -38,25 +38,17 @@ class Sight:
 
     def __init__(self, way_m):
         self.way_m = way_m  # of the tracks, now
-        self.truths, self.seen = {}, {}  # places by stamp
+        self.truths = {}  # places by stamp
         self.edges = {"odom": (0, 0, 0), "base_link": (0, 0, 0)}  # of tf, by the child frame
         self.told = []  # (stamp, map_from_base, way)
-        self.mark_s = 0.0
-        rospy.Subscriber("base_truth", Odometry, lambda truth: self.note(self.truths, truth))
-        rospy.Subscriber("odom", Odometry, self.take_odometry)
+        rospy.Subscriber("base_truth", Odometry, self.take_truth)
         rospy.Subscriber("/tf", TFMessage, self.take_transforms, queue_size=100)
 
-    @staticmethod
-    def note(places, message):
+    def take_truth(self, message):
         pose = message.pose.pose
-        places[message.header.stamp.to_sec()] = planar(pose.position, pose.orientation)
-        while len(places) > KEPT:
-            del places[next(iter(places))]
-
-    def take_odometry(self, message):
-        is_known = message.pose.covariance[0] < 1  # a pose that is lost has thousands
-        if is_known and message._connection_header["callerid"] == "/pose_node":
-            self.note(self.seen, message)
+        self.truths[message.header.stamp.to_sec()] = planar(pose.position, pose.orientation)
+        while len(self.truths) > KEPT:
+            del self.truths[next(iter(self.truths))]
 
     def take_transforms(self, message):
         for transform in message.transforms:
@@ -72,7 +64,6 @@ class Sight:
 
     def mark(self):
         """From here on."""
-        self.mark_s = rospy.get_time() - 1
         del self.told[:-1]
 
     def truth_at(self, stamp):
@@ -102,17 +93,6 @@ class Sight:
             return 0.0
         ends_m = [later[2] for later in told[1:]] + [end_way_m]
         return sum(abs(end_m - pose[2]) for pose, end_m in zip(told, ends_m) if self.is_wrong(pose, told[0]))
-
-    def error_m(self):
-        """By how much the way between the first and the last pose of the odometry differs from the true one."""
-        stamps = [stamp for stamp in sorted(self.seen) if stamp >= self.mark_s]
-        if len(stamps) < 2 or not self.truths:
-            return 0.0
-        ways = []
-        for places in self.seen, self.truths:
-            ends = [places[min(list(places), key=lambda other: abs(other - stamp))] for stamp in (stamps[0], stamps[-1])]
-            ways.append(math.hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
-        return abs(ways[0] - ways[1])
 
     def distance_m(self):
         """From where the drive began."""

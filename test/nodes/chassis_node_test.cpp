@@ -360,6 +360,8 @@ TEST_F(ChassisNodeTest, TheEmergencyStopTopicStopsAndForbidsStart) {
   world_->SetEmergencyStop(true);
   EXPECT_LT(SecondsToStop(sent_s), kPatience_s);
   EXPECT_FALSE(world_->Call("start").success);
+  const auto check = world_->Call("check");
+  EXPECT_NE(check.message.find("\nno emergency_stop: by /"), std::string::npos) << check.message;
   world_->SetEmergencyStop(false);
   EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
   EXPECT_TRUE(Moves());
@@ -476,8 +478,9 @@ TEST_F(ChassisNodeTest, AStalePoseStops) {
   world_->has_sight_ = false;
   EXPECT_LT(SecondsToStop(silent_s), 1.0 + kPatience_s);
   EXPECT_TRUE(Says("pose is stale"));
-  world_->has_sight_ = true;
   world_->Call("stop");
+  EXPECT_FALSE(world_->Call("start").success) << "the start-up check misses the camera";
+  world_->has_sight_ = true;
 }
 
 TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {

@@ -229,32 +229,6 @@ TEST_F(WrongPoseTest, SightThatIsAQuarterShorterThanTheTracksStopsAfterFiveMetre
   }
 }
 
-/// The camera looks 15 degrees aside of where the head says: the goal would be missed by a quarter
-/// of the way.
-TEST_F(WrongPoseTest, AHeadWhoseBeltHasSlippedBeforeTheDriveStopsWithinAMetre) {
-  for (const double aside_deg : {15.0, -15.0, 0.0}) {
-    SimulatedDrive drive;
-    drive.told_from_true_ = WrongPlaceAt(0, 0, aside_deg * M_PI / 180);
-    drive.base_from_told_ = drive.told_from_true_.Inverse();
-    drive.Run(0.5);
-    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
-    ASSERT_TRUE(drive.pilot().SetRoute({{5, 0, {}}}).is_accepted);
-    const auto is_blocked = [&] { return drive.pilot().Status().state == DriveState::kBlocked; };
-    EXPECT_EQ(drive.RunUntil(100, is_blocked), aside_deg != 0);
-    if (aside_deg == 0) continue;
-    EXPECT_EQ(drive.pilot().Status().reason, StopReason::kSlip);
-    EXPECT_NE(drive.pilot().Status().detail.find("aside"), std::string::npos);
-    EXPECT_LT(drive.plant().DrivenDistance(), 1.1);
-  }
-}
-
-TEST_F(WrongPoseTest, AHeadWhoseBeltSlipsInTheDriveBlocks) {
-  DriveTo({6, 0, {}}, 5);
-  drive_.base_from_told_ = WrongPlaceAt(0, 0, 15 * M_PI / 180);
-  drive_.Run(5);
-  ExpectBlocked(StopReason::kPoseContradiction);
-}
-
 TEST_F(WrongPoseTest, ATiltedRoverStops) {
   DriveTo({6, 0, {}}, 5);
   drive_.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Keeps the pages true: links lead somewhere, docs/index.md names each page, README.md is one page, the files of the table of
-equations are there and name them, and the drawing has each layer of the odometry.
+equations are there and name them, the drawing has each layer of the odometry, and each row of docs/hazards.md names its test.
 
 Usage: pages_test.py [PACKAGE_DIR]
 """
@@ -34,6 +34,17 @@ def find_faults_of_table(package, text):
     return faults + [f"eq {number} has no row" for number in map(str, range(1, 9)) if number not in seen]
 
 
+def find_untested(package, text):
+    """Rows of tables whose last cell names no test: gtest's Suite.Case, or a row of a campaign."""
+    sources = [path.read_text() for path in (package / "test").rglob("*.cpp")]
+    known = {".".join(case) for source in sources for case in re.findall(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)", source, re.M)}
+    for page in "fault_campaign", "faults", "hardware_faults":
+        known.update(re.findall(r"^\| ([^|]*?) \|", (package / "docs" / (page + ".md")).read_text(), re.M))
+    rows = re.findall(r"^\|(?!.*\n\|--)[^-].*\|(.*)\|$", text, re.M)
+    tests = [(row, re.findall(r"`([^`]+)`", row)) for row in rows]
+    return [f"hazards.md: no test: {row}" for row, names in tests if not names or not known.issuperset(names)]
+
+
 def main():
     package = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2])
     docs = package / "docs"
@@ -50,6 +61,7 @@ def main():
     layers = re.findall(r"^arfm_layer\((\w+)", (package / "CMakeLists.txt").read_text(), re.M)
     layers = layers[:layers.index("odometry") + 1]
     faults += [f"how_it_works.md: the drawing lacks the layer {layer}" for layer in layers if layer not in drawing]
+    faults += find_untested(package, (docs / "hazards.md").read_text())
     print(*faults, f"{len(pages)} pages, README.md {size} bytes, {len(faults)} faults", sep="\n")
     sys.exit(len(faults) > 0)
 

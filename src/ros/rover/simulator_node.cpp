@@ -1,6 +1,7 @@
 #include "arfm_vo/ros/rover/simulator_node.h"
 
 #include <rosgraph_msgs/Clock.h>
+#include <std_srvs/SetBool.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ constexpr uint64_t kStep_ns = 10'000'000;
 /// So late that a clock may step back by hours.
 constexpr uint64_t kStart_ns = 10'000'000'000'000;
 const ros::WallDuration kPoll(0.002);
+constexpr double kClockStep_s = 30;
 /// Of the terrain that is shown.
 constexpr double kHalfSide_m = 30, kCell_m = 0.5;
 constexpr double kSunk_m = 0.05;  // what lies on the ground stays visible
@@ -104,7 +106,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
             odometry_done_ = std::max(odometry_done_, status->header.stamp);
           })),
       odometry_subscriber_(node.subscribe("odom", 10, &SimulatorNode::TakeOdometry, this)),
-      report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)) {}
+      report_subscriber_(node.subscribe("goal_report", 10, &SimulatorNode::TakeReport, this)),
+      set_clock_(private_node.advertiseService(
+          "set_clock",
+          boost::function<bool(std_srvs::SetBool::Request&, std_srvs::SetBool::Response&)>(
+              [this](auto& ahead, auto& answer) {
+                clock_set_ += ros::Duration(ahead.data ? kClockStep_s : -kClockStep_s);
+                return answer.success = true;
+              }))) {}
 
 void SimulatorNode::Run() {
   if (!head_)

@@ -65,7 +65,8 @@ visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid
 
 /// The world around the nodes: /clock, a tracked chassis at the other end of the CAN bus that slips
 /// on a terrain, a pan-tilt unit on a serial line, stereo pairs rendered where the rover truly
-/// stands and its head truly looks, and the truth.
+/// stands and its head truly looks, and the truth. `~set_clock` (std_srvs/SetBool) sets the clock of
+/// the simulated computer 30 s ahead or back.
 class SimulatorNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus or
@@ -87,7 +88,7 @@ class SimulatorNode {
   void PublishClock() const;
   void TakeOdometry(const nav_msgs::Odometry& odometry);
   void TakeReport(const GoalReport& report);
-  ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_); }
+  ros::Time Stamp() const { return ros::Time().fromNSec(now_ns_) + clock_set_; }
 
   const SimulatorNodeOptions options_;
   Terrain terrain_;
@@ -102,11 +103,13 @@ class SimulatorNode {
   std::array<double, 2> head_angles_{};  ///< rad; pan, tilt
   uint64_t pair_due_ns_;
   uint32_t num_pairs_ = 0;
+  ros::Duration clock_set_;  ///< by so much in all
   ros::Time odometry_done_, pair_stamp_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   StereoPublisher stereo_;
   ros::Publisher clock_, truth_, ground_;
   ros::Subscriber status_subscriber_, odometry_subscriber_, report_subscriber_;
+  ros::ServiceServer set_clock_;
 };
 
 }  // namespace arfm_vo
