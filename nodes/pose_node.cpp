@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::PoseNode, arfm_vo::PoseNodeOptions>(
       argc, argv, "pose_node", R"(Features and the images they are from in, the rover's pose out.
 
-in    features, stereo/left|right/image_rect, map_update, track_odometry (nav_msgs/Odometry)
+in    features, stereo/left|right/image_rect, map_update
 out   odom (nav_msgs/Odometry), path, status (arfm_vo/OdometryStatus), keyframe, matches_image, /diagnostics
 tf    in base_frame <- camera at each image's stamp; out odom_frame -> base_frame
 srv   ~reset, ~save_trajectory (std_srvs/Trigger))");

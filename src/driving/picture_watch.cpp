@@ -54,22 +54,20 @@ bool PictureWatch::IsSteady() const {
 std::vector<CheckLine> PictureWatch::Check(double now_s) const {
   if (pictures_.empty()) {
     const std::string none = "the odometry tells of no picture";
-    return {{CheckItem::kCamera, {}, none},
-            {CheckItem::kExposure, {}, none},
-            {CheckItem::kBothEyes, {}, none}};
+    return {{"camera", {}, none}, {"exposure", {}, none}, {"both_eyes", {}, none}};
   }
   const Picture& last = pictures_.back();
   const double age_s = now_s - last.taken_s;
   const bool has_rate = age_s <= max_age_s_ && Span() > 0;
   const double rate_hz = has_rate ? static_cast<double>(pictures_.size() - 1) / Span() : 0;
   return {
-      {CheckItem::kCamera, has_rate,
+      {"camera", has_rate,
        has_rate ? Format("%.1f pictures a second", rate_hz)
                 : Format("the last picture is %.1f s old", age_s)},
-      {CheckItem::kExposure, has_settled_,
+      {"exposure", has_settled_,
        Format("%s, mean grey %.0f", has_settled_ ? "has settled" : "has not settled",
               last.grey_mean)},
-      {CheckItem::kBothEyes,
+      {"both_eyes",
        last.num_stereo_points * kMinStereoShare >= last.num_features && last.num_stereo_points > 0,
        Format("%zu of %zu keypoints are seen by both", last.num_stereo_points, last.num_features)}};
 }

@@ -32,11 +32,11 @@ std::vector<CheckLine> Pilot::Check(double now_s) const {
   const bool is_free = emergency_sources_.empty(), is_alone = operator_.IsMissing();
   const bool was_set = clock_set_s_ && now_s - *clock_set_s_ <= kOldStamps_s;
   std::vector<CheckLine> lines = {
-      {CheckItem::kEmergencyStop, is_free, is_free ? "none is set" : Join(emergency_sources_)},
-      {CheckItem::kOperator, !is_alone,
+      {"emergency_stop", is_free, is_free ? "none is set" : Join(emergency_sources_)},
+      {"operator", !is_alone,
        is_alone ? "does not answer " + operator_.DescribeRefused() : "answers or is not required"},
-      {CheckItem::kChassis, !chassis, chassis ? ToString(*chassis) : "answers"},
-      {CheckItem::kClock, !was_set, was_set ? "was set just now" : "goes on evenly"}};
+      {"chassis", !chassis, chassis ? ToString(*chassis) : "answers"},
+      {"clock", !was_set, was_set ? "was set just now" : "goes on evenly"}};
   for (CheckLine& line : pictures_.Check(now_s)) lines.push_back(std::move(line));
   return lines;
 }
@@ -137,7 +137,7 @@ void Pilot::UpdateState(double now_s) {
   const bool needs_pose = route_ || options_.velocity_needs_pose;
   const auto pose_fault = needs_pose ? pose_.FindFault(now_s) : std::nullopt;
   if (pose_fault) return Pause(now_s, *pose_fault);
-  if (needs_pose && !pictures_.HasSettled() && !options_.IsOverridden(CheckItem::kExposure))
+  if (needs_pose && !pictures_.HasSettled() && !options_.IsOverridden("exposure"))
     return Pause(now_s, StopReason::kExposure);
   if (state_ == DriveState::kPaused && now_s - flawed_s_ < options_.resume_after_s) return;
   GoOn(now_s);

@@ -23,6 +23,9 @@ void PilotOptions::Check() const {
   Require(max_stall_s >= 1 && max_stall_s <= 1e9, "max_stall_s must be in 1..1e9");
   Require(velocity_timeout_s >= 0.05 && velocity_timeout_s <= 0.18,
           "velocity_timeout_s must be in 0.05..0.18: the rover must stand within 0.2 s");
+  for (const std::string& item : overridden_checks)
+    Require(std::count(std::begin(kCheckItems), std::end(kCheckItems), item) > 0,
+            "overridden_checks: there is no check '" + item + "'");
 }
 
 }  // namespace arfm_vo

@@ -22,7 +22,7 @@ TEST_F(PilotTest, AVelocityThatIsCommandedBeforeTheStartForbidsIt) {
 TEST_F(PilotTest, BeforeTheExposureHasSettledNothingIsDrivenUnlessOverridden) {
   PilotOptions options = Options();
   for (const bool is_overridden : {false, true}) {
-    if (is_overridden) options.overridden_checks = {CheckItem::kExposure};
+    if (is_overridden) options.overridden_checks = {"exposure"};
     pilot_ = Pilot(options);
     Start();
     pilot_.SetRoute({{5, 0, {}}});

@@ -127,7 +127,7 @@ def camera_faults():
         Fault("camera is switched on anew after 2 s: its exposure settles in 3 s", restart_camera(2, Settling),
               "camera's exposure has not settled", mend, 1.5),
         Fault("head's belt has slipped: the eyes look 15 degrees aside", drive_aside, "too much slip",
-              lambda c: look_aside(c, 0), 13, max_wrong_way_m=1),
+              lambda c: look_aside(c, 0), 13, ends_node=True, max_wrong_way_m=1),
         Fault("camera is away at rest: the start-up check says so, and nothing starts", stop_without_camera, "stopped by hand",
               lambda c: (c.camera.advertise(), mend(c)), is_well=is_start_refused),
         Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),

@@ -209,5 +209,4 @@ def program_of(node):
 
 def start_again(node):
     """The node with the parameters that it had."""
-    remaps = ["stereo:=/eyes", "track_odometry:=track_odom"]
-    return subprocess.Popen([program_of(node), "__name:=" + node] + remaps, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return subprocess.Popen([program_of(node), "__name:=" + node, "stereo:=/eyes"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

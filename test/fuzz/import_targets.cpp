@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "arfm_vo/driving/pilot.h"
-#include "arfm_vo/driving/scale_check.h"
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/rover/chassis_inputs.h"
@@ -68,7 +67,6 @@ void ImportSight(const std::string& input) {
   tf2::BufferCore buffer;
   const RoverSight sight{buffer, "map", "odom", "base_link"};
   Pilot pilot{PilotOptions()};
-  ScaleCheck scale;
   for (double now_s = 100; !bytes.IsEmpty(); now_s += 0.1) {
     for (geometry_msgs::TransformStamped transform : ValidTransforms(ros::Time(now_s)).transforms) {
       EditSometimes(bytes, transform);
@@ -81,8 +79,6 @@ void ImportSight(const std::string& input) {
     const double stamp_s = odometry.header.stamp.toSec();
     pilot.ObserveUncertainty(now_s, ToUncertainty(odometry, stamp_s));
     pilot.ObserveEpoch(bytes.Byte() / 64, stamp_s);
-    const auto& place = odometry.pose.pose.position;
-    scale.AddTrack(stamp_s, {place.x, place.y, place.z});
     Promise(pilot.Tick(now_s).chassis_motion.IsZero(), "a rover that was not started stands");
     const double distance_m = pilot.Status().distance_to_goal_m;
     Promise(std::isfinite(distance_m), "what is told is finite");

@@ -75,12 +75,10 @@ TEST_F(MalformedNodes, Pose) {
   SpoiltTopic left(stereo, "left/image_rect", ValidImage());
   SpoiltTopic right(stereo, "right/image_rect", ValidImage());
   SpoiltTopic updates(node, "map_update", ValidUpdate());
-  SpoiltTopic tracks(node, "track_odometry", ValidOdometry(ros::Time()));
   SpoiltTopic moving(node, "/tf", ValidTransforms(ros::Time()));
   const auto settle = [&] { status.Await(features, left, right); };
   Flood(settle, features, left, right);
   Flood(settle, updates);
-  Flood(settle, tracks);
   Flood(settle, moving);
 }
 

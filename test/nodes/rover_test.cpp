@@ -57,7 +57,6 @@ const std::set<std::string> kWays = {
     "/ba_node /map_update /pose_node",
     "/pose_node /odom /chassis_node",
     "/pose_node /status /chassis_node",
-    "/chassis_node /track_odom /pose_node",
     "/chassis_node /drive_status /drive_panel",
     "/head/pan_tilt_node /joint_states /robot_state_publisher",
     "/robot_state_publisher /tf /pose_node",

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -23,9 +22,10 @@ class SimulatedDrive {
   }
 
   explicit SimulatedDrive(const PilotOptions& pilot = WithFarGoals(),
-                          const TrackedPlantOptions& plant = {})
+                          const TrackedPlantOptions& plant = {},
+                          const PlaceOnGround& place = PlaceOnLevelGround)
       : listener_(bus_.OpenEnd()),
-        chassis_(std::in_place, bus_.OpenEnd(), TrackedPlant(plant, RoverPose{})),
+        chassis_(std::in_place, bus_.OpenEnd(), TrackedPlant(plant, RoverPose{}, place)),
         driver_(std::in_place, pilot, bus_.OpenEnd()) {}
 
   /// Goes on by `duration_s`.

@@ -39,5 +39,48 @@ TEST(SlippedBelt, OneThatSlipsInTheDriveStopsItAtOnce) {
   EXPECT_EQ(drive.pilot().Status().reason, StopReason::kPoseContradiction);
 }
 
+/// Hills of so steep sides, 8 m from crest to crest.
+Rigid3 PlaceOnHills(double slope_deg, const RoverPose& pose) {
+  const double slope = std::tan(slope_deg * M_PI / 180), wave = 2 * M_PI / 8;
+  const Eigen::Vector3d up = Eigen::Vector3d(-slope * std::sin(wave * pose.x_m) / M_SQRT2,
+                                             -slope * std::sin(wave * pose.y_m) / M_SQRT2, 1)
+                                 .normalized();
+  const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
+  const double height_m =
+      -slope / wave / M_SQRT2 * (std::cos(wave * pose.x_m) + std::cos(wave * pose.y_m));
+  return {tilt * ExpSO3({0, 0, pose.heading_rad}), {pose.x_m, pose.y_m, height_m}};
+}
+
+/// Tracks that slip by 15 % and slide down side slopes ten times as far as those of the simulated
+/// rover do, with a pose that scatters by a millimetre.
+TEST(SlippedBelt, HillsSlipAndNoiseAreNone) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    TrackedPlantOptions plant;
+    plant.seed = seed;
+    plant.forward_slip = 0.15;
+    plant.slip_variation = 0.02;
+    plant.sideways_slip = 1;
+    SimulatedDrive drive(SimulatedDrive::WithFarGoals(), plant, [&](const RoverPose& pose) {
+      return PlaceOnHills(seed % 2 == 0 ? 15 : 4, pose);
+    });
+    RandomEngine engine(seed);
+    drive.each_tick_ = [&] {
+      const auto noise = [&] { return 0.001 * (2 * RandomUnit(engine) - 1); };
+      drive.told_from_true_.translation = {noise(), noise(), noise()};
+    };
+    drive.Run(0.5);
+    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
+    const double bearing_rad = 0.3 * seed;
+    ASSERT_TRUE(drive.pilot()
+                    .SetRoute({{10 * std::cos(bearing_rad), 10 * std::sin(bearing_rad), {}}})
+                    .is_accepted);
+    drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; });
+    drive.Run(0.1);
+    const PilotStatus status = drive.pilot().Status();
+    EXPECT_EQ(status.state, DriveState::kReady)
+        << seed << ": " << ToString(status.reason) << " " << status.detail;
+  }
+}
+
 }  // namespace
 }  // namespace arfm_vo

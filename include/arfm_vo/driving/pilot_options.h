@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "arfm_vo/driving/chassis_watch.h"
@@ -39,12 +40,11 @@ struct PilotOptions {
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
   bool velocity_needs_pose = true;   ///< cmd_vel drives with a good pose only
   /// Items of the start-up check that need not be well; what cannot be known on this rover.
-  std::vector<CheckItem> overridden_checks;
+  std::vector<std::string> overridden_checks;
 
   void Check() const;
-  bool IsOverridden(CheckItem item) const {
-    return std::find(overridden_checks.begin(), overridden_checks.end(), item) !=
-           overridden_checks.end();
+  bool IsOverridden(const std::string& item) const {
+    return std::count(overridden_checks.begin(), overridden_checks.end(), item) > 0;
   }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {

@@ -62,8 +62,6 @@ std::optional<ConsoleLine> OdometryHealth::Count(const StereoFrame& frame,
   for (const StereoPoint& point : frame.points)
     row_residual_px.Add(std::abs(point.row_residual_px));
   if (row_residual_px.size() > 0) row_residual_px_.Add(row_residual_px.Median());
-  if (pose.update.pose.IsMeasured())
-    scale_.AddVisual(pose.update.stamp_s, pose.odom_from_base.translation);
   last_ = pose;
   is_new_ = true;
   refusals_.Clear();
@@ -91,11 +89,6 @@ std::optional<ConsoleLine> OdometryHealth::TellTracked(double now_s) {
   is_problem_told_ = false;
   last_tracked_s_ = now_s;
   return line;
-}
-
-void OdometryHealth::Clear() {
-  row_residual_px_.Clear();
-  scale_.Clear();
 }
 
 std::string OdometryHealth::Totals() const {
@@ -147,17 +140,6 @@ void OdometryHealth::ReportCalibration(Diagnostics& status) {
     return status.summaryf(Diagnostics::WARN, "rows differ by %.2f px", residual_px);
   const bool is_measured = row_residual_px_.size() > 0;
   status.summary(Diagnostics::OK, is_measured ? "rows agree" : "nothing measured yet");
-}
-
-void OdometryHealth::ReportScale(Diagnostics& status) const {
-  const std::optional<double> ratio = scale_.Ratio();
-  if (!ratio) return status.summary(Diagnostics::OK, "not measured: no track odometry yet");
-  const double deviation = std::abs(*ratio - 1);
-  status.addf("visual to track way, running median", "%.3f", *ratio);
-  if (deviation < options_.scale_warn)
-    return status.summary(Diagnostics::OK, "scale agrees with the tracks");
-  status.summaryf(deviation < options_.scale_error ? Diagnostics::WARN : Diagnostics::ERROR,
-                  "visual way is %.2f of the tracks' way", *ratio);
 }
 
 }  // namespace arfm_vo

@@ -43,7 +43,6 @@ void PoseNode::Offer(ros::NodeHandle& node, ros::NodeHandle& private_node) {
   diagnostics_.setHardwareID("arfm_vo");
   diagnostics_.add("odometry", &health_, &OdometryHealth::ReportOdometry);
   diagnostics_.add("calibration", &health_, &OdometryHealth::ReportCalibration);
-  diagnostics_.add("scale", [this](Diagnostics& status) { health_.ReportScale(status); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     worker_.Post([this] { diagnostics_.force_update(); });
   });
@@ -65,13 +64,6 @@ void PoseNode::Subscribe(ros::NodeHandle& node, const ros::NodeHandle& private_n
         worker_.Post([this, update] { session_->Offer(FromMessage(*update), update->epoch); });
       },
       {}, no_delay);
-  tracks_ = node.subscribe<nav_msgs::Odometry>(
-      "track_odometry", 50, [this](const nav_msgs::OdometryConstPtr& odometry) {
-        worker_.Post([this, odometry] {
-          health_.scale().AddTrack(odometry->header.stamp.toSec(),
-                                   ToRigid3(odometry->pose.pose).translation);
-        });
-      });
   image_transport::ImageTransport transport(node);
   left_ = transport.subscribe(
       StereoTopic(node, "left/image_rect"), kPairQueueSize,

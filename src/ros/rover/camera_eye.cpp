@@ -54,11 +54,9 @@ CameraEye::CameraEye(const ros::NodeHandle& node, const std::string& name, const
 
 std::optional<double> CameraEye::AgeInDays() {
   try {
-    const auto path = PathOf(manager_.resolveURL(url_, name_));
-    const auto written = std::filesystem::last_write_time(path);
-    const std::chrono::duration<double> age =
-        std::filesystem::file_time_type::clock::now() - written;
-    return age.count() / (24 * 3600);
+    const auto age = std::filesystem::file_time_type::clock::now() -
+                     std::filesystem::last_write_time(PathOf(manager_.resolveURL(url_, name_)));
+    return std::chrono::duration<double>(age).count() / (24 * 3600);
   } catch (const std::exception&) {
     return std::nullopt;
   }

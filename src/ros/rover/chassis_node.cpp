@@ -39,7 +39,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       driver_(options_.pilot, OpenCanBus(options_.can, ChassisLink::Filters())),
       publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
                  options_.base_frame),
-      check_(options_.baseline_m),
+      check_(driver_, options_.pilot, options_.baseline_m),
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });

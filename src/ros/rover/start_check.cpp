@@ -28,25 +28,23 @@ double SecondsSince(const ros::SteadyTime& time) { return (ros::SteadyTime::now(
 
 /// No chassis here tells its brake: what shows it is that the tracks stand.
 CheckLine CheckBrake(const ChassisReadings& readings) {
-  if (!readings.motion) return {CheckItem::kBrake, {}, "the chassis is silent"};
+  if (!readings.motion) return {"brake", {}, "the chassis is silent"};
   const auto [forward_mps, turn_radps] = readings.motion->motion;
-  return {CheckItem::kBrake, std::max(std::abs(forward_mps), std::abs(turn_radps)) <= kRest,
+  return {"brake", std::max(std::abs(forward_mps), std::abs(turn_radps)) <= kRest,
           Format("the chassis measures %.3f m/s and %.3f rad/s", forward_mps, turn_radps)};
 }
 
 CheckLine CheckBattery(const ChassisReadings& readings) {
-  if (!readings.system) return {CheckItem::kBattery, {}, "the chassis is silent"};
+  if (!readings.system) return {"battery", {}, "the chassis is silent"};
   const std::string errors = DescribeErrors(readings.system->error_bits);
   const std::string charge =
       readings.battery ? Format(", %d %%", readings.battery->charge_percent) : "";
-  return {CheckItem::kBattery, errors.find("battery") == std::string::npos,
+  return {"battery", errors.find("battery") == std::string::npos,
           Format("%.1f V", readings.system->battery_v) + charge +
               (errors.empty() ? "" : ", " + errors)};
 }
 
 }  // namespace
-
-bool StartCheck::Told::IsOld() const { return SecondsSince(at) > kMaxAge_s; }
 
 std::string StartCheck::Told::Value(const std::string& key) const {
   for (const auto& value : status.values)
@@ -69,11 +67,11 @@ void StartCheck::Take(const diagnostic_msgs::DiagnosticArray& diagnostics) {
 }
 
 CheckLine StartCheck::CheckCalibration() const {
-  CheckLine line{CheckItem::kCalibration, {}, "no camera's node tells its baseline"};
+  CheckLine line{"calibration", {}, "no camera's node tells its baseline"};
   for (const auto& [name, told] : told_) {
-    if (!EndsWith(name, kCalibration) || told.IsOld()) continue;
+    if (!EndsWith(name, kCalibration) || SecondsSince(told.at) > kMaxAge_s) continue;
     if (told.status.level != DiagnosticStatus::OK)
-      return {CheckItem::kCalibration, false, told.status.message};
+      return {"calibration", false, told.status.message};
     const double baseline_m = std::atof(told.Value("baseline (m)").c_str());
     if (baseline_m <= 0) continue;
     const std::string days = told.Value("age (days)");
@@ -82,45 +80,42 @@ CheckLine StartCheck::CheckCalibration() const {
     if (baseline_m_ == 0)
       line.detail = text + "; nobody has measured it (baseline_m)";
     else
-      line = {CheckItem::kCalibration,
-              std::abs(baseline_m - baseline_m_) <= kMaxBaselineError * baseline_m_,
+      line = {"calibration", std::abs(baseline_m - baseline_m_) <= kMaxBaselineError * baseline_m_,
               text + Format("; by the tape measure %.3f m", baseline_m_)};
   }
   return line;
 }
 
 CheckLine StartCheck::CheckHead(const Told& head, std::optional<double> contradicted_s) const {
-  const bool is_well = head.status.level == DiagnosticStatus::OK;
-  if (!is_well || head.IsOld())
-    return {CheckItem::kHead, false, is_well ? "its node is silent" : head.status.message};
+  if (SecondsSince(head.at) > kMaxAge_s) return {"head", false, "its node is silent"};
+  if (head.status.level != DiagnosticStatus::OK) return {"head", false, head.status.message};
   if (head.Value("homed") != "True")
-    return {CheckItem::kHead, {}, "was not homed since it was switched on: call home"};
+    return {"head", {}, "was not homed since it was switched on: call home"};
   if (head_way_deg_ < kHeadWay_deg)
-    return {CheckItem::kHead, {}, Format("has not moved yet: move it by %.0f deg", kHeadWay_deg)};
+    return {"head", {}, Format("has not moved yet: move it by %.0f deg", kHeadWay_deg)};
   const bool is_followed =
       !contradicted_s || std::abs(*contradicted_s - SecondsSince(head_moved_)) > kTogether_s;
   return {
-      CheckItem::kHead, is_followed,
+      "head", is_followed,
       is_followed ? "homed, and the picture turns with it" : "the picture does not turn with it"};
 }
 
-std::vector<CheckLine> StartCheck::List(double now_s, const ChassisDriver& driver) const {
-  std::vector<CheckLine> lines = driver.pilot().Check(now_s);
-  lines.push_back(CheckBrake(driver.link().Readings()));
-  lines.push_back(CheckBattery(driver.link().Readings()));
+std::vector<CheckLine> StartCheck::List(double now_s) const {
+  std::vector<CheckLine> lines = driver_.pilot().Check(now_s);
+  lines.push_back(CheckBrake(driver_.link().Readings()));
+  lines.push_back(CheckBattery(driver_.link().Readings()));
   lines.push_back(CheckCalibration());
-  std::optional<double> contradicted_s = driver.pilot().Status().contradicted_s;
+  std::optional<double> contradicted_s = driver_.pilot().Status().contradicted_s;
   if (contradicted_s) contradicted_s = now_s - *contradicted_s;
   for (const auto& [name, told] : told_)
     if (EndsWith(name, kHead)) lines.push_back(CheckHead(told, contradicted_s));
   return lines;
 }
 
-std::string StartCheck::Describe(double now_s, const ChassisDriver& driver,
-                                 const PilotOptions& options, bool flaws_only) const {
+std::string StartCheck::Describe(double now_s, bool flaws_only) const {
   std::string text;
-  for (const CheckLine& line : List(now_s, driver)) {
-    const bool is_overridden = options.IsOverridden(line.item);
+  for (const CheckLine& line : List(now_s)) {
+    const bool is_overridden = options_.IsOverridden(line.item);
     if (flaws_only && (line.is_well.value_or(false) || is_overridden)) continue;
     text += "\n" + line.ToString() + (is_overridden ? " (overridden)" : "");
   }

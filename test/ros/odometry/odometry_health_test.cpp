@@ -109,28 +109,6 @@ TEST(OdometryHealth, LostIsAnError) {
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
 }
 
-/// What is told where the eyes see `ratio` times the way of the tracks.
-Wrapper ReportScale(double ratio) {
-  OdometryHealth health{OdometryHealthOptions()};
-  for (int i = 0; i < 200; ++i) {
-    health.scale().AddTrack(0.1 * i, {0.1 * i, 0, 0});
-    SessionUpdate pose = kTracked;
-    pose.update.stamp_s = 0.1 * i - 0.05;
-    pose.odom_from_base.translation = {ratio * 0.1 * i, 0, 0};
-    health.Count({}, pose, 1, 0);
-  }
-  Wrapper status;
-  health.ReportScale(status);
-  return status;
-}
-
-TEST(OdometryHealth, AScaleThatDisagreesWithTheTracksIsTold) {
-  EXPECT_EQ(ReportScale(1).level, DiagnosticStatus::OK);
-  EXPECT_EQ(ReportScale(1.3).level, DiagnosticStatus::WARN);
-  EXPECT_THAT(ReportScale(1.3).message, testing::HasSubstr("1.30"));
-  EXPECT_EQ(ReportScale(2).level, DiagnosticStatus::ERROR);
-}
-
 TEST(OdometryHealth, OptionsAreChecked) {
   OdometryHealthOptions options;
   options.row_residual_error_px = 0.1;

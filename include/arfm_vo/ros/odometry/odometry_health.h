@@ -5,7 +5,6 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/driving/scale_check.h"
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/ros/node/health.h"
 
@@ -15,23 +14,17 @@ struct OdometryHealthOptions {
   double row_residual_warn_px = 0.5;   ///< median |v_right - v_left| of the stereo points
   double row_residual_error_px = 1.0;  ///< above it ERROR
   int row_residual_pairs = 50;         ///< that the running median is taken over
-  double scale_warn = 0.15;            ///< deviation of visual to track way from 1
-  double scale_error = 0.5;            ///< above it ERROR
 
   void Check() const {
     Require(row_residual_warn_px > 0 && row_residual_error_px >= row_residual_warn_px,
             "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
     Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
-    Require(scale_warn > 0 && scale_error >= scale_warn,
-            "health.scale_error must be at least scale_warn, both positive");
   }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     visit("row_residual_warn_px", row_residual_warn_px);
     visit("row_residual_error_px", row_residual_error_px);
     visit("row_residual_pairs", row_residual_pairs);
-    visit("scale_warn", scale_warn);
-    visit("scale_error", scale_error);
   }
 };
 
@@ -54,15 +47,13 @@ class OdometryHealth {
                                    double now_s);
   void CountRefused(const std::string& why) { refusals_.Add(why); }
   void CountDropped(uint32_t num_dropped) { num_dropped_ = num_dropped; }
-  ScaleCheck& scale() { return scale_; }
   /// After a jump of time.
-  void Clear();
+  void Clear() { row_residual_px_.Clear(); }
 
   /// All pairs so far in a line.
   std::string Totals() const;
   void ReportOdometry(Diagnostics& status);     ///< ERROR while lost
   void ReportCalibration(Diagnostics& status);  ///< row residual
-  void ReportScale(Diagnostics& status) const;  ///< against the tracks, where they are known
 
  private:
   std::optional<ConsoleLine> TellTracked(double now_s);
@@ -73,7 +64,6 @@ class OdometryHealth {
   bool is_problem_told_ = false;
   std::optional<double> last_tracked_s_;
   RunningMedian row_residual_px_;
-  ScaleCheck scale_;
   PairTimes times_;
   SessionUpdate last_;
   bool is_new_ = false;  ///< a pair came since the last report

@@ -4,7 +4,6 @@
 #include <arfm_vo/StereoFrameStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <image_transport/image_transport.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 
@@ -98,7 +97,7 @@ class PoseNode {
   ExactPairing<Frame, Image, Image> pairing_;
   std::unique_ptr<TransformInput> transforms_;  // of buffer_
   image_transport::Subscriber left_, right_;
-  ros::Subscriber frames_, updates_, tracks_;
+  ros::Subscriber frames_, updates_;
   ros::ServiceServer reset_, save_;
   ros::WallTimer timer_;
 };

@@ -69,9 +69,7 @@ class ChassisNode {
   void Listen(ros::NodeHandle& node);
   void Serve(ros::NodeHandle& private_node);
   Reply Start();
-  std::string Check(bool flaws_only) {
-    return check_.Describe(clock_.Now(), driver_, options_.pilot, flaws_only);
-  }
+  std::string Check(bool flaws_only) { return check_.Describe(clock_.Now(), flaws_only); }
   Reply ClearErrors();
   void SetPace(ros::NodeHandle& node);
   void Tick();

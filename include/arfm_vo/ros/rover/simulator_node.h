@@ -65,8 +65,8 @@ visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid
 
 /// The world around the nodes: /clock, a tracked chassis at the other end of the CAN bus that slips
 /// on a terrain, a pan-tilt unit on a serial line, stereo pairs rendered where the rover truly
-/// stands and its head truly looks, and the truth. `~set_clock` (std_srvs/SetBool) sets the clock of
-/// the simulated computer 30 s ahead or back.
+/// stands and its head truly looks, and the truth. `~set_clock` (std_srvs/SetBool) sets the clock
+/// of the simulated computer 30 s ahead or back.
 class SimulatorNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter and std::system_error where the bus or
