@@ -17,7 +17,7 @@ from nav_msgs.msg import Odometry
 from std_srvs.srv import Trigger
 
 
-PATIENCE_S = 10  # with the start-up check
+PATIENCE_S = 60  # with the start-up check: the exposure settles, and nodes come up, meanwhile
 
 
 def make_goal(x_m, y_m, heading_deg):
@@ -72,7 +72,6 @@ class Errand:
                     print("start: %s within %g s" % (what, timeout_s))
                     return False
                 time.sleep(0.01)
-        # Exposure settles, and other nodes come up, meanwhile.
         while not rospy.ServiceProxy("chassis_node/check", Trigger)().success and time.monotonic() < end_s - timeout_s + PATIENCE_S:
             time.sleep(0.1)
         return call("check") and call("start") and self.wait_until_ready(end_s)

@@ -112,7 +112,7 @@ def find_meanings(structs, struct, prefix=""):
     visits, members = structs[struct]
     for key, member in visits:
         kind, meaning = members.get(member, ("", ""))
-        inner = kind.split("::")[-1]
+        inner = kind.replace("std::", "").split("::")[-1]
         if key is None:
             meanings.update(find_meanings(structs, inner, prefix))
         elif inner in structs:
@@ -142,7 +142,6 @@ def format_table(defaults, meanings):
     lines = ["| parameter | type | default | range | meaning |", "|---|---|---|---|---|"]
     for key, value in defaults:
         kind, allowed, meaning = meanings.get(key, ("", "", ""))
-        kind = {"std::string": "string"}.get(kind, kind)
         lines.append(f"| `{key}` | {kind} | `{format_value(value)}` | {allowed} | {meaning.replace('|', '/')} |")
     return "\n".join(lines) + "\n"
 

@@ -39,7 +39,7 @@ struct PilotOptions {
   double max_stall_s = 20;           ///< driving time in which a goal must come nearer
   double velocity_timeout_s = 0.15;  ///< a velocity command counts no longer than this
   bool velocity_needs_pose = true;   ///< cmd_vel drives with a good pose only
-  /// Items of the start-up check that need not be well; what cannot be known on this rover.
+  /// Items of the start-up check (docs/rover.md) that need not be well.
   std::vector<std::string> overridden_checks;
 
   void Check() const;
