@@ -137,6 +137,7 @@ SlipEstimator SeenAside(double aside_deg, double track_m, double per_m = 0,
 /// The head's belt has slipped: the head says 0, and the path by sight points aside.
 TEST(SlipEstimator, SightThatGoesAsideOfStraightTracksIsToldWithinAMetre) {
   EXPECT_FALSE(SeenAside(15, 0.98).FindExcess());
+  ASSERT_TRUE(SeenAside(15, 1.06).FindExcess());
   EXPECT_EQ(*SeenAside(15, 1.06).FindExcess(),
             "(tracks 1.00 m and 0 deg, sight 0.97 m, 0.26 m aside and 0 deg)");
   EXPECT_TRUE(SeenAside(-15, 1.06).FindExcess());
