@@ -45,7 +45,12 @@ TEST_F(MalformedDriving, Chassis) {
   const ChassisNode chassis(node, Private("chassis"));
   geometry_msgs::Twist velocity;
   velocity.linear.x = 0.05;
-  FloodEach(SpoiltTopic(node, "/tf", ValidTransforms(now)),
+  diagnostic_msgs::DiagnosticArray diagnostics;
+  diagnostics.status.resize(1);
+  diagnostics.status[0].name = "head: pan-tilt";
+  diagnostics.status[0].values.resize(1);
+  FloodEach(SpoiltTopic(node, "/diagnostics", diagnostics),
+            SpoiltTopic(node, "/tf", ValidTransforms(now)),
             SpoiltTopic(node, "/tf_static", ValidTransforms(now)),
             SpoiltTopic(node, "odom", ValidOdometry(now)),
             SpoiltTopic(node, "status", OdometryStatus()),

@@ -56,6 +56,7 @@ void StartCheck::Take(const diagnostic_msgs::DiagnosticArray& diagnostics) {
   for (const DiagnosticStatus& status : diagnostics.status) {
     const bool is_head = EndsWith(status.name, kHead);
     if (!is_head && !EndsWith(status.name, kCalibration)) continue;
+    if (told_.size() >= 64) told_.clear();  // whoever is a node of the rover tells again
     Told& told = told_[status.name];
     const std::string before = told.Value("pan (deg)");
     told = {ros::SteadyTime::now(), status};
