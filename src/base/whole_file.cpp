@@ -32,16 +32,21 @@ std::string ReadWholeFile(const std::string& path) {
 
 void WriteWholeFile(const std::string& path, const std::string& content) {
   const std::string partial = path + ".partial." + std::to_string(getpid());
-  std::ofstream file(partial, std::ios::binary);
+  FILE* file = std::fopen(partial.c_str(), "wb");
   if (!file) ThrowWriteError(path);
-  file << content << std::flush;
-  file.close();
-  if (!file || std::rename(partial.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    std::remove(partial.c_str());
-    errno = error;
-    ThrowWriteError(path);
+  // On the disk before it has the name: else a power cut may leave the name to an empty file.
+  bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+                    std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  int error = errno;
+  if (std::fclose(file) != 0 && is_written) {
+    error = errno;
+    is_written = false;
   }
+  if (is_written && std::rename(partial.c_str(), path.c_str()) == 0) return;
+  if (is_written) error = errno;
+  std::remove(partial.c_str());
+  errno = error;
+  ThrowWriteError(path);
 }
 
 }  // namespace arfm_vo

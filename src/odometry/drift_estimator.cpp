@@ -35,16 +35,6 @@ void PutBlocks(const MatrixXd& blocks, const std::vector<int>& rows,
   }
 }
 
-/// [6 x 6] the step of BoxPlus(b_from_world, .) by that of a_from_world with b_from_a exact.
-Eigen::Matrix<double, 6, 6> CarryStep(const Rigid3& b_from_a) {
-  const Eigen::Matrix3d rotation = b_from_a.RotationMatrix();
-  Eigen::Matrix<double, 6, 6> carried = Eigen::Matrix<double, 6, 6>::Zero();
-  carried.topLeftCorner<3, 3>() = rotation;
-  carried.bottomRightCorner<3, 3>() = rotation;
-  carried.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation) * rotation;
-  return carried;
-}
-
 }  // namespace
 
 void DriftEstimator::Add(KeyframeId keyframe, const PoseDrift& drift) {
@@ -161,12 +151,6 @@ PoseDrift DriftEstimator::Drift(KeyframeId keyframe) const {
   const int i = Find(keyframe);
   if (i < 0) return {};
   return {covariance_.block<6, 6>(6 * i, 6 * i), by_correction_.middleRows<6>(6 * i)};
-}
-
-Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
-                                            const Eigen::Matrix<double, 6, 6>& covariance) {
-  const Eigen::Matrix<double, 6, 6> carried = CarryStep(b_from_a);
-  return carried * covariance * carried.transpose();
 }
 
 }  // namespace arfm_vo

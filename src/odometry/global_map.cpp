@@ -77,7 +77,7 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
   if (num_keyframes() <= options_.NumMoving()) return;
   const int first_moving = FirstMoving();
   store_.Forget(first_moving, first_moving - options_.NumMoving() / kHeldShare,
-                options_.loops.enabled);
+                options_.loops.enabled, options_.max_settled_points);
 }
 
 int NextAdjustment(int num_keyframes, int num_moving) {

@@ -35,17 +35,6 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
   const int newest_old = newest - options_.min_gap_keyframes;
   if (newest_old >= 0 && newest_old % options_.place_keyframes == 0) AddPlace(map, newest_old);
   if (newest % options_.search_interval_keyframes != 0) return std::nullopt;
-  std::vector<SeenPoint> view;
-  for (const LandmarkObservation& seen : map.keyframes.back().observations) {
-    const auto landmark = map.Find(seen.landmark);
-    if (landmark == map.landmarks.end()) continue;
-    auto& [id, appearance, observation] = view.emplace_back();
-    id = landmark->first;
-    appearance = landmark->second.appearance;
-    observation.pixels = NominalPixels(camera_, correction, seen.pixels);
-    observation.has_right = seen.has_right;
-    observation.sigma_px = seen.sigma_px;
-  }
   // The map may have learnt where a landmark is, that it is another one, or that it is in view.
   const auto revise = [&](int place, PlacePoint& point) {
     const auto landmark = map.Find(point.id);
@@ -56,7 +45,7 @@ std::optional<Loop> LoopDetector::Detect(const MapStore& map, const StereoCorrec
     point.x_in_place = keyframe.camera_from_world * landmark->second.x_in_world;
     return true;
   };
-  const auto found = recogniser_.Find(view, revise);
+  const auto found = recogniser_.Find(map.NewestView(camera_, correction), revise);
   if (!found) return std::nullopt;
   return Loop{{found->place * options_.place_keyframes, newest, found->pose.camera_from_world,
                found->pose.covariance.inverse()},

@@ -16,7 +16,44 @@ std::map<LandmarkId, MapStore::Point>::const_iterator MapStore::Find(LandmarkId 
   return const_cast<MapStore*>(this)->Find(id);
 }
 
-void MapStore::Forget(int first_moving, int oldest, bool keep_landmarks) {
+std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
+                                            const StereoCorrection& correction) const {
+  std::vector<SeenPoint> view;
+  for (const LandmarkObservation& seen : keyframes.back().observations) {
+    const auto landmark = Find(seen.landmark);
+    if (landmark == landmarks.end()) continue;
+    auto& [id, appearance, observation] = view.emplace_back();
+    id = landmark->first;
+    appearance = landmark->second.appearance;
+    observation.pixels = NominalPixels(camera, correction, seen.pixels);
+    observation.has_right = seen.has_right;
+    observation.sigma_px = seen.sigma_px;
+  }
+  return view;
+}
+
+Place MapStore::PlaceOf(int k) const {
+  if (k < static_cast<int>(settled.size())) return settled[k].points;
+  Place place;
+  for (const LandmarkObservation& seen : keyframes[k].observations) {
+    const auto landmark = Find(seen.landmark);
+    if (landmark == landmarks.end() || landmark->second.num_observations < 2) continue;
+    place.push_back({landmark->first, keyframes[k].camera_from_world * landmark->second.x_in_world,
+                     landmark->second.appearance});
+  }
+  return place;
+}
+
+void MapStore::Forget(int first_moving, int oldest, bool keep_landmarks,
+                      size_t max_settled_points) {
+  while (max_settled_points > 0 && static_cast<int>(settled.size()) < first_moving) {
+    KnownKeyframe keyframe;
+    keyframe.map_from_camera = keyframes[settled.size()].camera_from_world.Inverse();
+    keyframe.SetPoints(PlaceOf(static_cast<int>(settled.size())));
+    settled.push_back(std::move(keyframe));
+    KeepDistinct(settled, settled.size() - 1);
+    KeepAtMost(max_settled_points, settled);
+  }
   const auto is_over = [&](const LandmarkObservation& observation) {
     const auto landmark = Find(observation.landmark);
     if (landmark == landmarks.end()) return true;

@@ -1,5 +1,6 @@
 #include "arfm_vo/odometry/placed_map.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace arfm_vo {
@@ -21,6 +22,7 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   if (is_restarted) {
     PlacedMap anew(options_);
     if (correction_) anew.SetCorrection(camera_, *correction_);
+    if (localiser_.is_kept()) anew.Keep(MakeKnownMap(), options_.max_settled_points);
     *this = std::move(anew);
   }
   if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
@@ -30,13 +32,12 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   for (const Landmark& landmark : keyframe.landmarks)
     first_depths_m_[landmark.id] =
         static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
+  if (localiser_.MayLocalise(camera_)) Localise();
   return !is_restarted;
 }
 
 void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
-  closed_landmarks_ = Landmarks();
-  closed_places_ = Places();
-  places_.clear();
+  CloseEpoch();
   first_depths_m_.clear();
   adjusted_.clear();
   epoch_ = keyframe.epoch;
@@ -47,6 +48,38 @@ void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
   }
   global_.emplace(keyframe.camera, options_, *correction_);
   frame_.StartEpoch(keyframe.odom_from_world);
+}
+
+void PlacedMap::Keep(KnownMap known, size_t max_points) {
+  options_.max_settled_points = max_points;
+  localiser_.Keep(std::move(known), max_points);
+}
+
+void PlacedMap::CloseEpoch() {
+  if (!localiser_.is_kept()) closed_landmarks_ = Landmarks();
+  if (global_) localiser_.Close(NewestPlaces(localiser_.is_kept()), global_->camera());
+  places_.clear();
+}
+
+KnownMap PlacedMap::MakeKnownMap() const {
+  KnownMap map = localiser_.WithNewest(NewestPlaces(true), camera_);
+  if (map.camera == camera_) map.correction = correction_;
+  return map;
+}
+
+void PlacedMap::Localise() {
+  const MapStore& store = global_->store();
+  const auto new_from_old = localiser_.Localise(
+      store.NewestView(camera_, global_->correction().mean), num_keyframes() - 1,
+      [&](int number) { return store.keyframes[number].camera_from_world; },
+      frame_.map_from_world(), map_from_odom());
+  if (new_from_old) frame_.Move(*new_from_old);
+}
+
+void PlacedMap::Move(const Rigid3& new_from_old, const StatedPose& stated) {
+  localiser_.Move(new_from_old, stated);
+  frame_.Move(new_from_old);
+  for (LandmarkPoint& point : closed_landmarks_) point.x_in_map = new_from_old * point.x_in_map;
 }
 
 std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
@@ -86,38 +119,64 @@ void PlacedMap::TakeLandmarks(const MapUpdate& update) {
   }
 }
 
-std::vector<PlacedMap::ClosedPlace> PlacedMap::Places() const {
+std::vector<KnownKeyframe> PlacedMap::NewestPlaces(bool with_points) const {
   const Rigid3 world_from_adjusted = AdjustedFromWorld().Inverse();
-  std::vector<ClosedPlace> places = closed_places_;
+  std::vector<KnownKeyframe> places;
   for (const auto& [id, place] : places_) {
     const Rigid3 camera_from_adjusted =
         place.is_adjusted ? place.camera_from_world : place.camera_from_world * world_from_adjusted;
-    places.push_back({place.stamp_s, frame_.map_from_world() * camera_from_adjusted.Inverse(),
-                      place.base_from_camera});
+    KnownKeyframe& keyframe = places.emplace_back();
+    keyframe.stamp_s = place.stamp_s;
+    keyframe.map_from_camera = frame_.map_from_world() * camera_from_adjusted.Inverse();
+    keyframe.base_from_camera = place.base_from_camera;
+    keyframe.frame = localiser_.own_frame();
+    if (with_points)
+      keyframe.SetPoints(global_->store().PlaceOf(static_cast<int>(places.size()) - 1));
   }
   return places;
 }
 
 std::vector<MapPose> PlacedMap::BasePoses() const {
   std::vector<MapPose> poses;
-  for (const ClosedPlace& place : Places())
-    poses.push_back({place.stamp_s, place.map_from_camera * place.base_from_camera.Inverse()});
+  const auto add = [&](const std::vector<KnownKeyframe>& places) {
+    for (const KnownKeyframe& place : places)
+      if (place.frame == localiser_.own_frame())
+        poses.push_back({place.stamp_s, place.map_from_camera * place.base_from_camera.Inverse()});
+  };
+  add(localiser_.keyframes());
+  add(NewestPlaces(false));
   return poses;
 }
 
 std::vector<LandmarkPoint> PlacedMap::Landmarks() const {
   std::vector<LandmarkPoint> points = closed_landmarks_;
+  const size_t stride = 1 + NumPoints(localiser_.keyframes()) / kMaxSettledLandmarks;
+  for (const KnownKeyframe& keyframe : localiser_.keyframes()) {
+    if (keyframe.frame != localiser_.own_frame()) continue;
+    for (size_t i = 0; i < keyframe.points.size(); i += stride) {
+      const Eigen::Vector3d& x = keyframe.points[i].x_in_place;
+      points.push_back({keyframe.map_from_camera * x, static_cast<float>(x.z())});
+    }
+  }
   for (const auto& [id, x_in_world] : adjusted_)
     points.push_back({frame_.map_from_world() * x_in_world, first_depths_m_.at(id)});
   return points;
 }
 
 Trajectory PlacedMap::MakeTrajectory() const {
+  const std::vector<KnownKeyframe>& closed = localiser_.keyframes();
+  const std::vector<KnownKeyframe> places = NewestPlaces(false);
   Trajectory trajectory;
-  const std::vector<ClosedPlace> places = Places();
-  for (const ClosedPlace& place : places)
-    trajectory.push_back(
-        {place.stamp_s, places.front().map_from_camera.Inverse() * place.map_from_camera, true});
+  const auto add = [&](const KnownKeyframe& place) {
+    trajectory.push_back({place.stamp_s, place.map_from_camera, true});
+  };
+  std::for_each(closed.begin() + static_cast<std::ptrdiff_t>(localiser_.first_of_drive()),
+                closed.end(), add);
+  std::for_each(places.begin(), places.end(), add);
+  if (trajectory.empty()) return trajectory;
+  const Rigid3 first_from_map = trajectory.front().world_from_camera.Inverse();
+  for (TrajectoryPose& pose : trajectory)
+    pose.world_from_camera = first_from_map * pose.world_from_camera;
   return trajectory;
 }
 

@@ -8,6 +8,7 @@
 #include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/mapping/landmark.h"
+#include "arfm_vo/pose/carry_covariance.h"
 
 namespace arfm_vo {
 
@@ -68,10 +69,5 @@ class DriftEstimator {
   /// Covariance of these coefficients, px^2.
   CorrectionBelief::Placing unknown_ = CorrectionBelief::Placing::Zero();
 };
-
-/// `covariance` of a pose a_from_world as that of b_from_world = b_from_a * a_from_world with
-/// b_from_a exact.
-Eigen::Matrix<double, 6, 6> CarryCovariance(const Rigid3& b_from_a,
-                                            const Eigen::Matrix<double, 6, 6>& covariance);
 
 }  // namespace arfm_vo

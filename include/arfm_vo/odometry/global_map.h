@@ -23,6 +23,7 @@ struct GlobalMapOptions {
   bool learn_correction = true;
 
   LoopOptions loops;  ///< places known again; off unless enabled
+  size_t max_settled_points = 0;  ///< of keyframes that move no more, kept for KnownMap; 0: none
 
   static BundleOptions DefaultSolver() {
     BundleOptions options;
@@ -76,6 +77,9 @@ class GlobalMap {
   int num_adjusted() const { return num_keyframes() - calibration_.first_telling(); }
   int num_landmarks() const { return static_cast<int>(store_.landmarks.size()); }
   int num_loops() const { return static_cast<int>(loops_.size()); }
+  const StereoCamera& camera() const { return camera_; }
+  const MapStore& store() const { return store_; }
+  const CorrectionBelief& correction() const { return calibration_.correction(); }
   /// False also of one that is forgotten.
   bool Knows(LandmarkId landmark) const { return store_.landmarks.count(landmark) > 0; }
 

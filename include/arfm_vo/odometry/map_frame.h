@@ -18,6 +18,12 @@ class MapFrame {
     map_from_odom_ = map_from_world_ * adjusted_from_world * odom_from_world_.Inverse();
   }
 
+  /// The same place has other coordinates in the map from now on.
+  void Move(const Rigid3& new_from_old) {
+    map_from_odom_ = new_from_old * map_from_odom_;
+    map_from_world_ = new_from_old * map_from_world_;
+  }
+
   const Rigid3& map_from_odom() const { return map_from_odom_; }
   /// Takes adjusted poses and points of this world to the map.
   const Rigid3& map_from_world() const { return map_from_world_; }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/mapping/localiser.h"
 #include "arfm_vo/mapping/placed_keyframe.h"
 #include "arfm_vo/odometry/global_map.h"
 #include "arfm_vo/odometry/map_frame.h"
@@ -24,14 +25,20 @@ struct MapPose {
 };
 
 /// The global map in the map frame: keyframes of one epoch after another, the newest epoch under
-/// adjustment, those before as they were left. What ba_node runs.
+/// adjustment, those before as they were left (Localiser). What ba_node runs.
 class PlacedMap {
  public:
   explicit PlacedMap(const GlobalMapOptions& options) : options_(options) {}
 
+  /// As Localiser::Keep; `known` must be of the camera of the keyframes that follow.
+  void Keep(KnownMap known, size_t max_points);
+  /// All that is known by now: what was given to Keep, and this drive.
+  KnownMap MakeKnownMap() const;
+  const Localiser& localiser() const { return localiser_; }
+
   /// Takes the next keyframe. One of a new epoch ends the adjustment of the one before. Returns
   /// false where the keyframe is of a restarted odometry (its epoch or stamp is before what came):
-  /// then all that was before is forgotten.
+  /// then all that was before is forgotten, or what is kept is looked for.
   bool Add(const PlacedKeyframe& keyframe);
   /// Whether the newest keyframe calls for an adjustment.
   bool IsAdjustmentDue() const { return global_ && global_->IsAdjustmentDue(); }
@@ -46,6 +53,9 @@ class PlacedMap {
   const std::optional<CorrectionBelief>& correction() const { return correction_; }
   /// Of the newest keyframe.
   const StereoCamera& camera() const { return camera_; }
+
+  /// As Localiser::Move.
+  void Move(const Rigid3& new_from_old, const StatedPose& stated);
 
   const Rigid3& map_from_odom() const { return frame_.map_from_odom(); }
   uint32_t epoch() const { return epoch_; }
@@ -68,16 +78,12 @@ class PlacedMap {
     Rigid3 base_from_camera;
     bool is_adjusted = false;
   };
-  /// A keyframe of an epoch that is over.
-  struct ClosedPlace {
-    double stamp_s;
-    Rigid3 map_from_camera, base_from_camera;
-  };
-
   bool IsRestarted(const PlacedKeyframe& keyframe) const;
   void StartEpoch(const PlacedKeyframe& keyframe);
   void TakeLandmarks(const MapUpdate& update);
-  std::vector<ClosedPlace> Places() const;
+  std::vector<KnownKeyframe> NewestPlaces(bool with_points) const;
+  void CloseEpoch();
+  void Localise();
   Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
 
   GlobalMapOptions options_;
@@ -89,8 +95,8 @@ class PlacedMap {
   std::map<KeyframeId, Place> places_;
   std::map<LandmarkId, float> first_depths_m_;
   std::map<LandmarkId, Eigen::Vector3d> adjusted_;  // in this epoch
-  std::vector<ClosedPlace> closed_places_;
-  std::vector<LandmarkPoint> closed_landmarks_;
+  Localiser localiser_;
+  std::vector<LandmarkPoint> closed_landmarks_;  ///< where what they show is not kept
 };
 
 }  // namespace arfm_vo
