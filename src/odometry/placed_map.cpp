@@ -52,6 +52,8 @@ void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
 
 void PlacedMap::Keep(KnownMap known, size_t max_points) {
   options_.max_settled_points = max_points;
+  if (known.correction && !correction_ && options_.learn_correction)
+    SetCorrection(known.camera, *known.correction);
   localiser_.Keep(std::move(known), max_points);
 }
 

@@ -1,5 +1,6 @@
 // Maps of clips, and drives that wake up on them: how many find their place, and how many a wrong
 // one. Usage: recognise_places DATA_DIR
+#include <algorithm>
 #include <cstdio>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -23,8 +24,7 @@ class Drive {
 
   /// odom_from_camera.
   SessionUpdate Process(const StereoImages& images) {
-    SessionUpdate update =
-        session_.Process(frontend_.Process(images), camera_, images, Rigid3());
+    SessionUpdate update = session_.Process(frontend_.Process(images), camera_, images, Rigid3());
     if (update.keyframe) {
       map_.Add(*update.keyframe);
       if (map_.IsAdjustmentDue())
@@ -70,6 +70,7 @@ StereoImages Changed(const StereoImages& images, int seed) {
     random.fill(noise, cv::RNG::NORMAL, 0, 4);
     image->convertTo(values, CV_32F, 0.6, 30);
     values += noise;
+    image->release();  // the pair as it was keeps its pixels
     values.convertTo(*image, CV_8U);
     const int dx = image->cols / 20, dy = image->rows / 20;
     cv::Mat inner = (*image)(cv::Rect(dx, dy, image->cols - 2 * dx, image->rows - 2 * dy)).clone();
@@ -87,50 +88,62 @@ KnownMap MakeMap(const Pairs& pairs) {
   return drive.map().MakeKnownMap();
 }
 
-/// The place is right within 5 cm and 5 % of the way to the nearest place of the map, and 1 degree.
+/// A place is right within 5 cm and 1 % of the distance of what is seen there, and 1 degree.
 struct Result {
   int starts = 0, found = 0, wrong = 0;
   double wait_s = 0, worst_m = 0, worst_deg = 0;
+
+  void Judge(const Rigid3& error, double distance_m, const std::string& text) {
+    const double error_m = error.translation.norm(), error_deg = error.Angle() * 180 / M_PI;
+    worst_m = std::max(worst_m, error_m);
+    worst_deg = std::max(worst_deg, error_deg);
+    if (error_m <= 0.05 + 0.01 * distance_m && error_deg <= 1) return;
+    ++wrong;
+    std::printf("  wrong: %.3f m, %.2f deg: %s\n", error_m, error_deg, text.c_str());
+  }
 };
 
-Result WakeUp(const KnownMap& map, const Pairs& pairs, bool is_foreign, int step) {
-  Result result;
-  for (size_t start = 1; start + 6 < pairs.images.size(); start += step) {
-    Drive drive(pairs.camera);
-    drive.map().Keep(map, kMaxPoints);
-    ++result.starts;
-    const double start_s = pairs.images[start].stamp_s;
-    for (size_t i = start; i < pairs.images.size(); i += 2) {
-      const double waited_s = pairs.images[i].stamp_s - start_s;
-      if (waited_s > kMaxWait_s && !is_foreign) break;
-      const auto update = drive.Process(Changed(pairs.images[i], static_cast<int>(i)));
-      if (drive.map().localiser().state() != MapState::kLocalised) continue;
-      ++result.found;
-      if (is_foreign) break;
-      result.wait_s += waited_s;
-      size_t nearest = 0;
-      for (size_t k = 0; k < map.keyframes.size(); ++k)
-        if (std::abs(map.keyframes[k].stamp_s - pairs.images[i].stamp_s) <
-            std::abs(map.keyframes[nearest].stamp_s - pairs.images[i].stamp_s))
-          nearest = k;
-      size_t place = 0;
-      for (size_t k = 0; k < pairs.images.size(); ++k)
-        if (pairs.images[k].stamp_s == map.keyframes[nearest].stamp_s) place = k;
-      const Rigid3 found = map.keyframes[nearest].map_from_camera.Inverse() *
-                           drive.map().map_from_odom() * update.odom_from_base;
-      const Rigid3 truth = pairs.reference[place].Inverse() * pairs.reference[i];
-      const Rigid3 error = truth.Inverse() * found;
-      const double error_m = error.translation.norm(), error_deg = error.Angle() * 180 / M_PI;
-      result.worst_m = std::max(result.worst_m, error_m);
-      result.worst_deg = std::max(result.worst_deg, error_deg);
-      if (error_m > 0.05 + 0.05 * truth.translation.norm() || error_deg > 1) {
-        ++result.wrong;
-        std::printf("  wrong: pair %zu, %.3f m, %.2f deg: %s\n", i, error_m, error_deg,
-                    drive.map().localiser().found().c_str());
-      }
-      break;
-    }
+/// A drive that begins at pair `start`, on every `step`th, until it is found or its time is over.
+void WakeUp(const KnownMap& map, const Pairs& pairs, int start, int step, double max_wait_s,
+            Result& result) {
+  Drive drive(pairs.camera);
+  drive.map().Keep(map, kMaxPoints);
+  ++result.starts;
+  for (int i = start; i >= 0 && i < static_cast<int>(pairs.images.size()); i += step) {
+    StereoImages images = Changed(pairs.images[i], i);
+    const double waited_s = std::abs(images.stamp_s - pairs.images[start].stamp_s);
+    if (waited_s > max_wait_s) return;
+    images.stamp_s = 1 + waited_s;
+    const auto update = drive.Process(images);
+    if (drive.map().localiser().state() != MapState::kLocalised) continue;
+    ++result.found;
+    result.wait_s += waited_s;
+    if (pairs.reference.empty()) return;
+    const auto away_s = [&](const KnownKeyframe& keyframe) {
+      return std::abs(keyframe.stamp_s - pairs.images[i].stamp_s);
+    };
+    const auto nearest = std::min_element(
+        map.keyframes.begin(), map.keyframes.end(),
+        [&](const KnownKeyframe& a, const KnownKeyframe& b) { return away_s(a) < away_s(b); });
+    size_t place = 0;
+    while (pairs.images[place].stamp_s != nearest->stamp_s) ++place;
+    const Rigid3 found =
+        nearest->map_from_camera.Inverse() * drive.map().map_from_odom() * update.odom_from_base;
+    const Rigid3 truth = pairs.reference[place].Inverse() * pairs.reference[i];
+    double distance_m = 0;
+    for (const KnownKeyframe& keyframe : map.keyframes)
+      distance_m = std::max(distance_m, keyframe.distance_m);
+    result.Judge(truth.Inverse() * found, distance_m, drive.map().localiser().found());
+    return;
   }
+}
+
+/// From every second pair on, which the map was not made of; in the second half backward.
+Result WakeUpEverywhere(const KnownMap& map, const Pairs& pairs) {
+  Result result;
+  const int size = static_cast<int>(pairs.images.size());
+  for (int start = 1; start < size; start += 2)
+    WakeUp(map, pairs, start, 2 * start < size ? 2 : -2, kMaxWait_s, result);
   return result;
 }
 
@@ -154,20 +167,20 @@ void Run(const std::string& data) {
     maps.push_back(MakeMap(pairs.back()));
     const std::string bytes = FormatMap(maps.back(), 200000000);
     maps.back() = ParseMap(bytes, clip.name);
-    const Result own = WakeUp(maps.back(), pairs.back(), false, 2);
-    std::printf("%s: %zu keyframes, %zu points, %.2f MB; %d starts, %d found, %d wrong, mean wait "
-                "%.2f s, worst %.3f m, %.2f deg\n",
-                clip.name.c_str(), maps.back().keyframes.size(), NumPoints(maps.back().keyframes),
-                bytes.size() / 1e6, own.starts, own.found, own.wrong,
-                own.wait_s / std::max(1, own.found), own.worst_m, own.worst_deg);
+    const Result own = WakeUpEverywhere(maps.back(), pairs.back());
+    std::printf(
+        "%s: %zu keyframes, %zu points, %.2f MB; %d starts, %d found, %d wrong, mean wait "
+        "%.2f s, worst %.3f m, %.2f deg\n",
+        clip.name.c_str(), maps.back().keyframes.size(), NumPoints(maps.back().keyframes),
+        bytes.size() / 1e6, own.starts, own.found, own.wrong, own.wait_s / std::max(1, own.found),
+        own.worst_m, own.worst_deg);
     std::fflush(stdout);
   }
   for (size_t i = 0; i < clips.size(); ++i) {
     for (size_t k = 0; k < clips.size(); ++k) {
       if (i == k) continue;
-      const Result foreign =
-          WakeUp(maps[i], Resample(pairs[k], maps[i].camera), true,
-                 static_cast<int>(pairs[k].images.size()));
+      Result foreign;
+      WakeUp(maps[i], Resample(pairs[k], maps[i].camera), 1, 1, 1e9, foreign);
       std::printf("%s on the map of %s: %d starts, %d found\n", clips[k].name.c_str(),
                   clips[i].name.c_str(), foreign.starts, foreign.found);
       std::fflush(stdout);

@@ -2,6 +2,8 @@
 
 #include <tf2/exceptions.h>
 
+#include <Eigen/Cholesky>
+
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/ros/messages/conversions.h"
@@ -65,6 +67,15 @@ Rigid3 FindMapShift(const geometry_msgs::PoseWithCovarianceStamped& stated,
   shift.translation =
       Eigen::Vector3d(to.x_m, to.y_m, 0) - shift.rotation * Eigen::Vector3d(from.x_m, from.y_m, 0);
   return shift;
+}
+
+Eigen::Matrix3d PlanarCovariance(const geometry_msgs::PoseWithCovarianceStamped& stated) {
+  constexpr int kRows[] = {0, 1, 5};
+  Eigen::Matrix3d covariance;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) covariance(i, k) = stated.pose.covariance[6 * kRows[i] + kRows[k]];
+  const bool is_one = covariance.allFinite() && covariance.llt().info() == Eigen::Success;
+  return is_one ? covariance : Eigen::Matrix3d::Zero();
 }
 
 }  // namespace arfm_vo

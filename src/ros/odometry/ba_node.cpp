@@ -39,6 +39,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       trajectory_output_(options_.trajectory, "base"),
       learned_(options_.learned),
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
+      keeper_(options_.map, options_.map_frame, node),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
         figures_.refusals.Add(error.what());
@@ -49,6 +50,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
   Subscribe(node);
   save_ = OfferTrigger(private_node, "save_trajectory",
                        [this] { return trajectory_output_.Save(trajectory_.Get()); });
+  save_map_ = OfferTrigger(private_node, "save_map", [this] { return SaveMap(); });
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     diagnostics_.force_update();
     // Where no keyframe comes any more, the newest ones are adjusted too. The odometry is not told:
@@ -56,6 +58,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
     worker_.PostLossy([this] {
       if (is_dirty_ && options_.algorithm.adjust_globally && ros::WallTime::now() > settles_)
         Adjust();
+      keeper_.SaveIfDue(map_);
     });
   });
   if (options_.publish_tf)
@@ -67,6 +70,16 @@ BaNode::~BaNode() {
   if (trajectory_output_.is_enabled())
     TellSavedAtEnd("the keyframes are",
                    [this] { return trajectory_output_.Save(trajectory_.Get()); });
+  if (keeper_.is_enabled()) TellSavedAtEnd("the map is", [this] { return SaveMap(); });
+}
+
+std::string BaNode::SaveMap() {
+  std::string saved;
+  worker_.RunAndWait([&] {
+    if (is_dirty_ && options_.algorithm.adjust_globally) Adjust();
+    saved = keeper_.Save(map_);
+  });
+  return saved;
 }
 
 void BaNode::Subscribe(ros::NodeHandle& node) {
@@ -95,9 +108,10 @@ void BaNode::Add(const KeyframeStamped& message) {
   const PlacedKeyframe keyframe = FromMessage(message);
   if (const auto known = learned_.ReadFor(keyframe.camera))
     map_.SetCorrection(keyframe.camera, *known);
+  keeper_.LoadFor(keyframe.camera, map_);
   if (!map_.Add(keyframe)) {
-    ROS_WARN("the odometry started anew: the map is forgotten");
-    map_from_adjusted_ = Rigid3();
+    ROS_WARN("the odometry started anew: the map is %s",
+             keeper_.is_enabled() ? "looked for" : "forgotten");
     mounts_.Clear();
   }
   mounts_.Add(keyframe.keyframe.stamp_s, keyframe.base_from_camera);
@@ -124,8 +138,9 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
   try {
     Require(odometry != nullptr, "initialpose: there is no odom yet");
     const Rigid3 odom_from_base = ReadPose(odometry->pose.pose, "initialpose: odom: ");
-    map_from_adjusted_ = FindMapShift(stated, options_.map_frame, MapFromOdom() * odom_from_base) *
-                         map_from_adjusted_;
+    const Rigid3 map_from_base = map_.map_from_odom() * odom_from_base;
+    const Rigid3 shift = FindMapShift(stated, options_.map_frame, map_from_base);
+    map_.Move(shift, {shift * map_from_base, odom_from_base, PlanarCovariance(stated)});
     ROS_WARN("the rover is stated to stand at x %.2f m, y %.2f m: the map frame moves",
              stated.pose.pose.position.x, stated.pose.pose.position.y);
   } catch (const std::invalid_argument& error) {
@@ -137,9 +152,11 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
 }
 
 void BaNode::Tell() {
-  figures_.map_from_odom = MapFromOdom();
+  figures_.map_from_odom = map_.map_from_odom();
+  const bool has_moved = keeper_.Tell(map_, newest_);
   told_.Set(figures_);
   trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+  if (has_moved) Publish();
 }
 
 std::optional<MapUpdate> BaNode::Adjust() {
@@ -192,12 +209,10 @@ void BaNode::Publish() const {
     path.poses.emplace_back();
     path.poses.back().header.frame_id = options_.map_frame;
     path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
-    path.poses.back().pose = ToPoseMessage(map_from_adjusted_ * poses[i].map_from_base);
+    path.poses.back().pose = ToPoseMessage(poses[i].map_from_base);
   }
   path_.publish(path);
-  std::vector<LandmarkPoint> points = map_.Landmarks();
-  for (LandmarkPoint& point : points) point.x_in_map = map_from_adjusted_ * point.x_in_map;
-  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(points);
+  sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
   cloud.header = path.header;
   landmarks_.publish(cloud);
 }
@@ -207,6 +222,7 @@ void BaNode::Report(Diagnostics& status) const {
   status.add("keyframes", figures.num_keyframes);
   status.add("landmarks", figures.num_landmarks);
   status.add("loops closed", figures.num_loops);
+  status.add("map", keeper_.told());
   status.add("adjustments", figures.num_adjustments);
   status.add("keyframes refused", figures.refusals.num());
   status.add("iteration", figures.iteration);

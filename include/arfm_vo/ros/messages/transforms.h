@@ -40,6 +40,9 @@ bool AddTransform(geometry_msgs::TransformStamped transform, bool is_static, con
 Rigid3 FindMapShift(const geometry_msgs::PoseWithCovarianceStamped& stated,
                     const std::string& map_frame, const Rigid3& map_from_base);
 
+/// Covariance of x, y (m) and the heading (rad) as stated; zero where what is stated is none.
+Eigen::Matrix3d PlanarCovariance(const geometry_msgs::PoseWithCovarianceStamped& stated);
+
 /// Lays recorded truth, the camera's pose in a world of its own, over the odometry: the first true
 /// pose is where the odometry says that the camera is at that stamp.
 struct TruthAlignment {

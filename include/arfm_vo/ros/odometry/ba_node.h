@@ -16,6 +16,7 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/node/health.h"
 #include "arfm_vo/ros/odometry/learned_calibration.h"
+#include "arfm_vo/ros/odometry/map_keeper.h"
 
 namespace arfm_vo {
 
@@ -30,6 +31,7 @@ struct BaNodeOptions {
   int max_path_poses = 1000;     ///< of path_optimized, at least 2; longer paths are thinned out
   TrajectoryOutputOptions trajectory;  ///< its keys stand beside those of the node
   LearnedCalibrationOptions learned;   ///< its keys stand beside those of the node
+  MapKeeperOptions map;                ///< its keys stand beside those of the node
 
   void Check() const {
     algorithm.Check();
@@ -52,6 +54,7 @@ struct BaNodeOptions {
     visit("max_path_poses", max_path_poses);
     trajectory.VisitFields(visit);
     learned.VisitFields(visit);
+    map.VisitFields(visit);
   }
 };
 
@@ -60,7 +63,7 @@ class BaNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter (BaNodeOptions).
   BaNode(ros::NodeHandle node, ros::NodeHandle private_node);
-  /// Saves the keyframes where a directory is set.
+  /// Saves the keyframes and the map where a directory or file is set.
   ~BaNode();
 
  private:
@@ -83,12 +86,11 @@ class BaNode {
   std::optional<MapUpdate> Adjust();
   void Publish() const;
   void WarnOfCalibration(const CorrectionBelief& learnt);
-  /// Where a person states that the rover stands; `odometry` is the newest, null where there is
-  /// none.
+  /// Where a person states that the rover stands; `odometry` is the newest, or null.
   void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
                   const nav_msgs::OdometryConstPtr& odometry);
+  std::string SaveMap();
   void Tell();
-  Rigid3 MapFromOdom() const { return map_from_adjusted_ * map_.map_from_odom(); }
 
   const BaNodeOptions options_;
   ros::Publisher updates_, path_, landmarks_;
@@ -97,11 +99,10 @@ class BaNode {
   LearnedCalibration learned_;
   PlacedMap map_;
   MountLog mounts_;
-  Rigid3 map_from_adjusted_;  // moved where a person states where the rover stands
-  ros::Time newest_;          // keyframe's stamp
-  bool is_dirty_ = false;     // a keyframe came since the last adjustment
+  MapKeeper keeper_;
+  ros::Time newest_;                                   // keyframe's stamp
+  bool is_dirty_ = false, told_to_calibrate_ = false;  // dirty: not adjusted to the newest keyframe
   ros::WallTime settles_;
-  bool told_to_calibrate_ = false;
   Figures figures_;
   // Of all threads:
   Shared<Figures> told_;
@@ -111,7 +112,7 @@ class BaNode {
   Worker worker_;
   nav_msgs::OdometryConstPtr newest_odometry_;
   ros::Subscriber keyframes_, odometry_, stated_;
-  ros::ServiceServer save_;
+  ros::ServiceServer save_, save_map_;
   ros::Time sent_;  // the newest transform's stamp
   ros::WallTimer timer_;
   ros::Timer tf_timer_;
