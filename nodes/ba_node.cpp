@@ -7,8 +7,9 @@ int main(int argc, char** argv) {
       argc, argv, "ba_node", R"(Keyframes in, the globally adjusted map out.
 
 in    keyframe, odom, initialpose (geometry_msgs/PoseWithCovarianceStamped): where a person states that the rover
-      stands; map_frame moves there
-out   map_update, path_optimized (nav_msgs/Path), landmarks (sensor_msgs/PointCloud2), /diagnostics
+      stands; map_frame moves there, and no place that contradicts it is taken
+out   map_update, path_optimized (nav_msgs/Path), landmarks (sensor_msgs/PointCloud2), map_status (arfm_vo/MapStatus)
+      and map_status_text (visualization_msgs/Marker): whether the drive lies in the map of map_file; /diagnostics
 tf    out map_frame -> odom_frame
-srv   ~save_trajectory (std_srvs/Trigger))");
+srv   ~save_trajectory, ~save_map (std_srvs/Trigger))");
 }

@@ -1,7 +1,11 @@
 #include "arfm_vo/mapping/map_file.h"
 
+#include <signal.h>
+
 #include <Eigen/Cholesky>
 #include <boost/crc.hpp>
+#include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -204,9 +208,18 @@ KnownMap ParseMap(const std::string& bytes, const std::string& path) {
 }
 
 void WriteMap(const std::string& path, const KnownMap& map, size_t max_bytes) {
-  const auto parent = std::filesystem::path(path).parent_path();
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(path).parent_path();
   std::error_code ignored;  // the write tells
-  if (!parent.empty()) std::filesystem::create_directories(parent, ignored);
+  fs::create_directories(folder, ignored);
+  // What processes that were killed have left, WriteWholeFile's name for it.
+  const std::string partial = fs::path(path).filename().string() + ".partial.";
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename();
+    const int process =
+        name.compare(0, partial.size(), partial) == 0 ? std::atoi(&name[partial.size()]) : 0;
+    if (process > 0 && kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
+  }
   WriteWholeFile(path, FormatMap(map, max_bytes));
 }
 

@@ -1,6 +1,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "arfm_vo/configuration/learned_correction_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
@@ -9,6 +10,8 @@
 #include "arfm_vo/datasets/kitti_times.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/image/png_image.h"
+#include "arfm_vo/mapping/localiser.h"
+#include "arfm_vo/mapping/map_file.h"
 #include "arfm_vo/odometry/trajectory_files.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/replay/bag_sequence.h"
@@ -120,6 +123,27 @@ void ReadLearned(const std::string& bytes) {
   });
 }
 
+/// Puts in the length and checksum, which no fuzzer guesses.
+void ReadMapFile(std::string bytes) {
+  constexpr size_t kHeaderSize = 28;
+  Takes([&] { ParseMap(bytes, "map"); });
+  if (bytes.size() < kHeaderSize) return;
+  const uint64_t length = bytes.size() - kHeaderSize;
+  const auto* body = reinterpret_cast<const unsigned char*>(bytes.data()) + kHeaderSize;
+  const auto checksum = static_cast<uint32_t>(crc32_z(0, body, length));
+  std::memcpy(&bytes[16], &checksum, sizeof(checksum));
+  std::memcpy(&bytes[20], &length, sizeof(length));
+  Takes([&] {
+    const KnownMap map = ParseMap(bytes, "map");
+    const std::string again = FormatMap(map, 1 << 30);
+    Promise(FormatMap(ParseMap(again, "map"), 1 << 30) == again,
+            "a map that was read can be written and read");
+    Localiser localiser;
+    localiser.Keep(map, 1000);
+    Promise(localiser.state() != MapState::kLocalised, "nothing is found before it is looked for");
+  });
+}
+
 void ReadBag(const std::string& bytes) {
   const MemoryFile file(bytes);
   Takes([&] {
@@ -136,10 +160,15 @@ void ReadBag(const std::string& bytes) {
 }  // namespace
 
 std::vector<FuzzTarget> FileTargets() {
-  return {{"png", ReadPng},           {"kitti_calibration", ReadCalibration},
-          {"kitti_times", ReadTimes}, {"kitti_poses", ReadPoses},
-          {"tum", ReadTum},           {"options", ReadYamlOptions},
-          {"learned", ReadLearned},   {"bag", ReadBag}};
+  return {{"png", ReadPng},
+          {"kitti_calibration", ReadCalibration},
+          {"kitti_times", ReadTimes},
+          {"kitti_poses", ReadPoses},
+          {"tum", ReadTum},
+          {"options", ReadYamlOptions},
+          {"learned", ReadLearned},
+          {"bag", ReadBag},
+          {"map", [](const std::string& bytes) { ReadMapFile(bytes); }}};
 }
 
 }  // namespace arfm_vo

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "arfm_vo/evaluation/match_picture.h"
+#include "arfm_vo/ros/messages/conversions.h"
 
 namespace arfm_vo {
 
@@ -58,6 +59,18 @@ sensor_msgs::PointCloud2 MakeLandmarkCloud(const std::vector<LandmarkPoint>& poi
     ++x, ++bgr, ++depth;
   }
   return cloud;
+}
+
+visualization_msgs::Marker MakeMapText(const MapStatus& status, const Rigid3& map_from_base) {
+  visualization_msgs::Marker text;
+  text.header.frame_id = status.header.frame_id;
+  text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  text.pose = ToPoseMessage(map_from_base);
+  text.pose.position.z += 2;
+  text.scale.z = 0.5;
+  text.color.r = text.color.g = text.color.b = text.color.a = 1;
+  text.text = status.state_text;
+  return text;
 }
 
 }  // namespace arfm_vo

@@ -36,10 +36,12 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       updates_(node.advertise<MapUpdateStamped>("map_update", 2)),
       path_(node.advertise<nav_msgs::Path>("path_optimized", 1, true)),
       landmarks_(node.advertise<sensor_msgs::PointCloud2>("landmarks", 1, true)),
+      map_status_(node.advertise<MapStatus>("map_status", 1, true)),
+      map_text_(node.advertise<visualization_msgs::Marker>("map_status_text", 1, true)),
       trajectory_output_(options_.trajectory, "base"),
       learned_(options_.learned),
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
-      keeper_(options_.map, options_.map_frame, node),
+      keeper_(options_.map, options_.map_frame),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(1, [this](const std::exception& error) {
         figures_.refusals.Add(error.what());
@@ -153,10 +155,14 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
 
 void BaNode::Tell() {
   figures_.map_from_odom = map_.map_from_odom();
-  const bool has_moved = keeper_.Tell(map_, newest_);
   told_.Set(figures_);
   trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
-  if (has_moved) Publish();
+  if (const auto status = keeper_.News(map_, newest_)) {
+    map_status_.publish(*status);
+    const std::vector<MapPose> poses = map_.BasePoses();
+    map_text_.publish(MakeMapText(*status, poses.empty() ? Rigid3() : poses.back().map_from_base));
+    if (status->state == MapStatus::LOCALISED) Publish();
+  }
 }
 
 std::optional<MapUpdate> BaNode::Adjust() {

@@ -1,10 +1,10 @@
 #include "arfm_vo/ros/odometry/map_keeper.h"
 
-#include <arfm_vo/MapStatus.h>
-#include <visualization_msgs/Marker.h>
+#include <ros/console.h>
+
+#include <utility>
 
 #include "arfm_vo/mapping/map_file.h"
-#include "arfm_vo/ros/messages/conversions.h"
 
 namespace arfm_vo {
 namespace {
@@ -31,13 +31,8 @@ size_t NumKeyframes(const PlacedMap& map) {
 
 }  // namespace
 
-MapKeeper::MapKeeper(const MapKeeperOptions& options, const std::string& map_frame,
-                     ros::NodeHandle& node)
-    : options_(options),
-      map_frame_(map_frame),
-      path_(options.map_file),
-      status_(node.advertise<MapStatus>("map_status", 1, true)),
-      text_(node.advertise<visualization_msgs::Marker>("map_status_text", 1, true)) {
+MapKeeper::MapKeeper(const MapKeeperOptions& options, const std::string& map_frame)
+    : options_(options), map_frame_(map_frame), path_(options.map_file) {
   options_.Check();
   if (!is_enabled() || !fs::exists(path_)) return;
   try {
@@ -104,7 +99,7 @@ void MapKeeper::SaveIfDue(const PlacedMap& map) {
   }
 }
 
-bool MapKeeper::Tell(const PlacedMap& map, const ros::Time& stamp) {
+std::optional<MapStatus> MapKeeper::News(const PlacedMap& map, const ros::Time& stamp) {
   MapStatus status;
   status.header.stamp = stamp;
   status.header.frame_id = map_frame_;
@@ -112,22 +107,10 @@ bool MapKeeper::Tell(const PlacedMap& map, const ros::Time& stamp) {
   status.state_text = ToString(map.localiser().state());
   status.text = map.localiser().found().empty() ? refused_ : map.localiser().found();
   const std::string told = status.state_text + (status.text.empty() ? "" : ": " + status.text);
-  if (told == told_.Get()) return false;
+  if (told == told_.Get()) return std::nullopt;
   told_.Set(told);
-  status_.publish(status);
-  visualization_msgs::Marker text;
-  text.header = status.header;
-  text.header.stamp = ros::Time();  // holds at any time
-  text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  const std::vector<MapPose> poses = map.BasePoses();
-  text.pose = ToPoseMessage(poses.empty() ? Rigid3() : poses.back().map_from_base);
-  text.pose.position.z += 2;
-  text.scale.z = 0.5;
-  text.color.r = text.color.g = text.color.b = text.color.a = 1;
-  text.text = status.state_text;
-  text_.publish(text);
   if (is_enabled()) ROS_INFO("map: %s", told.c_str());
-  return status.state == MapStatus::LOCALISED;
+  return status;
 }
 
 }  // namespace arfm_vo

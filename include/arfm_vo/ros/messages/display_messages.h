@@ -1,7 +1,9 @@
 #pragma once
 
+#include <arfm_vo/MapStatus.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/Marker.h>
 
 #include <vector>
 
@@ -45,5 +47,8 @@ class BoundedPath {
 
 /// A cloud with the fields x, y, z, rgb (blue near, red far) and depth; header is the caller's.
 sensor_msgs::PointCloud2 MakeLandmarkCloud(const std::vector<LandmarkPoint>& points);
+
+/// The state above the rover, at any time.
+visualization_msgs::Marker MakeMapText(const MapStatus& status, const Rigid3& map_from_base);
 
 }  // namespace arfm_vo

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/evaluation/trajectory_output.h"
 #include "arfm_vo/odometry/visual_odometry.h"
@@ -93,7 +92,7 @@ class BaNode {
   void Tell();
 
   const BaNodeOptions options_;
-  ros::Publisher updates_, path_, landmarks_;
+  ros::Publisher updates_, path_, landmarks_, map_status_, map_text_;
   // Of the worker's thread:
   TrajectoryOutput trajectory_output_;
   LearnedCalibration learned_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <ros/ros.h>
+#include <arfm_vo/MapStatus.h>
+#include <ros/time.h>
 
 #include <filesystem>
 #include <optional>
@@ -31,13 +32,13 @@ struct MapKeeperOptions {
   }
 };
 
-/// The file of ba_node's map, and what ba_node says of it: map_status (latched), and the same as
-/// text for rviz, map_status_text. A file that is refused, or that another program has written
-/// meanwhile, is left as it is: the drive's map then goes beside it (map_2.bin for map.bin).
+/// The file of ba_node's map, and what ba_node says of it. A file that is refused, or that another
+/// program has written meanwhile, is left as it is: the drive's map then goes beside it (map_2.bin
+/// for map.bin).
 class MapKeeper {
  public:
   /// Reads the file where there is one.
-  MapKeeper(const MapKeeperOptions& options, const std::string& map_frame, ros::NodeHandle& node);
+  MapKeeper(const MapKeeperOptions& options, const std::string& map_frame);
 
   /// Gives the file's map to `map`, once, before the first keyframe, which is of this camera. From
   /// then on the state is known.
@@ -48,9 +49,9 @@ class MapKeeper {
   /// Saves where keyframes came since the last time and that is long enough ago.
   void SaveIfDue(const PlacedMap& map);
   bool is_enabled() const { return !options_.map_file.empty(); }
-  /// Publishes the state where it has changed; returns whether the map frame may have moved.
-  bool Tell(const PlacedMap& map, const ros::Time& stamp);
-  std::string told() const { return told_.Get(); }  ///< by Tell; from any thread
+  /// What there is to say, where that has changed.
+  std::optional<MapStatus> News(const PlacedMap& map, const ros::Time& stamp);
+  std::string told() const { return told_.Get(); }  ///< by News; from any thread
 
  private:
   size_t max_bytes() const { return static_cast<size_t>(1e6 * options_.map_max_mb); }
@@ -66,7 +67,6 @@ class MapKeeper {
   bool has_begun_ = false;                                  ///< a keyframe has come
   size_t num_saved_ = 0;                                    ///< keyframes
   ros::WallTime saved_ = ros::WallTime::now();
-  ros::Publisher status_, text_;
 };
 
 }  // namespace arfm_vo
