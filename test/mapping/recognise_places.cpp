@@ -1,5 +1,5 @@
 // Maps of clips, and drives that wake up on them: how many find their place, and how many a wrong
-// one. Usage: recognise_places DATA_DIR
+// one. Usage: recognise_places DATA_DIR own|foreign
 #include <algorithm>
 #include <cstdio>
 #include <opencv2/core.hpp>
@@ -116,7 +116,7 @@ Pairs Resample(const Pairs& pairs, const StereoCamera& camera) {
   return resampled;
 }
 
-void Run(const std::string& data) {
+void Run(const std::string& data, bool is_foreign) {
   std::vector<Clip> clips = FindClips(data);
   std::vector<Pairs> pairs;
   std::vector<KnownMap> maps;
@@ -125,6 +125,7 @@ void Run(const std::string& data) {
     maps.push_back(MakeMap(pairs.back()));
     const std::string bytes = FormatMap(maps.back(), 200000000);
     maps.back() = ParseMap(bytes, clip.name);
+    if (is_foreign) continue;
     const Result own = WakeUpEverywhere(maps.back(), pairs.back());
     std::printf(
         "%s: %zu keyframes, %zu points, %.2f MB; %d starts, %d found, %d wrong, mean wait "
@@ -134,7 +135,7 @@ void Run(const std::string& data) {
         own.worst_m, own.worst_deg);
     std::fflush(stdout);
   }
-  for (size_t i = 0; i < clips.size(); ++i) {
+  for (size_t i = 0; is_foreign && i < clips.size(); ++i) {
     for (size_t k = 0; k < clips.size(); ++k) {
       if (i == k) continue;
       Result foreign;
@@ -150,7 +151,7 @@ void Run(const std::string& data) {
 }  // namespace arfm_vo
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  arfm_vo::Run(argv[1]);
+  if (argc != 3) return 2;
+  arfm_vo::Run(argv[1], std::string(argv[2]) == "foreign");
   return 0;
 }
