@@ -25,7 +25,7 @@ std::map<int, Frame> Summarise(const KnownMap& map) {
     const Rigid3 base =
         picture_from_map * keyframe.map_from_camera * keyframe.base_from_camera.Inverse();
     if (frame.num_keyframes++ == 0) frame.first_s = keyframe.stamp_s;
-    if (!frame.first_from_base.empty())
+    if (!frame.first_from_base.empty() && keyframe.stamp_s > frame.last_s)  // of one drive
       frame.path_m += (base.translation - frame.first_from_base.back().translation).norm();
     frame.first_from_base.emplace_back(Eigen::Quaterniond::Identity(), base.translation);
     frame.last_s = keyframe.stamp_s;
