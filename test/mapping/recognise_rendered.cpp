@@ -26,7 +26,7 @@ class Site {
   StereoImages Render(const Rigid3& world_from_left, int pair) const {
     return renderer_.RenderPair(kRover, world_from_left, pair, 1 + 0.1 * pair);
   }
-  static constexpr StereoCamera kRover{420, 420, 319.5, 239.5, 0.2, 640, 480};
+  static constexpr StereoCamera kRover{420, 420, 255.5, 191.5, 0.2, 512, 384};
 
  private:
   static TerrainOptions Options(double sun_elevation_deg, double sun_azimuth_deg, int seed) {
@@ -47,10 +47,10 @@ class Site {
   TerrainRenderer renderer_;
 };
 
-/// A map of 12 m, and drives that begin up to 1 m and 20 degrees aside, in other light, and
+/// A map of 8 m, and drives that begin up to 1 m and 20 degrees aside, in other light, and
 /// elsewhere; 0.1 m a pair, ten pairs a second.
 void RunSimulated(int num_restarts, int num_elsewhere) {
-  const PlanarPath path = SamplePath({}, {{12, 1.2}}, 0.1, 1, 120);
+  const PlanarPath path = SamplePath({}, {{8, 0.8}}, 0.1, 1, 80);
   const Site noon(40, 130, 1);
   Drive first(Site::kRover);
   first.map().Keep({}, kMaxPoints);
@@ -63,7 +63,8 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
   const KnownMap map = first.map().MakeKnownMap();
   std::printf("simulated: %zu keyframes, %zu points\n", map.keyframes.size(),
               NumPoints(map.keyframes));
-  const std::vector<Site> lights = {{30, 100, 1}, {50, 170, 1}, {25, 140, 1}};
+  std::fflush(stdout);
+  const Site lights[] = {Site(30, 100, 1), Site(50, 170, 1), Site(25, 140, 1)};
   Result near, far;
   RandomEngine random(9);
   const auto between = [&](double low, double high) {
@@ -72,8 +73,8 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
   for (int i = 0; i < num_restarts + num_elsewhere; ++i) {
     const bool is_near = i < num_restarts;
     Result& result = is_near ? near : far;
-    const Site& site = lights[i % lights.size()];
-    PlanarPose start = path[static_cast<size_t>(between(10, 80))];
+    const Site& site = lights[i % 3];
+    PlanarPose start = path[static_cast<size_t>(between(5, 55))];
     start.position += Eigen::Vector2d(between(-0.7, 0.7), between(-0.7, 0.7));
     start.heading_rad += between(-20, 20) * M_PI / 180;
     if (!is_near) start.position += Eigen::Vector2d(30 + between(0, 20), between(-30, 30));
