@@ -47,20 +47,14 @@ class Errand:
         # Not latched: a goal is for now, not for whoever comes later.
         self.goals = rospy.Publisher("goal", PoseStamped, queue_size=1)
         rospy.Subscriber("goal_report", GoalReport, self.take_report)
-        rospy.Subscriber("base_truth", Odometry, self.take_truth)
-        rospy.Subscriber("drive_status", DriveStatus, self.take_status)
+        rospy.Subscriber("base_truth", Odometry, lambda truth: setattr(self, "truth", truth.pose.pose.position))
+        rospy.Subscriber("drive_status", DriveStatus, lambda status: setattr(self, "status", status))
         rospy.Subscriber("odom", Odometry, lambda _: self.has_pose.set())
 
     def take_report(self, report):
         if self.is_sent and report.result != GoalReport.REPLACED:
             self.report = report
             self.done.set()
-
-    def take_status(self, status):
-        self.status = status
-
-    def take_truth(self, truth):
-        self.truth = truth.pose.pose.position
 
     def start(self, timeout_s):
         end_s = time.monotonic() + timeout_s

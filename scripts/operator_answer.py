@@ -2,13 +2,15 @@
 """Answers a rover's challenges while a person attends it in this terminal, on the person's own machine, without ROS.
 
 COMMAND starts the relay on the rover, such as: ssh rover '. ws/devel/setup.sh; rosrun arfm_vo operator_answer.py --relay'
-(default: here). Enter stops the rover; so do Ctrl-C, a closed or stopped terminal and a lost link.
+(default: here). Enter stops the rover, by chassis_guard and by chassis_node/stop; so do Ctrl-C, a closed or stopped terminal
+and a lost link.
 """
 import argparse
 import itertools
 import os
 import select
 import signal
+import socket
 import subprocess
 import sys
 
@@ -46,8 +48,11 @@ def tell(line):
     return True
 
 
-def relay():
+def relay(stop_port):
     """On the rover: challenges to the person, answers and stops back."""
+    guard = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    guard.connect(("127.0.0.1", stop_port))
+    guard.settimeout(0.2)
     import rospy
     from arfm_vo.msg import OperatorChallenge
     from std_srvs.srv import Trigger
@@ -60,6 +65,11 @@ def relay():
         if words[0] == "challenge":
             answers.publish(sequence=int(words[1]), number=int(words[2]), rover=words[3])
             continue
+        try:  # first what needs no ROS master
+            guard.send(b"stop")
+            print("stop:", guard.recv(100).decode(), flush=True)
+        except OSError:
+            print("stop: there is no chassis_guard at port %d" % stop_port, flush=True)
         try:
             print("stop:", rospy.ServiceProxy("chassis_node/stop", Trigger)().message, flush=True)
         except rospy.ServiceException as error:
@@ -70,10 +80,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rover", metavar="NAME", help="its name; without it, the only one that is heard")
     parser.add_argument("--relay", action="store_true", help="the end on the rover, started by the person's")
+    parser.add_argument("--stop-port", type=int, default=4700, metavar="PORT", help="with --relay: UDP, of chassis_guard")
     parser.add_argument("command", metavar="COMMAND", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
     if arguments.relay:
-        return relay()
+        return relay(arguments.stop_port)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of the relay: Ctrl-C must find it alive, so that it still stops the rover
     process = subprocess.Popen(arguments.command or [sys.executable, os.path.abspath(__file__), "--relay"], bufsize=0,
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE)

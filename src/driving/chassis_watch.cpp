@@ -30,7 +30,7 @@ std::optional<Fault> ChassisWatch::FindSilence(double now_s) const {
 }
 
 std::optional<Fault> ChassisWatch::FindFault(double now_s) const {
-  if (!is_bus_up_) return Fault{StopReason::kBusDown, ""};
+  if (!is_bus_up_) return Fault{StopReason::kBusDown, bus_detail_};
   if (auto silence = FindSilence(now_s)) return silence;
   if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, ""};
   if (status_->has_fault) return Fault{StopReason::kChassisFault, status_->detail};

@@ -5,6 +5,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/can_udp_bus.h"
+#include "arfm_vo/hardware/guard/guarded_bus.h"
 #include "arfm_vo/hardware/socketcan_bus.h"
 
 namespace arfm_vo {
@@ -27,17 +28,23 @@ const char* ToString(CanBusState state) {
       return "bus-off";
     case CanBusState::kDown:
       return "down";
+    case CanBusState::kNoGuard:
+      return "out of reach: chassis_guard does not answer";
   }
   return "unknown";
 }
 
-std::unique_ptr<CanBus> OpenCanBus(const std::string& address, const CanFilters& filters) {
+std::unique_ptr<CanBus> OpenCanBus(const std::string& address, const CanFilters& filters,
+                                   bool is_second) {
   std::smatch parts;
+  if (std::regex_match(address, parts, std::regex("guard:([A-Za-z0-9_.:-]{1,80})")))
+    return std::make_unique<GuardedBus>(parts[1]);
   if (std::regex_match(address, parts, std::regex("udp:([0-9]{1,5}):([0-9]{1,5})"))) {
-    return std::make_unique<CanUdpBus>(ParsePort(parts[1], address), ParsePort(parts[2], address));
+    return std::make_unique<CanUdpBus>(ParsePort(parts[1], address), ParsePort(parts[2], address),
+                                       is_second);
   }
   Require(std::regex_match(address, std::regex("[A-Za-z0-9_.-]{1,15}")),
-          "CAN address '" + address + "' is neither an interface name nor udp:LOCAL:PEER");
+          "CAN address '" + address + "' is no interface, udp:LOCAL:PEER or guard:ADDRESS");
   return std::make_unique<SocketCanBus>(address, filters);
 }
 

@@ -44,14 +44,18 @@ std::optional<CanFrame> ReadDatagram(const Datagram& datagram) {
 
 }  // namespace
 
-CanUdpBus::CanUdpBus(uint16_t local_port, uint16_t peer_port)
+CanUdpBus::CanUdpBus(uint16_t local_port, uint16_t peer_port, bool is_second)
     : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
   const sockaddr_in local = LoopbackAddress(local_port), peer = LoopbackAddress(peer_port);
   const auto size = static_cast<socklen_t>(sizeof(sockaddr_in));
+  const auto share = [this] {
+    const int is_on = 1;
+    return ::setsockopt(socket_.Get(), SOL_SOCKET, SO_REUSEADDR, &is_on, sizeof(is_on)) == 0;
+  };
   const bool is_open =
-      socket_.IsOpen() &&
+      socket_.IsOpen() && (!is_second || share()) &&
       ::bind(socket_.Get(), reinterpret_cast<const sockaddr*>(&local), size) == 0 &&
-      ::connect(socket_.Get(), reinterpret_cast<const sockaddr*>(&peer), size) == 0;
+      ::connect(socket_.Get(), reinterpret_cast<const sockaddr*>(&peer), size) == 0 && share();
   if (!is_open) {
     throw std::system_error(errno, std::generic_category(),
                             "CAN over UDP from 127.0.0.1:" + std::to_string(local_port));

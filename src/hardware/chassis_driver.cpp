@@ -103,7 +103,10 @@ void ChassisDriver::Tick(double now_s) {
     pilot_.chassis_watch().ObserveForeignCommand(now_s,
                                                  Format("(0x%03X)", traffic.foreign_command_id));
   num_foreign_commands_ = traffic.num_foreign_commands;
-  pilot_.chassis_watch().ObserveBus(link_.IsBusUp());
+  const CanBusState bus = link_.BusState();
+  pilot_.chassis_watch().ObserveBus(link_.IsBusUp(),
+                                    bus == CanBusState::kUp ? "" : Format("(%s)", ToString(bus)));
+  ObserveGuard();
   link_.Send(now_s, pilot_.Tick(now_s));
 }
 

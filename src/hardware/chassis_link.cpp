@@ -13,12 +13,17 @@ constexpr double kLampRepeat_s = 0.5;
 /// The turn in place at which the tracks, 0.583 m apart, run at the speed limit, rounded up.
 constexpr double kMaxChassisTurnRate_radps = 0.35;
 
+}  // namespace
+
 bool IsCommand(const CanFrame& frame) {
   return frame.kind == CanFrameKind::kData &&
          std::count(kCommandIds.begin(), kCommandIds.end(), frame.id) > 0;
 }
 
-}  // namespace
+PlanarMotion LimitMotion(const PlanarMotion& motion) {
+  return {std::clamp(motion.forward_mps, -kMaxSpeed_mps, kMaxSpeed_mps),
+          std::clamp(motion.turn_radps, -kMaxChassisTurnRate_radps, kMaxChassisTurnRate_radps)};
+}
 
 CanFilters ChassisLink::Filters() {
   CanFilters filters = {{0x200, 0x600}};
@@ -98,11 +103,7 @@ void ChassisLink::Send(double now_s, const DriveCommand& command) {
   was_bus_lost_ = false;
   if (!command.may_speak) return;
   if (command.wants_authority) RequestCanMode(now_s);
-  PlanarMotion motion = command.chassis_motion;
-  motion.forward_mps = std::clamp(motion.forward_mps, -kMaxSpeed_mps, kMaxSpeed_mps);
-  motion.turn_radps =
-      std::clamp(motion.turn_radps, -kMaxChassisTurnRate_radps, kMaxChassisTurnRate_radps);
-  SendFrame(EncodeFrame(MotionCommand{motion}));
+  SendFrame(EncodeFrame(MotionCommand{LimitMotion(command.chassis_motion)}));
   SendLamp(now_s, command.is_lamp_on);
 }
 

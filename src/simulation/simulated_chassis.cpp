@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "arfm_vo/driving/track_kinematics.h"
+#include "arfm_vo/hardware/chassis_link.h"
 
 namespace arfm_vo {
 namespace {
@@ -55,6 +56,8 @@ void SimulatedChassis::Obey(double now_s) {
     const auto frame = bus_->Receive();
     if (!frame) return;
     if (!is_on_) continue;
+    if (frame->id == kBrakeCommandId && mode_ == ControlMode::kCan)
+      is_brake_on_ = frame->bytes[0] != 0;
     const ChassisCommand command = DecodeCommand(*frame);
     if (const auto* mode = std::get_if<ControlModeCommand>(&command)) {
       const bool is_known = mode->mode == ControlMode::kStandby || mode->mode == ControlMode::kCan;
@@ -74,7 +77,7 @@ void SimulatedChassis::Obey(double now_s) {
 
 PlanarMotion SimulatedChassis::MotionNow(double now_s) const {
   if (runaway_) return *runaway_;
-  if (!is_on_ || is_emergency_stop_ || has_fault_) return {};
+  if (!is_on_ || is_emergency_stop_ || has_fault_ || is_brake_on_) return {};
   if (mode_ == ControlMode::kRemote) return stick_;
   const bool is_fresh = now_s - commanded_s_ <= kCommandTimeout_s;
   return mode_ == ControlMode::kCan && is_fresh ? commanded_ : PlanarMotion{};

@@ -33,11 +33,6 @@ def cover_for(duration_s):
     return inject
 
 
-def freeze_camera(campaign):
-    """From now on it shows what it has shown last."""
-    campaign.camera.change = freeze(campaign.camera.last)
-
-
 def stop_camera_for(duration_s):
     """As a SIGSTOP of its node does it: what has waited comes at once."""
     def inject(campaign):
@@ -115,7 +110,7 @@ def names_the_right_eye(campaign):
 def camera_faults():
     stale, anew = "pose is stale", "odometry has started anew"
     return [
-        Fault("camera is frozen: the same pictures with new stamps", freeze_camera, stale, mend, 1),
+        Fault("camera is frozen: the same pictures with new stamps", lambda c: setattr(c.camera, "change", freeze(c.camera.last)), stale, mend, 1),
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_eye),

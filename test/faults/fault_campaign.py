@@ -35,8 +35,8 @@ from table import WATCH_S, table  # noqa: E402
 
 MAX_STOP_S = 0.3  # after the fault, or after its limit
 MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included
-# A row in which the campaign itself did not run for so long says nothing of the rover: it is measured anew.
-MAX_HELD_UP_S = 0.3
+# A row in which the machine held the campaign, or chassis_node, up for so long says nothing of the rover: it is measured anew.
+MAX_HELD_UP_S, MAX_GAP_S = 0.3, 0.09
 MAX_TRIES = 3
 MAX_WAIT_S = 30  # for simulated time where the machine holds it back
 
@@ -93,6 +93,7 @@ class Campaign:
         del self.rover.reports[:]
         del self.rover.odometry_texts[:]
         self.rover.sight.mark()
+        self.tap.max_gap_s = 0.0
         self.begin()
         fault.inject(self)
         injected_s, simulated_s, way_m = self.began_s, self.began_simulated_s, self.began_way_m
@@ -136,10 +137,10 @@ class Campaign:
         """The same; once more where the machine held the campaign up and that may be why it is not as promised."""
         for attempt in range(1, MAX_TRIES + 1):
             row = self.measure(fault)
-            is_disturbed = row is not None and not row["kept"] and row["held_up_s"] > MAX_HELD_UP_S
+            is_disturbed = row and not row["kept"] and (row["held_up_s"] > MAX_HELD_UP_S or self.tap.max_gap_s > MAX_GAP_S)
             if not is_disturbed or fault.ends_graph or fault.is_load or attempt == MAX_TRIES:
                 return row
-            print("%s: held up for %.2f s by the machine, measured anew" % (fault.name, row["held_up_s"]), flush=True)
+            print("%s: held up (%.2f s, %.2f s), measured anew" % (fault.name, row["held_up_s"], self.tap.max_gap_s), flush=True)
 
     def is_kept(self, fault, row):
         is_dead = row["dead"] and not (fault.ends_node or fault.ends_graph)

@@ -14,9 +14,7 @@ from std_srvs.srv import SetBool
 
 def step_clock(seconds):
     """Somebody publishes one wrong time on /clock; the simulator's next is right again."""
-    def inject(campaign):
-        campaign.clock.publish(Clock(clock=rospy.Time.now() + rospy.Duration(seconds)))
-    return inject
+    return lambda campaign: campaign.clock.publish(Clock(clock=rospy.Time.now() + rospy.Duration(seconds)))
 
 
 def spawn(campaign, program, count=1):
@@ -68,10 +66,7 @@ def freeze_terminal(campaign):
 
 def kill_master(campaign):
     """That of roslaunch; the operator stays."""
-    children = subprocess.run(["pgrep", "-P", str(campaign.launch.process.pid), "-f", "rosmaster"], text=True,
-                              stdout=subprocess.PIPE).stdout.split()
-    for pid in children:
-        os.kill(int(pid), signal.SIGKILL)
+    campaign.launch.signal("rosmaster", signal.SIGKILL)
 
 
 def machine_faults():

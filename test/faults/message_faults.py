@@ -78,18 +78,14 @@ def end_of_time():
 def far_path(campaign):
     path = Path()
     path.header.frame_id, path.header.stamp = "map", rospy.Time.now()
-    for _ in range(10000):
-        pose = PoseStamped()
-        pose.pose.orientation.w = 1
-        path.poses.append(pose)
+    pose = PoseStamped()
+    pose.pose.orientation.w = 1
+    path.poses = [pose] * 10000
     campaign.publish("waypoints", path)
 
 
 def many(make, topic, count=2000):
-    def inject(campaign):
-        for _ in range(count):
-            campaign.publish(topic, make())
-    return inject
+    return lambda campaign: [campaign.publish(topic, make()) for _ in range(count)]
 
 
 def second_odometry(campaign):

@@ -1,5 +1,6 @@
 """Nodes that are killed, stopped and started anew."""
 import signal
+import socket
 import time
 
 import rospy
@@ -8,10 +9,7 @@ from rover import program_of
 
 
 def killed(node):
-    def mend(campaign):
-        campaign.restart(node)
-        time.sleep(3)
-    return mend
+    return lambda campaign: (campaign.restart(node), time.sleep(3))
 
 
 def respawned(campaign):
@@ -22,10 +20,7 @@ def respawned(campaign):
 
 
 def kill_and_restart(node):
-    def inject(campaign):
-        campaign.signal(node, signal.SIGKILL)
-        campaign.restart(node)
-    return inject
+    return lambda campaign: (campaign.signal(node, signal.SIGKILL), campaign.restart(node))
 
 
 def stop_and_continue(node, duration_s):
@@ -40,6 +35,15 @@ def sent(node, number):
     return lambda campaign: campaign.signal(node, number)
 
 
+def outside_ros(program, number):
+    return lambda campaign: campaign.launch.signal(program, number)
+
+
+def send_packet(campaign):
+    """What stops the rover without a ROS master."""
+    socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(b"", ("127.0.0.1", 10 * campaign.tap.driver_port + 3))
+
+
 def wait(duration_s):
     return lambda campaign: time.sleep(duration_s)
 
@@ -50,6 +54,7 @@ def ended(node, number, name, promise="-", mend=respawned, limit_s=0.0):
 
 def node_faults():
     stop, go_on, kill = signal.SIGSTOP, signal.SIGCONT, signal.SIGKILL
+    packet = "software emergency stop is set"
     stale, away, no_map = "pose is stale", "pose was away too long", "map frame is no longer told"
     head, mast = "head/pan_tilt_node", "robot_state_publisher"
     rows = []
@@ -76,6 +81,13 @@ def node_faults():
         ended("chassis_node", signal.SIGHUP, "chassis_node loses its terminal (SIGHUP)"),
         Fault("chassis_node hangs (SIGSTOP)", sent("chassis_node", stop), "-",
               lambda c: (sent("chassis_node", go_on)(c), time.sleep(1))),
+        # roslaunch starts it anew.
+        Fault("chassis_guard killed -9", outside_ros("chassis_guard", kill), "CAN bus is down", wait(4)),
+        Fault("chassis_guard hangs (SIGSTOP)", outside_ros("chassis_guard", stop), "CAN bus is down",
+              outside_ros("chassis_guard", go_on)),
+        Fault("a packet to chassis_guard", send_packet, packet),
+        Fault("ROS master hangs (SIGSTOP), a packet to chassis_guard",
+              lambda c: (c.launch.signal("rosmaster", stop), send_packet(c)), packet, outside_ros("rosmaster", go_on)),
         Fault("a second chassis_node is started",
               lambda c: c.command("timeout 5 %s __name:=second _can:=$(rosparam get /chassis_node/can)" %
                                   program_of("chassis_node")),

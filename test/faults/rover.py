@@ -34,12 +34,18 @@ class Launch:
         port = find_free_port()
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         arguments = ["rviz:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
-                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "eyes:=/eyes"]
+                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "eyes:=/eyes", "guard:=true"]
         self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         fcntl.fcntl(self.process.stdout, F_SETPIPE_SZ, 4096)
         self.is_read = True  # false: nobody reads the terminal
         threading.Thread(target=self.read, args=(log,), daemon=True).start()
+
+    def signal(self, program, number):
+        """To what roslaunch has started and is no node."""
+        pids = subprocess.run(["pgrep", "-P", str(self.process.pid), "-f", program], text=True, check=True, stdout=subprocess.PIPE)
+        for pid in pids.stdout.split():
+            os.kill(int(pid), number)
 
     def read(self, log):
         while True:

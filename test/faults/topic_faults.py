@@ -47,9 +47,7 @@ def send(topic, kind, messages, period_s, limit_s):
 
 
 def flood(topic, kind, samples):
-    def inject(campaign):
-        send(topic, kind, [samples.newest(topic, kind)] * FLOOD, 0, FLOOD_S)
-    return inject
+    send(topic, kind, [samples.newest(topic, kind)] * FLOOD, 0, FLOOD_S)
 
 
 def send_nan(topic, kind, samples):
@@ -63,8 +61,7 @@ def send_nan(topic, kind, samples):
 def stop_in_a_flood(topics, samples):
     """The stop service is called while what the rover drives by comes as fast as it can be sent."""
     def inject(campaign):
-        floods = [threading.Thread(target=send, args=(topic, kind, [samples.newest(topic, kind)] * FLOOD, 0, FLOOD_S))
-                  for topic, kind in topics]
+        floods = [threading.Thread(target=flood, args=(topic, kind, samples)) for topic, kind in topics]
         for thread in floods:
             thread.start()
         time.sleep(FLOOD_S / 2)
@@ -93,8 +90,8 @@ def topic_faults():
     topics = subscribed_topics()
     samples = Samples(topics)
     settle = lambda c: time.sleep(1)  # noqa: E731
-    rows = [Fault("flood of the newest message of " + topic, flood(topic, kind, samples), EITHER, settle, is_load=True)
-            for topic, kind in topics]
+    rows = [Fault("flood of the newest message of " + topic, lambda c, topic=topic, kind=kind: flood(topic, kind, samples), EITHER,
+                  settle, is_load=True) for topic, kind in topics]
     rows += [Fault("no numbers on " + topic, send_nan(topic, kind, samples), EITHER, settle) for topic, kind in topics if has_floats(kind)]
     driven_by = [(topic, kind) for topic, kind in topics if topic in ("/operator_answer", "/goal", "/tf", "/odom")]
     return rows + [

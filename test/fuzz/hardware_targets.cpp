@@ -2,6 +2,7 @@
 
 #include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
+#include "arfm_vo/hardware/guard/chassis_guard.h"
 #include "arfm_vo/hardware/image_conversion.h"
 #include "arfm_vo/hardware/pan_tilt_unit.h"
 #include "fuzz/byte_source.h"
@@ -65,6 +66,85 @@ void Drive(const std::string& input) {
                     std::abs(motion->motion.turn_radps) <= 0.35,
                 "no speed above the limits");
     }
+  }
+}
+
+/// A message of a chassis_node to its guard, or what else may come by the socket.
+std::optional<GuardMessage> TakeMessage(ByteSource& bytes, double now_s, uint32_t& number) {
+  const uint8_t kind = bytes.Byte();
+  if (kind >= 250) {
+    const std::string any = bytes.Bytes(2 * sizeof(GuardMessage));
+    return ReadGuardMessage(any.data(), any.size());
+  }
+  GuardMessage message;
+  message.number = kind < 200 ? ++number : bytes.Value<uint32_t>();
+  message.sent_s = kind % 8 != 0 ? now_s : now_s + bytes.Value<double>();
+  message.num_stops = bytes.Byte() % 4;
+  message.frame = TakeFrame(bytes);
+  std::string coded(reinterpret_cast<const char*>(&message), sizeof(message));
+  if (kind % 16 == 1) coded[bytes.Byte() % coded.size()] = static_cast<char>(bytes.Byte());
+  return ReadGuardMessage(coded.data(), coded.size());
+}
+
+/// A chassis_node, a chassis and a stranger on the bus who say anything at all.
+void Guard(const std::string& input) {
+  ByteSource bytes(input);
+  CanMemoryBus bus;
+  const auto chassis = bus.OpenEnd();
+  ChassisGuard guard(bus.OpenEnd(), [](GuardStop) {});
+  double now_s = 1000;
+  uint32_t number = 0, newest = 0;
+  bool is_silent = true;  // nothing was commanded yet
+  const auto check = [&](bool may_move) {
+    while (const auto frame = chassis->Receive()) {
+      const ChassisCommand command = DecodeCommand(*frame);
+      Promise(frame->kind != CanFrameKind::kData || command.index() != 0 ||
+                  frame->id == kBrakeCommandId,
+              "only commands go out");
+      const auto* motion = std::get_if<MotionCommand>(&command);
+      if (!motion) continue;
+      Promise(!is_silent, "no motion before the first command");
+      Promise(may_move || motion->motion.IsZero(), "what moves is fresh, new and not stopped");
+      Promise(std::abs(motion->motion.forward_mps) <= kMaxSpeed_mps + 1e-9 &&
+                  std::abs(motion->motion.turn_radps) <= 0.35 + 1e-9,
+              "no speed above the limits");
+    }
+  };
+  while (!bytes.IsEmpty()) {
+    const uint8_t action = bytes.Byte();
+    if (action % 8 < 4) {
+      const auto message = TakeMessage(bytes, now_s, number);
+      if (!message) continue;
+      const double age_s = now_s - message->sent_s;
+      const bool is_fresh = message->number > newest && age_s >= 0 && age_s <= 0.1;
+      const ChassisCommand command = DecodeCommand(message->frame);
+      if (is_fresh) newest = message->number;
+      if (is_fresh && std::holds_alternative<MotionCommand>(command)) {
+        is_silent = false;
+      }
+      guard.Take(now_s, *message);
+      check(is_fresh);
+    } else if (action % 8 == 4) {
+      chassis->Send(TakeFrame(bytes));
+    } else if (action % 8 == 5 && action < 64) {
+      guard.Stop(GuardStop::kPacket);
+      is_silent = false;
+      guard.Tick(now_s);
+      check(false);
+      GuardMessage wrong_release;
+      wrong_release.number = number = ++newest;
+      wrong_release.sent_s = now_s;
+      wrong_release.num_stops = 999;
+      wrong_release.frame = EncodeFrame(MotionCommand{{0.1, 0}});
+      guard.Take(now_s, wrong_release);
+      check(false);
+    } else if (action % 8 == 6 && action < 32) {
+      guard.Disconnect();
+      number = newest = 0;
+    }
+    now_s += 0.001 * (action / 8);
+    Promise(guard.Tick(now_s).size() <= 501, "the chassis_node is told a bounded number of things");
+    check(false);
   }
 }
 
@@ -141,7 +221,7 @@ void ConvertVideo(const std::string& input) {
 }  // namespace
 
 std::vector<FuzzTarget> HardwareTargets() {
-  return {{"can", Drive}, {"ptu", UsePanTilt}, {"video", ConvertVideo}};
+  return {{"can", Drive}, {"guard", Guard}, {"ptu", UsePanTilt}, {"video", ConvertVideo}};
 }
 
 }  // namespace arfm_vo

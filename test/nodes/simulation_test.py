@@ -46,17 +46,9 @@ class Head:
         self.eye = None
         self.commands = rospy.Publisher("/head/cmd", JointState, queue_size=1, latch=True)
         self.subscribers = [
-            rospy.Subscriber("/head/settled", Bool, self.take_settled), rospy.Subscriber("/joint_states", JointState, self.take_angles),
-            rospy.Subscriber("/stereo/ground_truth", PoseStamped, self.take_eye)]
-
-    def take_settled(self, message):
-        self.is_settled = message.data
-
-    def take_angles(self, message):
-        self.angles = dict(zip(message.name, message.position))
-
-    def take_eye(self, message):
-        self.eye = message.pose
+            rospy.Subscriber("/head/settled", Bool, lambda message: setattr(self, "is_settled", message.data)),
+            rospy.Subscriber("/joint_states", JointState, lambda message: self.angles.update(zip(message.name, message.position))),
+            rospy.Subscriber("/stereo/ground_truth", PoseStamped, lambda message: setattr(self, "eye", message.pose))]
 
     def send(self, pan_rad, tilt_rad):
         self.commands.publish(JointState(name=["pan", "tilt"], position=[pan_rad, tilt_rad]))

@@ -65,7 +65,11 @@ class ChassisWatch {
   void ObserveFeedback(double now_s, FeedbackKind kind) {
     heard_s_[static_cast<size_t>(kind)] = now_s;
   }
-  void ObserveBus(bool is_up) { is_bus_up_ = is_up; }
+  /// `detail` says what is wrong with it; may be empty.
+  void ObserveBus(bool is_up, const std::string& detail = "") {
+    is_bus_up_ = is_up;
+    bus_detail_ = detail;
+  }
   /// Somebody else has sent a command to the chassis; `detail` says which.
   void ObserveForeignCommand(double now_s, const std::string& detail = "") {
     foreign_s_ = now_s;
@@ -92,7 +96,7 @@ class ChassisWatch {
   bool is_bus_up_ = true;
   std::array<std::optional<double>, kNumFeedbackKinds> heard_s_;
   std::optional<double> foreign_s_;
-  std::string foreign_detail_;
+  std::string foreign_detail_, bus_detail_;
   std::optional<ChassisStatus> status_;
 };
 

@@ -13,11 +13,19 @@ class BusLock {
   /// Throws std::system_error naming the bus where another driver has it.
   explicit BusLock(const std::string& bus);
 
+  /// Where a ConnectToLockHolder waits to be accepted.
+  int Socket() const { return socket_.Get(); }
+
  private:
   FileDescriptor socket_;
 };
 
-/// Whether `address` (see OpenCanBus) names a bus without hardware: udp:.. or vcan..
+/// A connection (SOCK_SEQPACKET, not blocking) to who has the lock of `bus`; not open where nobody
+/// has it.
+FileDescriptor ConnectToLockHolder(const std::string& bus);
+
+/// Whether `address` (see OpenCanBus) names a bus without hardware: udp:.., vcan.., or such a one
+/// behind chassis_guard.
 bool IsSimulatedBus(const std::string& address);
 
 }  // namespace arfm_vo

@@ -12,8 +12,9 @@ namespace arfm_vo {
 /// Whether frames can reach the bus.
 enum class CanBusState {
   kUp,
-  kBusOff,  ///< the controller gave up after too many errors; it must be restarted
-  kDown,    ///< the interface is down or gone
+  kBusOff,   ///< the controller gave up after too many errors; it must be restarted
+  kDown,     ///< the interface is down or gone
+  kNoGuard,  ///< chassis_guard, which alone writes to the bus, does not answer
 };
 
 /// The name of a state as messages show it, such as "bus-off".
@@ -38,6 +39,11 @@ class CanBus {
   virtual std::optional<CanFrame> Receive() = 0;
 
   virtual CanBusState State() const = 0;
+
+  /// Nothing where no chassis_guard stands between; else why it lets nothing move, empty where it
+  /// does not stop the rover. A stop stands until ReleaseGuard(), which releases those told so far.
+  virtual std::optional<std::string> GuardStop() const { return std::nullopt; }
+  virtual void ReleaseGuard() {}
 };
 
 /// Lets data frames with (frame.id & mask) == id through.
@@ -48,9 +54,12 @@ struct CanFilter {
 using CanFilters = std::vector<CanFilter>;
 
 /// Opens the bus that `address` names: a SocketCAN interface ("can0"), or "udp:LOCAL:PEER", UDP on
-/// 127.0.0.1 from port LOCAL to port PEER for kernels without CAN. `filters` keeps a flood of other
-/// frames out of a SocketCAN end (none: everything comes in). Throws std::invalid_argument for an
-/// address of neither kind and std::system_error where the kernel refuses.
-std::unique_ptr<CanBus> OpenCanBus(const std::string& address, const CanFilters& filters = {});
+/// 127.0.0.1 from port LOCAL to port PEER for kernels without CAN; or, by "guard:ADDRESS", what
+/// chassis_guard of that bus passes on. `filters` keeps a flood of other frames out of a SocketCAN
+/// end (none: everything comes in). A `is_second` end has the place of one whose process hangs.
+/// Throws std::invalid_argument for an address of no kind and std::system_error where the kernel
+/// refuses.
+std::unique_ptr<CanBus> OpenCanBus(const std::string& address, const CanFilters& filters = {},
+                                   bool is_second = false);
 
 }  // namespace arfm_vo

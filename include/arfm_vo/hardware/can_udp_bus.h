@@ -12,8 +12,9 @@ namespace arfm_vo {
 /// as on a bus where nobody acknowledges.
 class CanUdpBus : public CanBus {
  public:
-  /// Throws std::system_error where `local_port` is taken.
-  CanUdpBus(uint16_t local_port, uint16_t peer_port);
+  /// Throws std::system_error where `local_port` is taken; a second end takes it over from another
+  /// CanUdpBus for as long as it lives.
+  CanUdpBus(uint16_t local_port, uint16_t peer_port, bool is_second = false);
 
   CanSendStatus Send(const CanFrame& frame) override;
   std::optional<CanFrame> Receive() override;

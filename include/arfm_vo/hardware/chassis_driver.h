@@ -20,6 +20,11 @@ class ChassisDriver {
 
   /// Takes in what the chassis said, lets the pilot decide, and sends the command.
   void Tick(double now_s);
+  /// The operator starts the rover anew: what chassis_guard has stopped may move again.
+  void ReleaseGuard() {
+    link_.ReleaseGuard();
+    ObserveGuard();
+  }
 
   Pilot& pilot() { return pilot_; }
   const Pilot& pilot() const { return pilot_; }
@@ -28,6 +33,10 @@ class ChassisDriver {
 
  private:
   void Take(double now_s, const ChassisFeedback& feedback);
+  void ObserveGuard() {
+    if (const auto stop = link_.GuardStop())
+      pilot_.SetEmergencyStop("chassis_guard", !stop->empty());
+  }
 
   Pilot pilot_;
   ChassisLink link_;

@@ -21,6 +21,16 @@ struct ChassisReadings {
   std::array<std::optional<MotorDriverState>, 2> drivers;  ///< [ChassisSide]
 };
 
+/// 0x131: byte 0 is 1 to lock the tracks, 0 to release them; by the manual of the Hunter 2.0, of
+/// the same family.
+constexpr uint32_t kBrakeCommandId = 0x131;
+
+/// Whether `frame` commands the chassis, whoever has sent it: see kCommandIds.
+bool IsCommand(const CanFrame& frame);
+
+/// `motion` within what may go out on the bus: 0.1 m/s, and the turn in place at that speed.
+PlanarMotion LimitMotion(const PlanarMotion& motion);
+
 /// Frames since the link was made.
 struct ChassisTraffic {
   long num_sent = 0;
@@ -60,6 +70,8 @@ class ChassisLink {
   /// Whether commands get through: the bus is up, takes frames, and its queue is not stuck.
   bool IsBusUp() const;
   CanBusState BusState() const { return bus_->State(); }
+  std::optional<std::string> GuardStop() const { return bus_->GuardStop(); }
+  void ReleaseGuard() { bus_->ReleaseGuard(); }
   const ChassisReadings& Readings() const { return readings_; }
   const ChassisTraffic& Traffic() const { return traffic_; }
 

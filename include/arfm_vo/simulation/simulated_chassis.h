@@ -12,7 +12,7 @@ namespace arfm_vo {
 
 /// The tracked chassis at the other end of the CAN bus: powers up in standby, where it hears only
 /// the control mode; stops 500 ms after the last motion command; the remote control outranks CAN,
-/// and hands back to standby; its emergency stop button stops the tracks.
+/// and hands back to standby; its emergency stop button stops the tracks, and so does the brake.
 class SimulatedChassis {
  public:
   SimulatedChassis(std::unique_ptr<CanBus> bus, TrackedPlant plant);
@@ -46,6 +46,7 @@ class SimulatedChassis {
   const TrackedPlant& plant() const { return plant_; }
   ControlMode mode() const { return mode_; }
   bool is_lamp_on() const { return is_lamp_on_; }
+  bool is_brake_on() const { return is_brake_on_; }
 
  private:
   void Obey(double now_s);
@@ -63,6 +64,7 @@ class SimulatedChassis {
   ControlMode mode_ = ControlMode::kStandby;
   bool is_on_ = true, is_emergency_stop_ = false, has_fault_ = false;
   bool is_frozen_ = false, is_left_jammed_ = false, is_remote_lost_ = false, is_lamp_on_ = false;
+  bool is_brake_on_ = false;
   std::optional<PlanarMotion> runaway_;
   std::optional<FeedbackKind> silent_;
   TrackSpeeds told_speeds_;

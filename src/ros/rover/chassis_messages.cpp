@@ -155,6 +155,8 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
   diagnostics.summary(LevelOf(status), summary);
   if (status.is_tilt_near_limit) diagnostics.mergeSummary(Diagnostics::WARN, "rover is tilted");
   diagnostics.add("bus", ToString(link.BusState()));
+  const auto stop = link.GuardStop();
+  diagnostics.add("chassis_guard", !stop ? "none" : stop->empty() ? "watches" : "stops: " + *stop);
   if (link.BusState() != CanBusState::kUp)
     diagnostics.mergeSummaryf(Diagnostics::ERROR, "CAN bus is %s", ToString(link.BusState()));
   if (const auto& system = link.Readings().system) {

@@ -43,6 +43,10 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
+  if (!driver_.link().GuardStop())
+    ROS_WARN(
+        "no chassis_guard: where this process is killed or hangs, the last command stands "
+        "until the chassis' own time-out");
   WaitForClock();
   Listen(node);
   challenge_ = node.advertise<OperatorChallenge>("operator_challenge", 1);
@@ -97,7 +101,9 @@ Reply ChassisNode::Start() {
   const DriveState state = driver_.pilot().Status().state;
   const bool begins = state == DriveState::kStandby || state == DriveState::kBlocked;
   const std::string flaws = begins ? Check(true) : "";
-  return flaws.empty() ? driver_.pilot().Start(clock_.Now()) : Reply{false, "not started:" + flaws};
+  if (!flaws.empty()) return {false, "not started:" + flaws};
+  driver_.ReleaseGuard();
+  return driver_.pilot().Start(clock_.Now());
 }
 
 Reply ChassisNode::ClearErrors() {
@@ -111,12 +117,10 @@ Reply ChassisNode::ClearErrors() {
 }
 
 void ChassisNode::SetPace(ros::NodeHandle& node) {
-  // Simulated time may run faster or slower than the wall's: then it sets the pace, and the wall
-  // only watches that it goes on.
-  const bool is_simulated = ros::Time::isSimTime();
-  if (is_simulated)
+  // Simulated time may run faster or slower than the wall's: then it sets the pace too.
+  if (ros::Time::isSimTime())
     timer_ = node.createTimer(ros::Duration(kTick_s), [this](const ros::TimerEvent&) { Tick(); });
-  steady_timer_ = node.createSteadyTimer(ros::WallDuration(is_simulated ? 0.1 : kTick_s),
+  steady_timer_ = node.createSteadyTimer(ros::WallDuration(kTick_s),
                                          [this](const ros::SteadyTimerEvent&) { Tick(); });
 }
 

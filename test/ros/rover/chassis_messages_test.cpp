@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
@@ -81,6 +84,31 @@ TEST_F(ChassisMessagesTest, ABusThatIsOffIsAnErrorWhateverThePilotDoes) {
   const DiagnosticStatus status = Diagnose(DriveState::kStandby, StopReason::kNotStarted);
   EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
   EXPECT_NE(status.message.find("CAN bus is bus-off"), std::string::npos) << status.message;
+}
+
+/// As chassis_guard passes it on.
+struct GuardedEnd : CanBus {
+  explicit GuardedEnd(std::optional<std::string> stop) : stop_(std::move(stop)) {}
+  CanSendStatus Send(const CanFrame&) override { return CanSendStatus::kSent; }
+  std::optional<CanFrame> Receive() override { return std::nullopt; }
+  CanBusState State() const override { return CanBusState::kUp; }
+  std::optional<std::string> GuardStop() const override { return stop_; }
+  std::optional<std::string> stop_;
+};
+
+TEST(ChassisDiagnosis, SaysWhetherThereIsAGuardAndWhyItStops) {
+  const std::pair<std::optional<std::string>, std::string> rows[] = {
+      {std::nullopt, "none"}, {"", "watches"}, {"a UDP packet", "stops: a UDP packet"}};
+  for (const auto& [stop, text] : rows) {
+    const ChassisLink link(std::make_unique<GuardedEnd>(stop));
+    diagnostic_updater::DiagnosticStatusWrapper diagnostics;
+    FillDiagnostics(PilotStatus(), link, diagnostics);
+    const auto is_guard = [](const auto& value) { return value.key == "chassis_guard"; };
+    const auto& values = diagnostics.values;
+    const auto value = std::find_if(values.begin(), values.end(), is_guard);
+    ASSERT_NE(value, values.end());
+    EXPECT_EQ(value->value, text);
+  }
 }
 
 TEST_F(ChassisMessagesTest, ALowBatteryIsAWarning) {

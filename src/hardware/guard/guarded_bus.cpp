@@ -1,0 +1,55 @@
+#include "arfm_vo/hardware/guard/guarded_bus.h"
+
+#include <system_error>
+
+#include "arfm_vo/hardware/bus_lock.h"
+#include "arfm_vo/hardware/chassis_protocol.h"
+#include "arfm_vo/hardware/monotonic_clock.h"
+
+namespace arfm_vo {
+namespace {
+
+constexpr double kMaxSilence_s = 0.15, kRetry_s = 0.2;
+
+}  // namespace
+
+CanBusState GuardedBus::State() const {
+  const bool is_heard = socket_.IsOpen() && MonotonicNow() - status_.sent_s <= kMaxSilence_s;
+  return is_heard ? status_.bus : CanBusState::kNoGuard;
+}
+
+std::optional<CanFrame> GuardedBus::Receive() {
+  if (!socket_.IsOpen() && MonotonicNow() - tried_s_ >= kRetry_s) {
+    tried_s_ = MonotonicNow();
+    socket_ = ConnectToLockHolder(bus_);
+    status_ = {};
+    number_ = num_released_ = 0;
+  }
+  while (const auto message = ReceiveMessage(socket_)) {
+    if (message->has_frame) return message->frame;
+    status_ = *message;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> GuardedBus::GuardStop() const {
+  const bool stands = status_.stop != GuardStop::kNone && status_.num_stops != num_released_;
+  return stands ? ToString(status_.stop) : "";
+}
+
+CanSendStatus GuardedBus::Send(const CanFrame& frame) {
+  if (State() == CanBusState::kNoGuard) {
+    const CanFrame standby = EncodeFrame(ControlModeCommand{});
+    try {
+      if (has_moved_)
+        OpenCanBus(bus_, {}, true)->Send(frame == standby ? frame : EncodeFrame(MotionCommand{}));
+    } catch (const std::system_error&) {  // the bus is gone too
+    }
+    return CanSendStatus::kDown;
+  }
+  has_moved_ |= std::holds_alternative<MotionCommand>(DecodeCommand(frame));
+  const GuardMessage message{1, ++number_, MonotonicNow(), num_released_, 1, frame, {}, {}, {}};
+  return SendMessage(socket_, message) ? status_.last_send : CanSendStatus::kBusy;
+}
+
+}  // namespace arfm_vo
