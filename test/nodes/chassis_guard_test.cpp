@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "arfm_vo/base/format.h"
+#include "arfm_vo/driving/start_check.h"
 #include "arfm_vo/hardware/file_descriptor.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 #include "hardware/guard/started_process.h"
@@ -37,6 +38,8 @@ class GuardedNodeTest : public ::testing::Test {
   }
   void StartNode() {
     node_.reset();
+    ros::param::set("/guarded/chassis_node/pilot/overridden_checks",
+                    std::vector<std::string>(std::begin(kCheckItems), std::end(kCheckItems)));
     node_ = std::make_unique<StartedProcess>(std::vector<std::string>{
         "chassis_node", "__ns:=guarded", "_can:=guard:udp:3" + digits_ + ":4" + digits_,
         "_pilot/velocity_needs_pose:=false", "_pilot/operator/is_required:=false"});
