@@ -144,15 +144,14 @@ void FrameTracker::Weigh(const StereoFrame& frame, const LocalMap& map, const Ex
     return ground;
   };
   const Rigid3& pose = tracked.pose.camera_from_world;
-  const std::optional<double> rest = find_rest(pose, 1);
+  const auto rest = find_rest(pose, 1);
   tracked.is_odd_rest = rest && *rest <= 0;
   const GroundBelief ground = weigh(pose, 1, rest);
   tracked.log_odds = ground.log_odds;
   tracked.arrived = ground.arrived;
   if (!tracked.pose.rival) return;
-  const Rigid3& rival = *tracked.pose.rival;
-  const std::optional<double> rival_rest = find_rest(rival, kAgreesWithRival);
-  tracked.log_odds_of_rival = weigh(rival, kAgreesWithRival, rival_rest).log_odds +
+  const auto rival_rest = find_rest(*tracked.pose.rival, kAgreesWithRival);
+  tracked.log_odds_of_rival = weigh(*tracked.pose.rival, kAgreesWithRival, rival_rest).log_odds +
                               (tracked.is_odd_rest ? kFixedNotPassing : 0);
 }
 
