@@ -10,9 +10,10 @@ int main(int argc, char** argv) {
   return arfm_vo::RunNode<arfm_vo::ChassisNode, arfm_vo::ChassisNodeOptions>(
       argc, argv, "chassis_node", R"(Drives the tracked chassis to goals by the pose that tf tells.
 
-in    goal (geometry_msgs/PoseStamped), waypoints (nav_msgs/Path), cmd_vel, emergency_stop (std_msgs/Bool), odom,
-      operator_answer, /diagnostics
-out   drive_status, goal_report, track_odom (nav_msgs/Odometry), slip, chassis_state, battery, operator_challenge,
+in    goal, move_base_simple/goal (geometry_msgs/PoseStamped), waypoints (nav_msgs/Path), cmd_vel,
+      emergency_stop (std_msgs/Bool), odom, operator_answer, /diagnostics
+act   move_base (move_base_msgs/MoveBaseAction)
+out   drive_status, goal_report, plan (nav_msgs/Path), track_odom (nav_msgs/Odometry), slip, chassis_state, battery, operator_challenge,
       /diagnostics
 tf    in map_frame and odom_frame -> base_frame
 srv   ~check, ~start, ~stop, ~cancel, ~clear_errors (std_srvs/Trigger))");

@@ -13,7 +13,7 @@ ros=(libroscpp-dev ros-message-generation ros-message-runtime
      libstd-msgs-dev ros-std-msgs libstd-srvs-dev ros-std-srvs libsensor-msgs-dev ros-sensor-msgs
      libnav-msgs-dev ros-nav-msgs libgeometry-msgs-dev ros-geometry-msgs
      libdiagnostic-msgs-dev ros-diagnostic-msgs libvisualization-msgs-dev ros-visualization-msgs
-     libinteractive-markers-dev
+     libinteractive-markers-dev libactionlib-dev libmove-base-msgs-dev ros-move-base-msgs
      libimage-transport-dev libcamera-info-manager-dev libcv-bridge-dev
      libtf2-ros-dev libtf2-geometry-msgs-dev libtf2-eigen-dev
      libnodelet-dev libnodeletlib-dev pluginlib-dev
@@ -25,7 +25,7 @@ runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice py
          python3-rosbag python3-rospy python3-geometry-msgs python3-nav-msgs python3-std-srvs
          python3-diagnostic-msgs python3-cv-bridge python3-opencv rviz ros-image-view
          ros-stereo-image-proc libstereo-image-proc-dev libimage-proc-dev ros-robot-state-publisher
-         ros-camera-calibration python3-image-geometry
+         ros-camera-calibration python3-image-geometry python3-actionlib python3-move-base-msgs
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2 nftables)

@@ -11,8 +11,8 @@ import sys
 WITH_ROS = {"ros", "rover", "nodes"}
 ROS_HEADERS = re.compile(
     r"^(ros|tf2?(_\w+)?|nodelet|pluginlib|class_loader|roscpp|xmlrpcpp|rosbag|rosgraph_msgs|image_transport|"
-    r"cv_bridge|camera_info_manager|message_filters|diagnostic_updater|diagnostic_msgs|dynamic_reconfigure|"
-    r"(std|sensor|nav|geometry|visualization)_msgs|std_srvs)/")
+    r"cv_bridge|camera_info_manager|message_filters|diagnostic_updater|diagnostic_msgs|dynamic_reconfigure|actionlib|"
+    r"(std|sensor|nav|geometry|visualization|move_base)_msgs|std_srvs)/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 

@@ -11,7 +11,7 @@ from message_generator import MessageGenerator, fill_with_nan, has_floats, subsc
 FLOOD, FLOOD_S = 2000, 2.0  # messages at most, for so long at most
 NUM_NAN = 20
 MALFORMED = 300  # messages a topic
-COMMANDS = ("/goal", "/waypoints", "/cmd_vel", "/initialpose")
+COMMANDS = ("/goal", "/move_base_simple/goal", "/move_base/goal", "/waypoints", "/cmd_vel", "/initialpose")
 
 
 class Samples:

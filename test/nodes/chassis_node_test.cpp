@@ -1,222 +1,22 @@
-#include <arfm_vo/DriveStatus.h>
-#include <arfm_vo/GoalReport.h>
-#include <arfm_vo/OdometryStatus.h>
-#include <arfm_vo/OperatorChallenge.h>
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
-#include <nav_msgs/Odometry.h>
-#include <nav_msgs/Path.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
 #include <signal.h>
-#include <std_msgs/Bool.h>
-#include <std_srvs/Trigger.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <deque>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <regex>
 
-#include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/simulation/simulated_chassis.h"
+#include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
-#include "simulation/tapped_bus.h"
 
-// chassis_node in a world of its own: a simulated chassis at the other end of the bus, and a
-// perfect sight in tf. Wall time, but in clock_stall.test, where the test is the clock.
+// chassis_node in a world of its own. Wall time, but in clock_stall.test, where the test is the
+// clock.
 
 namespace arfm_vo {
 namespace {
-
-class World {
- public:
-  World()
-      : chassis_(OpenChassisBus(), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
-        goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
-        waypoints_(node_.advertise<nav_msgs::Path>("waypoints", 1)),
-        velocity_(node_.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
-        emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
-        odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
-        odometry_status_(node_.advertise<OdometryStatus>("status", 1)),
-        answer_(node_.advertise<OperatorChallenge>("operator_answer", 10)),
-        clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 1)),
-        challenge_subscriber_(node_.subscribe("operator_challenge", 20, &World::Answer, this)),
-        status_subscriber_(node_.subscribe("drive_status", 20, &World::TakeStatus, this)),
-        report_subscriber_(node_.subscribe("goal_report", 20, &World::TakeReport, this)) {}
-
-  /// Goes on until done(), at most for a minute; says whether it was done.
-  template <class Done>
-  bool RunUntil(Done&& done, double limit_s = 60) {
-    const double end_s = Now() + limit_s;
-    double looked_s = Now();
-    while (ros::ok() && Now() < end_s && !done()) {
-      held_up_s_ = std::max(held_up_s_, Now() - looked_s);
-      looked_s = Now();
-      chassis_.Tick(Now());
-      if (has_clock_ && ros::Time::isSimTime()) TellTime();
-      if (has_clock_ && Now() >= sight_due_s_) See();
-      for (; !answers_.empty() && Now() >= answers_.front().first; answers_.pop_front())
-        answer_.publish(answers_.front().second);
-      if (velocity_mps_ != 0 && Now() >= velocity_due_s_) SendVelocity();
-      ros::spinOnce();
-      ros::WallDuration(0.002).sleep();
-    }
-    return done();
-  }
-  void Run(double duration_s) {
-    RunUntil([] { return false; }, duration_s);
-  }
-
-  std_srvs::Trigger::Response Call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(ros::service::call("chassis_node/" + service, trigger)) << service;
-    return trigger.response;
-  }
-  void SendGoal(double x_m, double y_m, const std::string& frame = "base_link") {
-    geometry_msgs::PoseStamped goal;
-    goal.header.frame_id = frame;
-    goal.header.stamp = goal_stamp_.value_or(ros::Time::now());
-    goal.pose.position.x = x_m;
-    goal.pose.position.y = y_m;
-    goal.pose.orientation.w = 1;
-    goal_.publish(goal);
-  }
-  /// By way of places seen from the map.
-  void SendWaypoints(const std::vector<Eigen::Vector2d>& places) {
-    nav_msgs::Path path;
-    path.header.frame_id = "map";
-    path.header.stamp = ros::Time::now();
-    for (const Eigen::Vector2d& place : places) {
-      path.poses.emplace_back();
-      path.poses.back().header = path.header;
-      path.poses.back().pose.position.x = place.x();
-      path.poses.back().pose.position.y = place.y();
-      path.poses.back().pose.orientation.w = 1;
-    }
-    waypoints_.publish(path);
-  }
-  void SetEmergencyStop(bool is_set) {
-    std_msgs::Bool message;
-    message.data = is_set;
-    emergency_stop_.publish(message);
-  }
-  /// Waits until every topic has its other end, and the node has told of itself.
-  bool IsConnected() {
-    return RunUntil([this] {
-      return goal_.getNumSubscribers() > 0 && waypoints_.getNumSubscribers() > 0 &&
-             velocity_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
-             emergency_stop_.getNumSubscribers() > 0 && answer_.getNumSubscribers() > 0 &&
-             odometry_status_.getNumSubscribers() > 0 && has_status_;
-    });
-  }
-  /// What the node has told so far is of no account: another process takes its place.
-  void ForgetNode() { has_status_ = false; }
-  /// The odometry's process ends and a new one starts at its origin, with the first number again.
-  void RestartOdometry() {
-    odometry_status_.shutdown();
-    odometry_status_ = node_.advertise<OdometryStatus>("status", 1);
-    odom_from_world_ = chassis_.plant().WorldFromBase().Inverse();
-  }
-  /// Messages of all kinds with the largest stamp there is.
-  void SendStampsOfTheEnd() {
-    geometry_msgs::TransformStamped transform = Transform("odom", "base_link", Rigid3());
-    transform.header.stamp = ros::TIME_MAX;
-    broadcaster_.sendTransform(transform);
-    nav_msgs::Odometry odometry = Odometry(Rigid3());
-    odometry.header.stamp = ros::TIME_MAX;
-    odom_.publish(odometry);
-    goal_stamp_ = ros::TIME_MAX;
-    SendGoal(1, 0);
-    goal_stamp_.reset();
-  }
-  static double Now() { return ros::SteadyTime::now().toSec(); }
-
-  TappedBus::Log log_;
-  SimulatedChassis chassis_;
-  DriveStatus status_;
-  std::vector<GoalReport> reports_;
-  bool has_sight_ = true, has_map_ = true, has_operator_ = true, has_clock_ = true;
-  double answer_delay_s_ = 0;
-  std::function<void(OperatorChallenge&)> spoil_answer_ = [](OperatorChallenge&) {};
-  double time_rate_ = 1;  // of simulated time
-  double held_up_s_ = 0;  // for which the machine did not run this test, at most
-  Rigid3 odom_from_world_;
-  std::optional<ros::Time> goal_stamp_;
-  double variance_m2_ = 1e-4;
-  double velocity_mps_ = 0;  // told on cmd_vel where it is not 0
-
- private:
-  std::unique_ptr<CanBus> OpenChassisBus() {
-    std::string address;
-    if (!ros::param::get("~can", address)) throw std::runtime_error("no parameter ~can");
-    return std::make_unique<TappedBus>(OpenCanBus(address), &log_);
-  }
-  static geometry_msgs::TransformStamped Transform(const std::string& parent,
-                                                   const std::string& child, const Rigid3& pose) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = parent;
-    transform.child_frame_id = child;
-    transform.transform = ToTransformMessage(pose);
-    return transform;
-  }
-  void See() {
-    sight_due_s_ = Now() + 0.05;
-    if (has_map_) broadcaster_.sendTransform(Transform("map", "odom", Rigid3()));
-    if (!has_sight_) return;
-    const Rigid3 pose = odom_from_world_ * chassis_.plant().WorldFromBase();
-    odom_.publish(Odometry(pose));
-    broadcaster_.sendTransform(Transform("odom", "base_link", pose));
-    OdometryStatus status;
-    status.header.stamp = ros::Time::now();
-    status.epoch = 1;
-    status.num_features = status.num_stereo_points = 300;
-    odometry_status_.publish(status);
-  }
-  nav_msgs::Odometry Odometry(const Rigid3& pose) const {
-    nav_msgs::Odometry odometry;
-    odometry.header.stamp = ros::Time::now();
-    odometry.header.frame_id = "odom";
-    odometry.pose.pose = ToPoseMessage(pose);
-    for (int i = 0; i < 6; ++i) odometry.pose.covariance[7 * i] = variance_m2_;
-    return odometry;
-  }
-  void Answer(OperatorChallenge challenge) {
-    spoil_answer_(challenge);
-    if (has_operator_) answers_.push_back({Now() + answer_delay_s_, challenge});
-  }
-  void SendVelocity() {
-    velocity_due_s_ = Now() + 0.05;
-    geometry_msgs::Twist twist;
-    twist.linear.x = velocity_mps_;
-    velocity_.publish(twist);
-  }
-  void TellTime() {
-    rosgraph_msgs::Clock time;
-    time_s_ += time_rate_ * (Now() - told_s_);
-    told_s_ = Now();
-    time.clock.fromSec(time_s_);
-    clock_.publish(time);
-  }
-  void TakeStatus(const DriveStatus& status) {
-    status_ = status;
-    has_status_ = true;
-  }
-  void TakeReport(const GoalReport& report) { reports_.push_back(report); }
-
-  ros::NodeHandle node_;
-  ros::Publisher goal_, waypoints_, velocity_, emergency_stop_, odom_, odometry_status_, answer_,
-      clock_;
-  ros::Subscriber challenge_subscriber_, status_subscriber_, report_subscriber_;
-  tf2_ros::TransformBroadcaster broadcaster_;
-  bool has_status_ = false;
-  std::deque<std::pair<double, OperatorChallenge>> answers_;  // and when they are due
-  double sight_due_s_ = 0, velocity_due_s_ = 0, time_s_ = 0, told_s_ = 0;
-};
 
 // A loaded machine delays test and node alike; the fault table measures without it.
 constexpr double kPatience_s = 0.6;

@@ -10,6 +10,7 @@
 #include <console_bridge/console.h>
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
+#include <move_base_msgs/MoveBaseActionGoal.h>
 #include <ros/console.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 
@@ -49,6 +50,9 @@ TEST_F(MalformedDriving, Chassis) {
   diagnostics.status.resize(1);
   diagnostics.status[0].name = "head: pan-tilt";
   diagnostics.status[0].values.resize(1);
+  move_base_msgs::MoveBaseActionGoal asked;
+  asked.header.stamp = now;
+  asked.goal.target_pose = ValidGoal(now);
   FloodEach(SpoiltTopic(node, "/diagnostics", diagnostics),
             SpoiltTopic(node, "/tf", ValidTransforms(now)),
             SpoiltTopic(node, "/tf_static", ValidTransforms(now)),
@@ -56,6 +60,9 @@ TEST_F(MalformedDriving, Chassis) {
             SpoiltTopic(node, "status", OdometryStatus()),
             SpoiltTopic(node, "operator_answer", OperatorChallenge()),
             SpoiltTopic(node, "goal", ValidGoal(now)),
+            SpoiltTopic(node, "move_base_simple/goal", ValidGoal(now)),
+            SpoiltTopic(node, "move_base/goal", asked),
+            SpoiltTopic(node, "move_base/cancel", asked.goal_id),
             SpoiltTopic(node, "waypoints", ValidPath(now)), SpoiltTopic(node, "cmd_vel", velocity),
             SpoiltTopic(node, "emergency_stop", std_msgs::Bool()));
 }

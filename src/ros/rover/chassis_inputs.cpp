@@ -75,6 +75,14 @@ std::optional<Sighting> RoverSight::Look() const {
   }
 }
 
+geometry_msgs::PoseStamped RoverSight::BaseInMap(const Sighting& sighting) const {
+  geometry_msgs::PoseStamped base;
+  base.header.stamp = sighting.stamp;
+  base.header.frame_id = map_frame;
+  base.pose = ToPoseMessage(sighting.map_from_odom * sighting.odom_from_base);
+  return base;
+}
+
 PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s) {
   const auto& covariance = odometry.pose.covariance;
   PoseUncertainty uncertainty{taken_s, std::numeric_limits<double>::quiet_NaN(),

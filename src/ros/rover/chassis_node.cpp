@@ -51,6 +51,9 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
   Listen(node);
   challenge_ = node.advertise<OperatorChallenge>("operator_challenge", 1);
   Serve(private_node);
+  move_base_.emplace(
+      node, [this](const auto& goal) { return Drive(goal); },
+      [this] { driver_.pilot().CancelRoute(); });
   SetPace(node);
 }
 
@@ -60,6 +63,7 @@ void ChassisNode::Listen(ros::NodeHandle& node) {
         node.subscribe(topic, 10, callback, this, ros::TransportHints().tcpNoDelay()));
   };
   subscribe("goal", &ChassisNode::TakeGoal<geometry_msgs::PoseStamped>);
+  subscribe("move_base_simple/goal", &ChassisNode::TakeGoal<geometry_msgs::PoseStamped>);
   subscribe("waypoints", &ChassisNode::TakeGoal<nav_msgs::Path>);
   subscribe("cmd_vel", &ChassisNode::TakeVelocity);
   subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);
@@ -134,6 +138,7 @@ void ChassisNode::Tick() {
   Look(now_s);
   driver_.Tick(now_s);
   publisher_.Publish(now_s, driver_);
+  TellResults();
   updater_.update();
 }
 
@@ -155,8 +160,11 @@ void ChassisNode::Look(double now_s) {
   if (!sighting || is_clock_stalled) return driver_.pilot().ObserveNoPose();
   if (sighting->MapAge(ros::Time::now()) > options_.max_map_age_s)
     return driver_.pilot().ObserveNoPose(StopReason::kMapStale);
-  if (sighting->stamp != seen_) seen_s_ = clock_.At(sighting->stamp);
-  seen_ = sighting->stamp;
+  if (sighting->stamp != base_.header.stamp) {
+    seen_s_ = clock_.At(sighting->stamp);
+    base_ = sight_.BaseInMap(*sighting);
+    move_base_->Tell(base_);
+  }
   driver_.pilot().ObservePose(now_s, {seen_s_, sighting->odom_from_base, sighting->map_from_odom});
 }
 
@@ -175,17 +183,33 @@ void ChassisNode::Report(Diagnostics& diagnostics) const {
   diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }
 
+void ChassisNode::TellResults() {
+  for (const GoalResult& result : driver_.pilot().TakeResults()) {
+    publisher_.Publish(result);
+    // What has ended for its client is not driven to after the next start.
+    if (move_base_->Tell(result)) driver_.pilot().CancelRoute();
+  }
+}
+
 template <class Goal>
-void ChassisNode::TakeGoal(const Goal& goal) {
+std::string ChassisNode::Drive(const Goal& goal) {
   try {
     goal_reader_.RequireFresh(goal.header, ros::Time::now());
-    const Reply reply = driver_.pilot().SetRoute(Route{goal_reader_.Read(goal)});
+    const Route route{goal_reader_.Read(goal)};
+    const Reply reply = driver_.pilot().SetRoute(route);
     Require(reply.is_accepted, reply.text);
-    Tick();
+    TellResults();  // of the goal that is replaced
+    publisher_.PublishPlan(base_, route);
+    return "";
   } catch (const std::invalid_argument& error) {
-    ROS_WARN("%s", error.what());
     publisher_.PublishRefusal(error.what());
+    return error.what();
   }
+}
+
+template <class Goal>
+void ChassisNode::TakeGoal(const Goal& goal) {
+  if (Drive(goal).empty()) Tick();
 }
 
 void ChassisNode::TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event) {

@@ -1,5 +1,6 @@
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
+#include <nav_msgs/Path.h>
 #include <std_msgs/Bool.h>
 
 #include <utility>
@@ -40,7 +41,8 @@ ChassisPublisher::ChassisPublisher(ros::NodeHandle& node, const TrackKinematics&
       slip_(node.advertise<TrackSlip>("slip", 10)),
       chassis_(node.advertise<ChassisState>("chassis_state", 10)),
       battery_(node.advertise<sensor_msgs::BatteryState>("battery", 10)),
-      track_odom_(node.advertise<nav_msgs::Odometry>("track_odom", 10)) {}
+      track_odom_(node.advertise<nav_msgs::Odometry>("track_odom", 10)),
+      plan_(node.advertise<nav_msgs::Path>("plan", 10, true)) {}
 
 void ChassisPublisher::PublishStatus(double now_s, const PilotStatus& status) {
   const bool has_changed = !last_status_ || last_status_->state != status.state ||
@@ -75,14 +77,29 @@ void ChassisPublisher::PublishSlow(const PilotStatus& status, const ChassisLink&
 void ChassisPublisher::Publish(double now_s, ChassisDriver& driver) {
   const PilotStatus status = driver.pilot().Status();
   PublishStatus(now_s, status);
-  for (const GoalResult& result : driver.pilot().TakeResults())
-    report_.publish(Stamped(ToMessage(result), map_frame_));
   if (IsDue(now_s, kTracksPeriod_s, tracks_due_s_)) PublishTracks(driver.link().Readings());
   if (IsDue(now_s, kSlowPeriod_s, slow_due_s_)) PublishSlow(status, driver.link());
 }
 
 void ChassisPublisher::PublishRefusal(const std::string& reason) {
+  ROS_WARN("%s", reason.c_str());
   report_.publish(Stamped(RefusedGoal(reason), map_frame_));
+}
+
+void ChassisPublisher::Publish(const GoalResult& result) {
+  report_.publish(Stamped(ToMessage(result), map_frame_));
+  if (result.outcome != GoalOutcome::kBlocked) plan_.publish(Stamped(nav_msgs::Path(), map_frame_));
+}
+
+void ChassisPublisher::PublishPlan(const geometry_msgs::PoseStamped& base, const Route& route) {
+  auto path = Stamped(nav_msgs::Path(), map_frame_);
+  path.poses.push_back(base);
+  for (const auto& [x_m, y_m, heading_rad] : route) {
+    geometry_msgs::PoseStamped& place = path.poses.emplace_back();
+    place.header = path.header;
+    place.pose = ToMessage(RoverPose{x_m, y_m, heading_rad.value_or(0)});
+  }
+  plan_.publish(path);
 }
 
 }  // namespace arfm_vo

@@ -64,6 +64,7 @@ struct RoverSight {
 
   /// The newest pose; nothing where tf has none.
   std::optional<Sighting> Look() const;
+  geometry_msgs::PoseStamped BaseInMap(const Sighting& sighting) const;
 };
 
 /// The standard deviations that the covariance of `odometry` means, taken at driving time

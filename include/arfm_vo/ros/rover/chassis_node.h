@@ -16,6 +16,7 @@
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
+#include "arfm_vo/ros/rover/move_base_server.h"
 #include "arfm_vo/ros/rover/start_check.h"
 
 namespace arfm_vo {
@@ -76,8 +77,11 @@ class ChassisNode {
   void ChallengeOperator(double steady_s);
   void Look(double now_s);
   void Report(Diagnostics& diagnostics) const;
+  void TellResults();
 
-  /// A pose or a path.
+  /// A pose or a path. Says why it is refused.
+  template <class Goal>
+  std::string Drive(const Goal& goal);
   template <class Goal>
   void TakeGoal(const Goal& goal);
   void TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);
@@ -97,9 +101,9 @@ class ChassisNode {
   ChassisDriver driver_;
   ChassisPublisher publisher_;
   StartCheck check_;
-  ros::Time seen_;               // stamp of the newest sighting
-  double seen_s_ = 0;            // the same in driving time
-  ros::SteadyTime clock_moved_;  // when driving time last went on
+  geometry_msgs::PoseStamped base_;  // by the newest sighting, in the map
+  double seen_s_ = 0;                // its stamp in driving time
+  ros::SteadyTime clock_moved_;      // when driving time last went on
   double last_tick_s_ = 0;
   long num_odometry_refused_ = 0;  // from the future
   std::random_device random_;
@@ -107,6 +111,7 @@ class ChassisNode {
   diagnostic_updater::Updater updater_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
+  std::optional<MoveBaseServer> move_base_;
   ros::Timer timer_;
   ros::SteadyTimer steady_timer_;
 };

@@ -4,6 +4,7 @@
 #include <arfm_vo/DriveStatus.h>
 #include <arfm_vo/GoalReport.h>
 #include <arfm_vo/TrackSlip.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/BatteryState.h>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/track_odometry.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/ros/node/health.h"
@@ -27,6 +29,7 @@ TrackSlip ToMessage(const Slip& slip);
 ChassisState ToChassisMessage(const ChassisLink& link);
 /// What is not known is NaN, as the message's definition asks.
 sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings);
+geometry_msgs::Pose ToMessage(const RoverPose& pose);
 /// The pose by the tracks in `header.frame_id`, with a covariance that says how little it is worth.
 nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMotion& motion);
 
@@ -35,7 +38,8 @@ nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMot
 void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnostics& diagnostics);
 
 /// Tells by topics what the chassis and its pilot do: drive_status (latched, at 5 Hz and at every
-/// change), goal_report and motion_warning (latched), slip, chassis_state, battery and track_odom.
+/// change), goal_report, plan and motion_warning (latched), slip, chassis_state, battery and
+/// track_odom.
 class ChassisPublisher {
  public:
   ChassisPublisher(ros::NodeHandle& node, const TrackKinematics& kinematics, std::string map_frame,
@@ -43,7 +47,11 @@ class ChassisPublisher {
 
   /// Publishes what is due at driving time `now_s`; to be called after each tick.
   void Publish(double now_s, ChassisDriver& driver);
+  /// Warns in the log too.
   void PublishRefusal(const std::string& reason);
+  void Publish(const GoalResult& result);
+  /// The path from `base` by way of all waypoints; an empty one follows when the route has ended.
+  void PublishPlan(const geometry_msgs::PoseStamped& base, const Route& route);
 
  private:
   void PublishStatus(double now_s, const PilotStatus& status);
@@ -57,7 +65,7 @@ class ChassisPublisher {
   std::optional<PilotStatus> last_status_;
   std::optional<bool> last_warning_;
   double status_due_s_ = 0, tracks_due_s_ = 0, slow_due_s_ = 0;
-  ros::Publisher status_, report_, warning_, slip_, chassis_, battery_, track_odom_;
+  ros::Publisher status_, report_, warning_, slip_, chassis_, battery_, track_odom_, plan_;
 };
 
 }  // namespace arfm_vo

@@ -1,0 +1,53 @@
+#include "arfm_vo/ros/rover/move_base_server.h"
+
+#include <utility>
+
+#include "arfm_vo/ros/rover/chassis_publisher.h"
+
+namespace arfm_vo {
+
+MoveBaseServer::MoveBaseServer(const ros::NodeHandle& node, Drive drive,
+                               std::function<void()> cancel)
+    : ActionServer(node, "move_base", false), drive_(std::move(drive)) {
+  registerGoalCallback([this](GoalHandle goal) { Take(std::move(goal)); });
+  registerCancelCallback([this, cancel = std::move(cancel)](const GoalHandle& goal) {
+    if (driven_ && goal == *driven_) cancel();
+  });
+  start();
+}
+
+void MoveBaseServer::Take(GoalHandle goal) {
+  // A handle hides the action's header, and fills a stamp that is missing with the time of arrival.
+  const move_base_msgs::MoveBaseActionGoal& asked = *status_list_.back().goal_;
+  geometry_msgs::PoseStamped pose = asked.goal.target_pose;
+  if (pose.header.stamp.isZero()) pose.header.stamp = asked.header.stamp;
+  const std::string flaw = drive_(pose);
+  if (!flaw.empty()) return goal.setRejected(Result(), flaw);
+  goal.setAccepted();
+  driven_ = std::move(goal);
+}
+
+bool MoveBaseServer::Tell(const GoalResult& result) {
+  if (!driven_) return false;
+  GoalHandle goal = *std::exchange(driven_, std::nullopt);
+  const std::string text = ToMessage(result).text;
+  const bool is_by_hand =
+      result.reason == StopReason::kNone || result.reason == StopReason::kStopped;
+  if (result.outcome == GoalOutcome::kArrived) {
+    goal.setSucceeded(Result(), text);
+  } else if (result.outcome == GoalOutcome::kBlocked || !is_by_hand) {
+    goal.setAborted(Result(), text);
+  } else {
+    goal.setCanceled(Result(), text);
+  }
+  return result.outcome == GoalOutcome::kBlocked;
+}
+
+void MoveBaseServer::Tell(const geometry_msgs::PoseStamped& base) {
+  if (!driven_) return;
+  Feedback feedback;
+  feedback.base_position = base;
+  driven_->publishFeedback(feedback);
+}
+
+}  // namespace arfm_vo

@@ -1,0 +1,170 @@
+#include "nodes/chassis/chassis_world.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_msgs/Bool.h>
+
+#include <stdexcept>
+
+#include "arfm_vo/ros/messages/conversions.h"
+
+namespace arfm_vo {
+
+World::World()
+    : chassis_(OpenChassisBus(), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
+      goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
+      waypoints_(node_.advertise<nav_msgs::Path>("waypoints", 1)),
+      velocity_(node_.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
+      emergency_stop_(node_.advertise<std_msgs::Bool>("emergency_stop", 1, true)),
+      odom_(node_.advertise<nav_msgs::Odometry>("odom", 1)),
+      odometry_status_(node_.advertise<OdometryStatus>("status", 1)),
+      answer_(node_.advertise<OperatorChallenge>("operator_answer", 10)),
+      clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 1)),
+      challenge_subscriber_(node_.subscribe("operator_challenge", 20, &World::Answer, this)),
+      status_subscriber_(node_.subscribe("drive_status", 20, &World::TakeStatus, this)),
+      report_subscriber_(node_.subscribe("goal_report", 20, &World::TakeReport, this)) {}
+
+std_srvs::Trigger::Response World::Call(const std::string& service) {
+  std_srvs::Trigger trigger;
+  EXPECT_TRUE(ros::service::call("chassis_node/" + service, trigger)) << service;
+  return trigger.response;
+}
+
+void World::SendGoal(double x_m, double y_m, const std::string& frame) {
+  geometry_msgs::PoseStamped goal;
+  goal.header.frame_id = frame;
+  goal.header.stamp = goal_stamp_.value_or(ros::Time::now());
+  goal.pose.position.x = x_m;
+  goal.pose.position.y = y_m;
+  goal.pose.orientation.w = 1;
+  goal_.publish(goal);
+}
+
+void World::SendWaypoints(const std::vector<Eigen::Vector2d>& places) {
+  nav_msgs::Path path;
+  path.header.frame_id = "map";
+  path.header.stamp = ros::Time::now();
+  for (const Eigen::Vector2d& place : places) {
+    path.poses.emplace_back();
+    path.poses.back().header = path.header;
+    path.poses.back().pose.position.x = place.x();
+    path.poses.back().pose.position.y = place.y();
+    path.poses.back().pose.orientation.w = 1;
+  }
+  waypoints_.publish(path);
+}
+
+void World::SetEmergencyStop(bool is_set) {
+  std_msgs::Bool message;
+  message.data = is_set;
+  emergency_stop_.publish(message);
+}
+
+bool World::IsConnected() {
+  return RunUntil([this] {
+    return goal_.getNumSubscribers() > 0 && waypoints_.getNumSubscribers() > 0 &&
+           velocity_.getNumSubscribers() > 0 && odom_.getNumSubscribers() > 0 &&
+           emergency_stop_.getNumSubscribers() > 0 && answer_.getNumSubscribers() > 0 &&
+           odometry_status_.getNumSubscribers() > 0 && has_status_;
+  });
+}
+
+void World::RestartOdometry() {
+  odometry_status_.shutdown();
+  odometry_status_ = node_.advertise<OdometryStatus>("status", 1);
+  odom_from_world_ = chassis_.plant().WorldFromBase().Inverse();
+}
+
+void World::SendStampsOfTheEnd() {
+  geometry_msgs::TransformStamped transform = Transform("odom", "base_link", Rigid3());
+  transform.header.stamp = ros::TIME_MAX;
+  broadcaster_.sendTransform(transform);
+  nav_msgs::Odometry odometry = Odometry(Rigid3());
+  odometry.header.stamp = ros::TIME_MAX;
+  odom_.publish(odometry);
+  goal_stamp_ = ros::TIME_MAX;
+  SendGoal(1, 0);
+  goal_stamp_.reset();
+}
+
+std::unique_ptr<CanBus> World::OpenChassisBus() {
+  std::string address;
+  if (!ros::param::get("~can", address)) throw std::runtime_error("no parameter ~can");
+  return std::make_unique<TappedBus>(OpenCanBus(address), &log_);
+}
+
+geometry_msgs::TransformStamped World::Transform(const std::string& parent,
+                                                 const std::string& child, const Rigid3& pose) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time::now();
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform = ToTransformMessage(pose);
+  return transform;
+}
+
+void World::See() {
+  sight_due_s_ = Now() + 0.05;
+  if (has_map_) broadcaster_.sendTransform(Transform("map", "odom", Rigid3()));
+  if (!has_sight_) return;
+  const Rigid3 pose = odom_from_world_ * chassis_.plant().WorldFromBase();
+  odom_.publish(Odometry(pose));
+  broadcaster_.sendTransform(Transform("odom", "base_link", pose));
+  OdometryStatus status;
+  status.header.stamp = ros::Time::now();
+  status.epoch = 1;
+  status.num_features = status.num_stereo_points = 300;
+  odometry_status_.publish(status);
+}
+
+nav_msgs::Odometry World::Odometry(const Rigid3& pose) const {
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = ros::Time::now();
+  odometry.header.frame_id = "odom";
+  odometry.pose.pose = ToPoseMessage(pose);
+  for (int i = 0; i < 6; ++i) odometry.pose.covariance[7 * i] = variance_m2_;
+  return odometry;
+}
+
+void World::Answer(OperatorChallenge challenge) {
+  spoil_answer_(challenge);
+  if (has_operator_) answers_.push_back({Now() + answer_delay_s_, challenge});
+}
+
+void World::SendVelocity() {
+  velocity_due_s_ = Now() + 0.05;
+  geometry_msgs::Twist twist;
+  twist.linear.x = velocity_mps_;
+  velocity_.publish(twist);
+}
+
+void World::TellTime() {
+  rosgraph_msgs::Clock time;
+  time_s_ += time_rate_ * (Now() - told_s_);
+  told_s_ = Now();
+  time.clock.fromSec(time_s_);
+  clock_.publish(time);
+}
+
+bool World::RunUntil(const std::function<bool()>& done, double limit_s) {
+  const double end_s = Now() + limit_s;
+  double looked_s = Now();
+  while (ros::ok() && Now() < end_s && !done()) {
+    held_up_s_ = std::max(held_up_s_, Now() - looked_s);
+    looked_s = Now();
+    chassis_.Tick(Now());
+    if (has_clock_ && ros::Time::isSimTime()) TellTime();
+    if (has_clock_ && Now() >= sight_due_s_) See();
+    for (; !answers_.empty() && Now() >= answers_.front().first; answers_.pop_front())
+      answer_.publish(answers_.front().second);
+    if (velocity_mps_ != 0 && Now() >= velocity_due_s_) SendVelocity();
+    ros::spinOnce();
+    ros::WallDuration(0.002).sleep();
+  }
+  return done();
+}
+
+}  // namespace arfm_vo
