@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <regex>
 
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
 
-// chassis_node in a world of its own. Wall time, but in clock_stall.test, where the test is the
-// clock.
+// chassis_node in a world of its own: wall time, but in clock_stall.test, where it is the clock.
 
 namespace arfm_vo {
 namespace {
