@@ -63,7 +63,6 @@ void ChassisNode::Listen(ros::NodeHandle& node) {
         node.subscribe(topic, 10, callback, this, ros::TransportHints().tcpNoDelay()));
   };
   subscribe("goal", &ChassisNode::TakeGoal<geometry_msgs::PoseStamped>);
-  subscribe("move_base_simple/goal", &ChassisNode::TakeGoal<geometry_msgs::PoseStamped>);
   subscribe("waypoints", &ChassisNode::TakeGoal<nav_msgs::Path>);
   subscribe("cmd_vel", &ChassisNode::TakeVelocity);
   subscribe("emergency_stop", &ChassisNode::TakeEmergencyStop);

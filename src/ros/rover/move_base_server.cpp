@@ -1,19 +1,28 @@
 #include "arfm_vo/ros/rover/move_base_server.h"
 
+#include <boost/make_shared.hpp>
 #include <utility>
 
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
 
-MoveBaseServer::MoveBaseServer(const ros::NodeHandle& node, Drive drive,
-                               std::function<void()> cancel)
-    : ActionServer(node, "move_base", false), drive_(std::move(drive)) {
+MoveBaseServer::MoveBaseServer(ros::NodeHandle& node, Drive drive, std::function<void()> cancel)
+    : ActionServer(node, "move_base", false),
+      drive_(std::move(drive)),
+      clicks_(node.subscribe("move_base_simple/goal", 10, &MoveBaseServer::TakeClick, this)) {
   registerGoalCallback([this](GoalHandle goal) { Take(std::move(goal)); });
   registerCancelCallback([this, cancel = std::move(cancel)](const GoalHandle& goal) {
     if (driven_ && goal == *driven_) cancel();
   });
   start();
+}
+
+void MoveBaseServer::TakeClick(const geometry_msgs::PoseStamped& pose) {
+  const auto asked = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
+  asked->header = pose.header;
+  asked->goal.target_pose = pose;
+  goalCallback(asked);
 }
 
 void MoveBaseServer::Take(GoalHandle goal) {

@@ -151,6 +151,8 @@ TEST_F(MoveBaseTest, ANewGoalReplacesTheOldOneOfWhoeverItIs) {
   ExpectEnd(other, "PREEMPTED", "replaced");
   EXPECT_TRUE(world_->RunUntil([] { return world_->status_.has_goal; }));
   ExpectPlan(2);
+  other.cancelAllGoals();
+  ExpectToStandWithoutAGoal();
 }
 
 TEST_F(MoveBaseTest, CancelStopsTheRover) {

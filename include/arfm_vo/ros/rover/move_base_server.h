@@ -12,9 +12,10 @@
 
 namespace arfm_vo {
 
-/// The action move_base: tells its clients what the pilot makes of their goals. The rover has one
-/// goal, be it of a client or of a topic; a new one that is taken replaces it. Whether a client
-/// still lives does not count. To be used by one thread.
+/// The action move_base: tells its clients what the pilot makes of their goals. One that comes by
+/// move_base_simple/goal is a goal of the action too, as it is with the node move_base. The rover
+/// has one goal, be it of a client or of another topic; a new one that is taken replaces it.
+/// Whether a client still lives does not count. To be used by one thread.
 class MoveBaseServer : private actionlib::ActionServer<move_base_msgs::MoveBaseAction> {
  public:
   /// Drives to a goal, or says why not.
@@ -22,7 +23,7 @@ class MoveBaseServer : private actionlib::ActionServer<move_base_msgs::MoveBaseA
 
   /// Takes goals from now on. A pose without a stamp gets that of its action's header. `cancel`
   /// drops the goal that is driven to.
-  MoveBaseServer(const ros::NodeHandle& node, Drive drive, std::function<void()> cancel);
+  MoveBaseServer(ros::NodeHandle& node, Drive drive, std::function<void()> cancel);
 
   /// What became of the goal that was driven to; it has ended for its client. Says whether the
   /// pilot keeps a client's goal that is blocked, and is to drop it.
@@ -31,10 +32,12 @@ class MoveBaseServer : private actionlib::ActionServer<move_base_msgs::MoveBaseA
   void Tell(const geometry_msgs::PoseStamped& base);
 
  private:
+  void TakeClick(const geometry_msgs::PoseStamped& pose);
   void Take(GoalHandle goal);
 
   Drive drive_;
   std::optional<GoalHandle> driven_;
+  ros::Subscriber clicks_;
 };
 
 }  // namespace arfm_vo
