@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
 in    goal, move_base_simple/goal (geometry_msgs/PoseStamped), waypoints (nav_msgs/Path), cmd_vel,
       emergency_stop (std_msgs/Bool), odom, operator_answer, /diagnostics
 act   move_base (move_base_msgs/MoveBaseAction)
-out   drive_status, goal_report, plan (nav_msgs/Path), track_odom (nav_msgs/Odometry), slip, chassis_state, battery, operator_challenge,
-      /diagnostics
+out   drive_status, goal_report, plan (nav_msgs/Path), track_odom (nav_msgs/Odometry), slip, chassis_state, battery,
+      operator_challenge, /diagnostics
 tf    in map_frame and odom_frame -> base_frame
 srv   ~check, ~start, ~stop, ~cancel, ~clear_errors (std_srvs/Trigger))");
 }
