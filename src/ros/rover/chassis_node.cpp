@@ -135,6 +135,7 @@ void ChassisNode::Tick() {
   // Not by driving time: simulated time may stand still, or run slowly.
   ChallengeOperator(ros::SteadyTime::now().toSec());
   Look(now_s);
+  move_base_->Spin();
   driver_.Tick(now_s);
   publisher_.Publish(now_s, driver_);
   TellResults();

@@ -1,21 +1,43 @@
 #include "arfm_vo/ros/rover/move_base_server.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
+namespace {
+
+ros::NodeHandle CalledBy(ros::CallbackQueue& queue, ros::NodeHandle node) {
+  node.setCallbackQueue(&queue);
+  return node;
+}
+
+}  // namespace
 
 MoveBaseServer::MoveBaseServer(ros::NodeHandle& node, Drive drive, std::function<void()> cancel)
-    : ActionServer(node, "move_base", false),
+    : ActionServer(CalledBy(queue_, node), "move_base", false),
       drive_(std::move(drive)),
-      clicks_(node.subscribe("move_base_simple/goal", 10, &MoveBaseServer::TakeClick, this)) {
+      clicks_(CalledBy(queue_, node)
+                  .subscribe("move_base_simple/goal", 10, &MoveBaseServer::TakeClick, this)) {
   registerGoalCallback([this](GoalHandle goal) { Take(std::move(goal)); });
   registerCancelCallback([this, cancel = std::move(cancel)](const GoalHandle& goal) {
     if (driven_ && goal == *driven_) cancel();
   });
   start();
+}
+
+void MoveBaseServer::Spin() {
+  constexpr int kMaxCalls = 10;
+  for (int i = 0; i < kMaxCalls; ++i) {
+    if (queue_.callOne(ros::WallDuration()) != ros::CallbackQueue::Called) return;
+    // actionlib takes stamps as they come: adding to the largest throws, out of whatever is next.
+    const ros::Time now = ros::Time::now();
+    for (auto& goal : status_list_)
+      goal.handle_destruction_time_ = std::min(goal.handle_destruction_time_, now);
+    last_cancel_ = std::min(last_cancel_, now);
+  }
 }
 
 void MoveBaseServer::TakeClick(const geometry_msgs::PoseStamped& pose) {
