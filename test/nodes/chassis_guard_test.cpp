@@ -74,9 +74,11 @@ class GuardedNodeTest : public ::testing::Test {
     bool moves = false;
     for (int i = 0; i < 10 && !moves; ++i) {
       std_srvs::Trigger start;
+      velocity_due_s_ = Now() + 60;  // a start is refused while a velocity is commanded
       RunUntil([&] {
         return ros::service::call("/guarded/chassis_node/start", start) && start.response.success;
       });
+      velocity_due_s_ = 0;
       moves = Moves();
     }
     ASSERT_TRUE(moves) << status_.state_text << ": " << status_.reason << " " << status_.detail;
