@@ -70,7 +70,8 @@ TEST(ChassisFuzz, NoFrameMakesAStartedRoverExceedItsLimits) {
     state.mode = ControlMode::kCan;
     state.count = static_cast<uint8_t>(i / 20);
     other->Send(EncodeFrame(state));
-    driver.pilot().Start(now_s);  // whenever a fuzzed frame has blocked it
+    driver.pilot().SetVelocity(now_s, {});  // no start while a velocity is commanded
+    driver.pilot().Start(now_s);            // whenever a fuzzed frame has blocked it
     driver.pilot().SetVelocity(now_s, {0.1, 0});
     driver.Tick(now_s);
     while (const auto frame = other->Receive()) {

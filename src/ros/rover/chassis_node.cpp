@@ -51,7 +51,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
   Listen(node);
   challenge_ = node.advertise<OperatorChallenge>("operator_challenge", 1);
   Serve(private_node);
-  move_base_.emplace(
+  move_base_ = std::make_unique<MoveBaseServer>(
       node, [this](const auto& goal) { return Drive(goal); },
       [this] { driver_.pilot().CancelRoute(); });
   SetPace(node);

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
 
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -111,7 +112,7 @@ class ChassisNode {
   diagnostic_updater::Updater updater_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
-  std::optional<MoveBaseServer> move_base_;
+  std::unique_ptr<MoveBaseServer> move_base_;
   ros::Timer timer_;
   ros::SteadyTimer steady_timer_;
 };
