@@ -27,12 +27,16 @@ void Pilot::ObserveClockSet(double now_s, double step_s) {
   Distrust({StopReason::kClockSet, Format("by %+.2f s", step_s)});
 }
 
-std::vector<CheckLine> Pilot::Check(double now_s) const {
+std::vector<CheckLine> Pilot::Check(double now_s, const std::string& released) const {
   const auto chassis = chassis_.FindFault(now_s);
-  const bool is_free = emergency_sources_.empty(), is_alone = operator_.IsMissing();
+  const bool is_free = emergency_sources_.size() == emergency_sources_.count(released);
+  const bool is_alone = operator_.IsMissing();
   const bool was_set = clock_set_s_ && now_s - *clock_set_s_ <= kOldStamps_s;
   std::vector<CheckLine> lines = {
-      {"emergency_stop", is_free, is_free ? "none is set" : Join(emergency_sources_)},
+      {"emergency_stop", is_free,
+       emergency_sources_.empty()
+           ? "none is set"
+           : Join(emergency_sources_) + (is_free ? ", which a start ends" : "")},
       {"operator", !is_alone,
        is_alone ? "does not answer " + operator_.DescribeRefused() : "answers or is not required"},
       {"chassis", !chassis, chassis ? ToString(*chassis) : "answers"},

@@ -54,6 +54,15 @@ TEST_F(PilotTest, AClockThatIsSetDropsTheGoalAndBlocks) {
   EXPECT_FALSE(pilot_.Status().has_goal);
 }
 
+TEST_F(PilotTest, AnEmergencyStopThatTheStartClearsDoesNotForbidIt) {
+  pilot_.SetEmergencyStop("guard", true);
+  EXPECT_EQ(pilot_.Check(now_s_, "guard")[0].ToString(),
+            "yes emergency_stop: by guard, which a start ends");
+  EXPECT_EQ(pilot_.Check(now_s_)[0].ToString(), "no emergency_stop: by guard");
+  pilot_.SetEmergencyStop("/button", true);
+  EXPECT_EQ(pilot_.Check(now_s_, "guard")[0].is_well, false);
+}
+
 TEST_F(PilotTest, TheCheckTellsEachWatch) {
   const auto lines = [this] {
     std::string text;

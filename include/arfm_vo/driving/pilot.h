@@ -63,9 +63,9 @@ class Pilot {
   MotionWatch& motion_watch() { return motion_watch_; }
 
   DriveCommand Tick(double now_s);
-
-  /// The start-up check, as far as the watches know; Start looks at a part of it.
-  std::vector<CheckLine> Check(double now_s) const;
+  /// The start-up check, as far as the watches know; Start looks at a part of it. An emergency stop
+  /// by `released` alone is none: who starts the rover clears it before.
+  std::vector<CheckLine> Check(double now_s, const std::string& released = "") const;
 
   PilotStatus Status() const;
   /// What became of goals since the last call.

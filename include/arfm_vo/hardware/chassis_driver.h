@@ -12,6 +12,8 @@ namespace arfm_vo {
 /// after whatever must not wait; `now_s` is a time that never jumps.
 class ChassisDriver {
  public:
+  static constexpr char kGuard[] = "chassis_guard";  ///< source of its emergency stops
+
   ChassisDriver(const PilotOptions& options, std::unique_ptr<CanBus> bus);
   /// Leaves the rover standing, in standby.
   ~ChassisDriver();
@@ -34,8 +36,7 @@ class ChassisDriver {
  private:
   void Take(double now_s, const ChassisFeedback& feedback);
   void ObserveGuard() {
-    if (const auto stop = link_.GuardStop())
-      pilot_.SetEmergencyStop("chassis_guard", !stop->empty());
+    if (const auto stop = link_.GuardStop()) pilot_.SetEmergencyStop(kGuard, !stop->empty());
   }
 
   Pilot pilot_;

@@ -102,7 +102,7 @@ CheckLine StartCheck::CheckHead(const Told& head, std::optional<double> contradi
 }
 
 std::vector<CheckLine> StartCheck::List(double now_s) const {
-  std::vector<CheckLine> lines = driver_.pilot().Check(now_s);
+  std::vector<CheckLine> lines = driver_.pilot().Check(now_s, ChassisDriver::kGuard);
   lines.push_back(CheckBrake(driver_.link().Readings()));
   lines.push_back(CheckBattery(driver_.link().Readings()));
   lines.push_back(CheckCalibration());
