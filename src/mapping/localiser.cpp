@@ -21,7 +21,7 @@ void Localiser::Keep(KnownMap known, size_t max_points) {
   map_ = std::move(known);
   first_of_drive_ = map_.keyframes.size();
   if (!map_.keyframes.empty()) {
-    finder_ = std::make_shared<PlaceFinder>(map_.camera);
+    finder_.emplace(map_.camera);
     finder_->Add(map_.keyframes, 0);
   }
   BeginEpoch();
@@ -40,7 +40,7 @@ void Localiser::Close(std::vector<KnownKeyframe> epoch, const StereoCamera& came
   const size_t first = map_.keyframes.size();
   if (!finder_ && is_kept()) {
     map_.camera = camera;
-    finder_ = std::make_shared<PlaceFinder>(camera);
+    finder_.emplace(camera);
   }
   for (KnownKeyframe& keyframe : epoch) {
     if (!is_kept() || !(camera == map_.camera)) keyframe.points = Place();
@@ -51,7 +51,7 @@ void Localiser::Close(std::vector<KnownKeyframe> epoch, const StereoCamera& came
     finder_->Add(map_.keyframes, first);
     if (NumPoints(map_.keyframes) > max_points_) {
       KeepAtMost(max_points_, map_.keyframes);
-      finder_ = std::make_shared<PlaceFinder>(map_.camera);
+      finder_.emplace(map_.camera);
       finder_->Add(map_.keyframes, 0);
     }
   }
@@ -76,7 +76,15 @@ KnownMap Localiser::WithNewest(std::vector<KnownKeyframe> epoch, const StereoCam
 
 MapState Localiser::state() const {
   if (is_localised_) return MapState::kLocalised;
-  return finder_ && finder_->KnowsOtherThan(own_frame_) ? MapState::kLocalising : MapState::kNewMap;
+  return KnowsOtherFrames() ? MapState::kLocalising : MapState::kNewMap;
+}
+
+/// Of which something is kept to be recognised by.
+bool Localiser::KnowsOtherFrames() const {
+  const auto is_other = [this](const KnownKeyframe& keyframe) {
+    return !keyframe.points.empty() && keyframe.frame != own_frame_;
+  };
+  return std::any_of(map_.keyframes.begin(), map_.keyframes.end(), is_other);
 }
 
 std::optional<Rigid3> Localiser::Localise(const std::vector<SeenPoint>& view, int number,
@@ -84,7 +92,7 @@ std::optional<Rigid3> Localiser::Localise(const std::vector<SeenPoint>& view, in
                                           const Rigid3& map_from_world,
                                           const Rigid3& map_from_odom) {
   if (is_localised_ && number % kInterval != 0) return std::nullopt;
-  const auto place = finder_->Find(view, number, camera_from_world, own_frame_);
+  const auto place = finder_->Find(view, number, camera_from_world, map_.keyframes, own_frame_);
   if (!place) return std::nullopt;
   const Rigid3 other_from_own =
       place->map_from_camera * camera_from_world(number) * map_from_world.Inverse();
@@ -121,7 +129,7 @@ void Localiser::MoveFrame(int from, int to, const Rigid3& to_from_from) {
     keyframe.frame = to;
     keyframe.map_from_camera = to_from_from * keyframe.map_from_camera;
   }
-  if (finder_) finder_->MoveFrame(from, to, to_from_from);
+  if (finder_) finder_->ForgetSightings();
   if (own_frame_ == from) own_frame_ = to;
 }
 

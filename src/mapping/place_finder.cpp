@@ -19,32 +19,17 @@ constexpr double kSigma_rad = 2e-3, kSigma_m = 1e-2, kSigmaShare = 1e-2;
 
 }  // namespace
 
-void PlaceFinder::Add(const std::vector<KnownKeyframe>& keyframes, size_t first) {
-  for (size_t i = first; i < keyframes.size(); ++i) {
-    const KnownKeyframe& keyframe = keyframes[i];
-    if (keyframe.points.empty()) continue;
-    recogniser_.Add(keyframe.points);
-    places_.push_back({i, keyframe.frame, keyframe.map_from_camera});
+void PlaceFinder::Add(const std::vector<KnownKeyframe>& known, size_t first) {
+  for (size_t i = first; i < known.size(); ++i) {
+    if (known[i].points.empty()) continue;
+    recogniser_.Add(known[i].points);
+    places_.push_back(i);
   }
-}
-
-bool PlaceFinder::KnowsOtherThan(int frame) const {
-  return std::any_of(places_.begin(), places_.end(),
-                     [&](const KnownPlace& place) { return place.frame != frame; });
-}
-
-void PlaceFinder::MoveFrame(int from, int to, const Rigid3& to_from_from) {
-  for (KnownPlace& place : places_) {
-    if (place.frame != from) continue;
-    place.frame = to;
-    place.map_from_camera = to_from_from * place.map_from_camera;
-  }
-  ForgetSightings();
 }
 
 bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest,
-                        const Rigid3& newest_from_earlier) const {
-  if (places_[earlier.place].frame != places_[newest.place].frame) return false;
+                        const Rigid3& newest_from_earlier) {
+  if (earlier.frame != newest.frame) return false;
   // The error is in the newest camera's frame; that of the earlier sighting is carried there.
   const Rigid3 error =
       newest.camera_from_map * (newest_from_earlier * earlier.camera_from_map).Inverse();
@@ -59,12 +44,14 @@ bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest,
 
 std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view, int number,
                                             const std::function<Rigid3(int)>& camera_from_world,
+                                            const std::vector<KnownKeyframe>& known,
                                             int own_frame) {
   const auto found = recogniser_.Find(
-      view, [&](int place, PlacePoint&) { return places_[place].frame != own_frame; });
+      view, [&](int place, PlacePoint&) { return known[places_[place]].frame != own_frame; });
   if (!found) return std::nullopt;
-  const KnownPlace& place = places_[found->place];
-  const Sighting newest{number, found->place,
+  const size_t keyframe = places_[found->place];
+  const KnownKeyframe& place = known[keyframe];
+  const Sighting newest{number, place.frame,
                         found->pose.camera_from_world * place.map_from_camera.Inverse(),
                         found->pose.covariance};
   const Rigid3 newest_from_world = camera_from_world(number);
@@ -76,7 +63,7 @@ std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view, 
   sightings_.push_back(newest);
   if (sightings_.size() > kMaxSightings) sightings_.pop_front();
   if (num_agreeing < kMinAgreeing) return std::nullopt;
-  return FoundPlace{place.keyframe, newest.camera_from_map.Inverse()};
+  return FoundPlace{keyframe, newest.camera_from_map.Inverse()};
 }
 
 }  // namespace arfm_vo

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +39,7 @@ class Localiser {
                                  const Rigid3& map_from_world, const Rigid3& map_from_odom);
   /// Whether there is what Localise could find with this camera.
   bool MayLocalise(const StereoCamera& camera) const {
-    return finder_ && camera == map_.camera && finder_->KnowsOtherThan(own_frame_);
+    return camera == map_.camera && KnowsOtherFrames();
   }
   /// A person states where the rover stands, which is `new_from_old` from where it was believed to
   /// be. All in the map frame moves; of a map that is kept the newest epoch alone, which is looked
@@ -59,13 +58,14 @@ class Localiser {
 
  private:
   void BeginEpoch();
+  bool KnowsOtherFrames() const;
   bool Contradicts(const Rigid3& map_from_odom) const;
   void MoveFrame(int from, int to, const Rigid3& to_from_from);
 
   size_t max_points_ = 0;
   KnownMap map_;
   size_t first_of_drive_ = 0;
-  std::shared_ptr<PlaceFinder> finder_;  ///< in map_
+  std::optional<PlaceFinder> finder_;  ///< in map_
   int own_frame_ = 0;
   bool is_localised_ = false;
   std::optional<StatedPose> stated_;

@@ -23,37 +23,30 @@ class PlaceFinder {
  public:
   explicit PlaceFinder(const StereoCamera& camera) : recogniser_(camera) {}
   /// Knows those from `first` on that have points, too.
-  void Add(const std::vector<KnownKeyframe>& keyframes, size_t first);
+  void Add(const std::vector<KnownKeyframe>& known, size_t first);
 
   /// Looks for the newest keyframe of a drive, `number`, among places of other frames than
-  /// `own_frame`. `camera_from_world` tells where any of the drive's keyframes is known to be by
-  /// now.
+  /// `own_frame`; `known` is what was added, where it lies by now. `camera_from_world` tells where
+  /// any of the drive's keyframes is known to be by now.
   std::optional<FoundPlace> Find(const std::vector<SeenPoint>& view, int number,
                                  const std::function<Rigid3(int)>& camera_from_world,
-                                 int own_frame);
+                                 const std::vector<KnownKeyframe>& known, int own_frame);
   /// What was recognised before is of another drive, or of other frames.
   void ForgetSightings() { sightings_.clear(); }
-  void MoveFrame(int from, int to, const Rigid3& to_from_from);
-  bool KnowsOtherThan(int frame) const;
 
  private:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  struct KnownPlace {
-    size_t keyframe = 0;
-    int frame = 0;
-    Rigid3 map_from_camera;
-  };
   struct Sighting {
     int number = 0;  ///< of the drive's keyframe
-    int place = 0;
+    int frame = 0;   ///< of the place
     Rigid3 camera_from_map;
     Matrix6 covariance;  ///< of the steps of BoxPlus(camera_from_map, .)
   };
-  bool Agree(const Sighting& earlier, const Sighting& newest,
-             const Rigid3& newest_from_earlier) const;
+  static bool Agree(const Sighting& earlier, const Sighting& newest,
+                    const Rigid3& newest_from_earlier);
 
   PlaceRecogniser recogniser_;
-  std::vector<KnownPlace> places_;
+  std::vector<size_t> places_;      ///< [places of recogniser_] their keyframes
   std::deque<Sighting> sightings_;  ///< the newest ones
 };
 
