@@ -33,13 +33,16 @@ void KeepDistinct(std::vector<KnownKeyframe>& keyframes, size_t first, double mi
 
 }  // namespace
 
+double MedianDistance(const Place& place) {
+  std::vector<double> distances_m;
+  for (const PlacePoint& point : place) distances_m.push_back(point.x_in_place.norm());
+  return Median(std::move(distances_m));
+}
+
 void KnownKeyframe::SetPoints(Place seen) {
   points = std::move(seen);
   if (static_cast<int>(points.size()) < RecognitionPose().min_inliers) points = Place();
-  if (points.empty()) return;
-  std::vector<double> distances_m;
-  for (const PlacePoint& point : points) distances_m.push_back(point.x_in_place.norm());
-  distance_m = Median(std::move(distances_m));
+  if (!points.empty()) distance_m = MedianDistance(points);
 }
 
 size_t NumPoints(const std::vector<KnownKeyframe>& keyframes) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/number_rows.h"
@@ -163,6 +164,8 @@ void CheckSameCamera(const KnownMap& map, const StereoCamera& other) {
   check("baseline", map.camera.baseline_m, other.baseline_m);
 }
 
+size_t MaxPoints(size_t max_bytes) { return max_bytes / kPointSize; }
+
 std::string FormatMap(KnownMap map, size_t max_bytes) {
   Require(max_bytes >= 100000, "a map needs 100 kB");
   const size_t fixed = kHeaderSize + map.frame_id.size() + sizeof(CorrectionBelief) + 100;
@@ -172,16 +175,19 @@ std::string FormatMap(KnownMap map, size_t max_bytes) {
       std::swap(map.keyframes[i], map.keyframes[2 * i]);
     map.keyframes.resize((map.keyframes.size() + 1) / 2);
   }
-  KeepAtMost((max_bytes - of_path()) / kPointSize, map.keyframes);
-  Writer body;
-  body.bytes.reserve(of_path() + NumPoints(map.keyframes) * kPointSize);
-  WalkMap(body, map);
+  KeepAtMost(MaxPoints(max_bytes - of_path()), map.keyframes);
   Writer file;
-  file.bytes.assign(kMagic, kMagicSize);
-  file.Take(kVersion);
-  file.Take(Checksum(body.bytes.data(), body.bytes.size()));
-  file.Take(static_cast<uint64_t>(body.bytes.size()));
-  return file.bytes + body.bytes;
+  file.bytes.reserve(of_path() + NumPoints(map.keyframes) * kPointSize);
+  file.bytes.assign(kHeaderSize, '\0');
+  WalkMap(file, map);
+  const size_t size = file.bytes.size() - kHeaderSize;
+  Writer header;
+  header.bytes.assign(kMagic, kMagicSize);
+  header.Take(kVersion);
+  header.Take(Checksum(&file.bytes[kHeaderSize], size));
+  header.Take(static_cast<uint64_t>(size));
+  file.bytes.replace(0, kHeaderSize, header.bytes);
+  return std::move(file.bytes);
 }
 
 KnownMap ParseMap(const std::string& bytes, const std::string& path) {
@@ -207,7 +213,7 @@ KnownMap ParseMap(const std::string& bytes, const std::string& path) {
   return map;
 }
 
-void WriteMap(const std::string& path, const KnownMap& map, size_t max_bytes) {
+void WriteMap(const std::string& path, KnownMap map, size_t max_bytes) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(path).parent_path();
   std::error_code ignored;  // the write tells
@@ -220,7 +226,7 @@ void WriteMap(const std::string& path, const KnownMap& map, size_t max_bytes) {
         name.compare(0, partial.size(), partial) == 0 ? std::atoi(&name[partial.size()]) : 0;
     if (process > 0 && kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
   }
-  WriteWholeFile(path, FormatMap(map, max_bytes));
+  WriteWholeFile(path, FormatMap(std::move(map), max_bytes));
 }
 
 KnownMap ReadMap(const std::string& path) { return ParseMap(ReadWholeFile(path), path); }

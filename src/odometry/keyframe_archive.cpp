@@ -4,15 +4,14 @@
 #include <limits>
 #include <utility>
 
-#include "arfm_vo/base/median.h"
-#include "arfm_vo/odometry/drift_estimator.h"
+#include "arfm_vo/mapping/known_map.h"
+#include "arfm_vo/pose/carry_covariance.h"
 
 namespace arfm_vo {
 
 void KeyframeArchive::Add(const Keyframe& keyframe, const LocalMap& map,
                           const Eigen::Matrix<double, 6, 6>& covariance) {
   View view{keyframe.id, keyframe.camera_from_world, covariance, 0, {}};
-  std::vector<double> distances_m;
   for (const LandmarkObservation& observation : keyframe.observations) {
     const auto found = map.landmarks().find(observation.landmark);
     if (found == map.landmarks().end() || found->second.num_keyframes < 2) continue;
@@ -20,19 +19,17 @@ void KeyframeArchive::Add(const Keyframe& keyframe, const LocalMap& map,
     view.place.push_back({landmark.id,
                           keyframe.camera_from_world * landmark.x_in_world,
                           {landmark.descriptor.data(), landmark.keypoint.laplacian_sign}});
-    distances_m.push_back(view.place.back().x_in_place.norm());
   }
-  if (static_cast<int>(distances_m.size()) < RecognitionPose().min_inliers) return;
-  view.distance_m = std::max(Median(std::move(distances_m)), camera_.baseline_m);
+  if (static_cast<int>(view.place.size()) < RecognitionPose().min_inliers) return;
+  view.distance_m = std::max(MedianDistance(view.place), camera_.baseline_m);
   views_.push_back(std::move(view));
   if (size() > max_keyframes_) DropLeastMissed();
   recogniser_.reset();
 }
 
-/// How differently two keyframes see: the angle between them plus that by which the scene shifts.
 double KeyframeArchive::Difference(const View& a, const View& b) {
-  const Rigid3 b_from_a = b.camera_from_world * a.camera_from_world.Inverse();
-  return b_from_a.Angle() + b_from_a.translation.norm() / std::min(a.distance_m, b.distance_m);
+  return ViewDifference(b.camera_from_world * a.camera_from_world.Inverse(),
+                        std::min(a.distance_m, b.distance_m));
 }
 
 /// The one that another resembles most, for its age: what is long past may be kept more sparsely.

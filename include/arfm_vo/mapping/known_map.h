@@ -32,6 +32,9 @@ struct KnownMap {
 
 size_t NumPoints(const std::vector<KnownKeyframe>& keyframes);
 
+/// Of its points from the camera, m; the place must have some.
+double MedianDistance(const Place& place);
+
 /// How differently two cameras see points at this distance: the angle between them plus that by
 /// which the scene shifts, rad.
 inline double ViewDifference(const Rigid3& b_from_a, double distance_m) {

@@ -10,6 +10,9 @@ namespace arfm_vo {
 /// camera: its points would not lie where that camera sees them.
 void CheckSameCamera(const KnownMap& map, const StereoCamera& other);
 
+/// So many points at most has a map of `max_bytes`.
+size_t MaxPoints(size_t max_bytes);
+
 /// A map as a file's bytes, at most `max_bytes` (at least 100,000): points of keyframes that see
 /// much the same are left out first, then every second place of the path.
 std::string FormatMap(KnownMap map, size_t max_bytes);
@@ -19,7 +22,7 @@ std::string FormatMap(KnownMap map, size_t max_bytes);
 KnownMap ParseMap(const std::string& bytes, const std::string& path);
 
 /// Writes the map whole or not at all; throws std::system_error naming the file.
-void WriteMap(const std::string& path, const KnownMap& map, size_t max_bytes);
+void WriteMap(const std::string& path, KnownMap map, size_t max_bytes);
 /// Throws std::invalid_argument as ParseMap, also where there is no such file.
 KnownMap ReadMap(const std::string& path);
 

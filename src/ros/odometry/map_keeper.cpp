@@ -11,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBytesPerPoint = 77;
-
 const char* ToString(MapState state) {
   switch (state) {
     case MapState::kNewMap:
@@ -66,7 +64,7 @@ void MapKeeper::LoadFor(const StereoCamera& camera, PlacedMap& map) {
   } catch (const std::exception& error) {
     Refuse(error);
   }
-  map.Keep(known_ ? std::move(*known_) : KnownMap(), max_bytes() / kBytesPerPoint);
+  map.Keep(known_ ? std::move(*known_) : KnownMap(), MaxPoints(max_bytes()));
   known_.reset();
   num_saved_ = NumKeyframes(map);
 }
@@ -81,10 +79,11 @@ std::string MapKeeper::Save(const PlacedMap& map) {
   const auto written = fs::last_write_time(path_, none);
   if (!none && written_ != written) GoBeside(path_.string() + ": another program has written it");
   saved_ = ros::WallTime::now();
-  WriteMap(path_, known, max_bytes());
+  const size_t num_keyframes = known.keyframes.size();
+  WriteMap(path_, std::move(known), max_bytes());
   written_ = fs::last_write_time(path_);
   num_saved_ = NumKeyframes(map);
-  return path_.string() + ": " + std::to_string(known.keyframes.size()) + " keyframes, " +
+  return path_.string() + ": " + std::to_string(num_keyframes) + " keyframes, " +
          std::to_string(fs::file_size(path_) / 1000) + " kB";
 }
 

@@ -28,8 +28,8 @@ class MoveBaseServer : private ActionQueue,
   /// Drives to a goal, or says why not.
   using Drive = std::function<std::string(const geometry_msgs::PoseStamped&)>;
 
-  /// A pose without a stamp gets that of its action's header. `cancel`
-  /// drops the goal that is driven to.
+  /// A pose without a stamp gets that of its action's header. `cancel` drops the goal that is
+  /// driven to.
   MoveBaseServer(ros::NodeHandle& node, Drive drive, std::function<void()> cancel);
 
   /// Takes what has come from clients since the last call, up to a bound: each tick.
