@@ -76,10 +76,6 @@ def stop_without_camera(campaign):
     rospy.sleep(2)
 
 
-def is_start_refused(campaign):
-    return "\nno camera" in campaign.rover.call("chassis_node/start").message
-
-
 def shift_camera(campaign):
     """Beside the right transform of the mast's top, for 2 s."""
     transforms = tf2_ros.Buffer()
@@ -103,8 +99,14 @@ def tilt_map(campaign):
     campaign.broadcaster.sendTransform(message)
 
 
+def is_true(campaign):
+    """The newest pose that was told is right."""
+    told = campaign.rover.sight.told
+    return not campaign.rover.sight.is_wrong(told[-1], told[0])
+
+
 def names_the_right_eye(campaign):
-    return any("right" in text for text in campaign.rover.odometry_texts)
+    return is_true(campaign) and any("right" in text for text in campaign.rover.odometry_texts)
 
 
 def camera_faults():
@@ -114,7 +116,7 @@ def camera_faults():
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_eye),
-        Fault("eyes are swapped", changed(swap), "pose contradicts the tracks or " + stale, mend, 1.5),
+        Fault("eyes are swapped", changed(swap), "pose contradicts the tracks or " + stale, mend, 1.5, is_well=is_true),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
         Fault("camera's node is stopped (SIGSTOP) for 2 s: its pairs wait", stop_camera_for(2), stale, mend, 1.5),
         Fault("camera's node is killed and started anew after 2 s: its topics go and come", restart_camera(2), stale, mend, 1.5),
@@ -123,10 +125,10 @@ def camera_faults():
         Fault("head's belt has slipped: the eyes look 15 degrees aside", drive_aside, "too much slip",
               lambda c: look_aside(c, 0), 13, ends_node=True, max_wrong_way_m=1),
         Fault("camera is away at rest: the start-up check says so, and nothing starts", stop_without_camera, "stopped by hand",
-              lambda c: (c.camera.advertise(), mend(c)), is_well=is_start_refused),
+              lambda c: (c.camera.advertise(), mend(c)), is_well=lambda c: "\nno camera" in c.rover.call("chassis_node/start").message),
         Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),
-        Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend),
-        Fault("an old pair comes again", changed(AgainOnce), "drives on", mend),
+        Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend, is_well=is_true),
+        Fault("an old pair comes again", changed(AgainOnce), "drives on", mend, is_well=is_true),
         Fault("a second node tells the camera 0.5 m farther ahead", shift_camera, "pose contradicts the tracks", mend, 1),
         Fault("a second node tells map -> odom tilted by 35 degrees", tilt_map, "rover is tilted too far", mend, 0.6),
     ]

@@ -8,6 +8,7 @@ import time
 
 import rospy
 from fault import Fault, NotPermitted
+from node_faults import outside_ros
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
 
@@ -64,11 +65,6 @@ def freeze_terminal(campaign):
         campaign.rover.send_goal(-3, stamp=rospy.Time())
 
 
-def kill_master(campaign):
-    """That of roslaunch; the operator stays."""
-    campaign.launch.signal("rosmaster", signal.SIGKILL)
-
-
 def machine_faults():
     slow = lambda c: time.sleep(3)  # noqa: E731
     rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds),
@@ -89,4 +85,4 @@ def last_faults():
     # that was started by itself would leave the nodes with the connections that they have, the operator's among them.)
     return [Fault("computer's clock is set by %s30 s" % sign, lambda c, ahead=sign == "+": rospy.ServiceProxy(
         "simulator_node/set_clock", SetBool)(ahead), "chassis_node was held up or clock was set", lambda c: time.sleep(3), 1)
-            for sign in "+-"] + [Fault("roscore killed", kill_master, "-", limit_s=1.0, ends_graph=True)]
+            for sign in "+-"] + [Fault("roscore killed", outside_ros("rosmaster", signal.SIGKILL), "-", limit_s=1.0, ends_graph=True)]
