@@ -7,7 +7,8 @@ int main(int argc, char** argv) {
       argc, argv, "pose_node", R"(Features and the images they are from in, the rover's pose out.
 
 in    features, stereo/left|right/image_rect, map_update
-out   odom (nav_msgs/Odometry), path, status (arfm_vo/OdometryStatus), keyframe, matches_image, /diagnostics
+out   odom (nav_msgs/Odometry), path, status (arfm_vo/OdometryStatus), keyframe, matches_image, features_request,
+      /diagnostics
 tf    in base_frame <- camera at each image's stamp; out odom_frame -> base_frame
 srv   ~reset, ~save_trajectory (std_srvs/Trigger))");
 }

@@ -29,6 +29,21 @@ void DrawRing(cv::Mat& picture, double u, double v, int radius_px, const cv::Sca
              kSubpixelBits);
 }
 
+/// What both cameras see, (u, v) in px and the depth in units of focal length times baseline; of a
+/// pair whose features were not computed the map's points.
+std::vector<Eigen::Vector3d> PointsToDraw(const StereoFrame& frame, const OdometryUpdate& update) {
+  std::vector<Eigen::Vector3d> points;
+  const auto add = [&](double u, double v, double u_right) {
+    if (u > u_right) points.emplace_back(u, v, 1 / (u - u_right));
+  };
+  for (const StereoPoint& point : frame.points)
+    add(point.observation.x(), point.observation.y(), point.observation.z());
+  if (!points.empty()) return points;
+  for (const LandmarkObservation& seen : update.observations)
+    if (seen.has_right) add(seen.pixels[0], seen.pixels[1], seen.pixels[2]);
+  return points;
+}
+
 std::string Describe(const StereoFrame& frame, const PoseEstimate& pose) {
   if (!pose.IsMeasured())
     return Format("LOST: %s (%d matches, %zu stereo points)", ToString(pose.status),
@@ -58,12 +73,12 @@ cv::Mat DrawMatches(const cv::Mat& left, const StereoFrame& frame, const Odometr
   cv::Mat image = picture.rowRange(kTextHeight_px, picture.rows);
   cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
 
-  std::vector<float> depths_m;
-  for (const StereoPoint& point : frame.points) depths_m.push_back(point.x_in_camera.z());
-  const DepthColors colors(depths_m);
-  for (const StereoPoint& point : frame.points)
-    DrawRing(image, point.observation.x(), point.observation.y(), 2,
-             colors.BgrOf(point.x_in_camera.z()), cv::FILLED);
+  const std::vector<Eigen::Vector3d> points = PointsToDraw(frame, update);
+  std::vector<float> depths;
+  for (const Eigen::Vector3d& point : points) depths.push_back(point.z());
+  const DepthColors colors(depths);
+  for (const Eigen::Vector3d& point : points)
+    DrawRing(image, point.x(), point.y(), 2, colors.BgrOf(point.z()), cv::FILLED);
   for (const LandmarkObservation& observation : update.observations)
     DrawRing(image, observation.pixels[0], observation.pixels[1], 5, kGreen, 1);
 

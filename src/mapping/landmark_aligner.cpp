@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/right_shift.h"
@@ -118,6 +119,38 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   observation.pixels << left.position.x, left.position.y, right.position.x, right.position.y;
   observation.sigma_px = std::max(options_.min_sigma_px, std::sqrt(0.5 * variance));
   return observation;
+}
+
+std::optional<LandmarkObservation> LandmarkAligner::AlignCoarsely(
+    const Landmark& landmark, const Keyframe& reference, const std::vector<cv::Mat>& left_halved,
+    int level, const Rigid3& camera_from_world) const {
+  const auto warp = FindWarp(landmark, reference, camera_from_world);
+  if (!warp) return std::nullopt;
+  const float size = std::ldexp(1.F, level);
+  const cv::Point2f place(landmark.keypoint.x / size, landmark.keypoint.y / size);
+  const auto patch = Patch::Sample(reference.left_halved[level - 1], place, *warp);
+  if (!patch) return std::nullopt;
+  const Eigen::Vector4d predicted =
+      ProjectStereo4(camera_, correction_, camera_from_world * landmark.x_in_world) / size;
+  const PatchAlignment found =
+      AlignPatch(*patch, left_halved[level - 1],
+                 {static_cast<float>(predicted.x()), static_cast<float>(predicted.y())});
+  if (!found.IsAligned()) return std::nullopt;
+  LandmarkObservation observation;
+  observation.landmark = landmark.id;
+  observation.has_right = false;
+  observation.pixels << size * found.position.x, size * found.position.y, 0, 0;
+  const double sigma_px = std::sqrt(0.5 * (found.covariance[0] + found.covariance[2]));
+  observation.sigma_px = size * std::max(options_.min_sigma_px, sigma_px);
+  return observation;
+}
+
+std::vector<cv::Mat> Halve(const cv::Mat& grey) {
+  std::vector<cv::Mat> halved;
+  if (grey.empty()) return halved;
+  cv::buildPyramid(grey, halved, kMostHalved);
+  halved.erase(halved.begin());
+  return halved;
 }
 
 }  // namespace arfm_vo

@@ -4,6 +4,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/pixel_scale.h"
+#include "arfm_vo/mapping/landmark_aligner.h"
 #include "moving_cells.h"
 #include "occupancy_grid.h"
 
@@ -41,6 +42,7 @@ const Keyframe& LocalMap::AddKeyframe(const StereoFrame& frame, const cv::Mat& l
   keyframe.first_landmark = next_landmark_;
   left.copyTo(spare_image_);
   keyframe.left = std::move(spare_image_);
+  keyframe.left_halved = Halve(left);
   for (const LandmarkObservation& observation : tracked) {
     const auto landmark = landmarks_.find(observation.landmark);
     if (landmark == landmarks_.end()) continue;
@@ -121,8 +123,7 @@ Landmark& LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& poi
 void LocalMap::RemoveOldestKeyframe() {
   Keyframe removed = std::move(keyframes_.front());
   keyframes_.pop_front();
-  const bool is_shared = removed.left.u != nullptr && removed.left.u->refcount > 1;
-  if (!is_shared) spare_image_ = std::move(removed.left);
+  if (!removed.left.u || removed.left.u->refcount == 1) spare_image_ = std::move(removed.left);
   for (const LandmarkObservation& observation : removed.observations) {
     const auto found = landmarks_.find(observation.landmark);
     if (found == landmarks_.end()) continue;
@@ -238,10 +239,9 @@ void LocalMap::ForgetRight(KeyframeId before) {
 }
 
 void LocalMap::Transform(const Rigid3& new_from_old) {
-  const Rigid3 old_from_new = new_from_old.Inverse();
   const Eigen::Matrix3d rotation = new_from_old.RotationMatrix();
   for (Keyframe& keyframe : keyframes_) {
-    keyframe.camera_from_world = keyframe.camera_from_world * old_from_new;
+    keyframe.camera_from_world = keyframe.camera_from_world * new_from_old.Inverse();
   }
   for (auto& [id, landmark] : landmarks_) {
     landmark.x_in_world = new_from_old * landmark.x_in_world;

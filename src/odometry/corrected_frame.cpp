@@ -35,4 +35,13 @@ double MedianRowResidual(const StereoPoints& points) {
   return Median(std::move(residuals));
 }
 
+double MedianRowResidual(const LandmarkObservations& observations) {
+  std::vector<double> residuals;
+  for (const LandmarkObservation& observation : observations) {
+    const Eigen::Vector4d& seen = observation.pixels;
+    if (observation.has_right) residuals.push_back(seen.w() - seen.y());
+  }
+  return Median(std::move(residuals));
+}
+
 }  // namespace arfm_vo

@@ -3,6 +3,7 @@
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/geometry/stereo_correction.h"
+#include "arfm_vo/mapping/landmark.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
 
 namespace arfm_vo {
@@ -15,5 +16,6 @@ StereoFrame Corrected(StereoFrame frame, const StereoCamera& camera,
 
 /// px; 0 of no points.
 double MedianRowResidual(const StereoPoints& points);
+double MedianRowResidual(const LandmarkObservations& observations);
 
 }  // namespace arfm_vo

@@ -40,14 +40,14 @@ void Session::PrepareFor(const StereoCamera& camera) {
   camera_ = camera;
 }
 
-SessionUpdate Session::Process(const StereoFrame& frame, const StereoCamera& camera,
+SessionUpdate Session::Process(const FrameOnRequest& frame, const StereoCamera& camera,
                                const StereoImages& images, const Rigid3& base_from_camera) {
   PrepareFor(camera);
   if (offer_ && num_frames_ >= TakeoverFrame(*offer_)) TakeOffer();
   SessionUpdate pose;
   Track(frame, images, base_from_camera, pose);
   if (pose.update.can_start && !pose.update.pose.IsMeasured() &&
-      (IsLostTooLong(frame.stamp_s) || IsOnNewGround(frame, pose))) {
+      (IsLostTooLong(frame.stamp_s()) || IsOnNewGround(frame, pose))) {
     StartEpoch();
     is_map_doubtful_ = true;
     Track(frame, images, base_from_camera, pose);
@@ -75,16 +75,16 @@ std::optional<PredictedPose> Session::Predict(double stamp_s,
   return predicted;
 }
 
-void Session::Track(const StereoFrame& frame, const StereoImages& images,
+void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
                     const Rigid3& base_from_camera, SessionUpdate& pose) {
-  if (last_ && frame.stamp_s - last_->stamp_s > kMaxBridge_s) motion_.Reset();
+  if (last_ && frame.stamp_s() - last_->stamp_s > kMaxBridge_s) motion_.Reset();
   pose.epoch = epoch_;
   pose.odom_from_base = base_.odom_from_base();
-  pose.update = odometry_->Process(frame, images, Predict(frame.stamp_s, base_from_camera));
+  pose.update = odometry_->Process(frame, images, Predict(frame.stamp_s(), base_from_camera));
   const PoseEstimate& estimate = pose.update.pose;
   if (!estimate.HasPose()) {
     if (pose.update.reason == Reason::kNone) pose.update.reason = ReasonOf(estimate.status);
-    if (!lost_since_s_) lost_since_s_ = frame.stamp_s;
+    if (!lost_since_s_) lost_since_s_ = frame.stamp_s();
     Bridge(base_from_camera, pose);
     return;
   }
@@ -92,7 +92,7 @@ void Session::Track(const StereoFrame& frame, const StereoImages& images,
   lost_since_s_.reset();
   num_unknown_ = 0;
   if (pose.update.is_relocalised) motion_.Reset();  // how it came there is not known
-  motion_.Add(frame.stamp_s, base_from_camera * estimate.camera_from_world);
+  motion_.Add(frame.stamp_s(), base_from_camera * estimate.camera_from_world);
 }
 
 void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
@@ -108,12 +108,12 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
 }
 
 /// Whether the map has not known some good pairs in a row, and the base has moved on.
-bool Session::IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose) {
+bool Session::IsOnNewGround(const FrameOnRequest& frame, const SessionUpdate& pose) {
   if (pose.update.reason == Reason::kGroundHidden) return false;  // and is still there behind
   if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
   if (pose.update.reason == Reason::kFixed) return true;  // the new map is made without it
   std::vector<double> depths;
-  for (const StereoPoint& point : frame.points) depths.push_back(point.x_in_camera.z());
+  for (const StereoPoint& point : frame.Whole().points) depths.push_back(point.x_in_camera.z());
   const Rigid3 gone = last_->odom_from_base.Inverse() * pose.odom_from_base;
   return gone.translation.norm() > kNewGround * Median(std::move(depths));
 }
@@ -177,6 +177,7 @@ PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
   PlacedKeyframe newest{map.keyframes().back(),  map.NewestLandmarks(), epoch_, camera_,
                         base_.odom_from_world(), base_from_camera};
   newest.keyframe.left = cv::Mat();
+  newest.keyframe.left_halved.clear();
   return newest;
 }
 

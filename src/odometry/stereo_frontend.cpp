@@ -15,22 +15,27 @@ StereoFrontend::StereoFrontend(const StereoCamera& camera, const FrontendOptions
   camera.Check();
 }
 
-StereoFrame StereoFrontend::Process(const StereoImages& images, StageTimes* stage_ms) {
+StereoFrame StereoFrontend::Look(const StereoImages& images) {
   images.Check();
   Require(images.left.cols == camera_.width && images.left.rows == camera_.height,
           "stereo frontend: images are " + std::to_string(images.left.cols) + "x" +
               std::to_string(images.left.rows) + ", the camera is " +
               std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
-  Stopwatch stopwatch;
   StereoFrame frame;
   frame.stamp_s = images.stamp_s;
   frame.left_is_repeated = left_repeated_.Look(images.left);
   frame.right_is_repeated = right_repeated_.Look(images.right);
+  frame.grey = ComputeGreyStatistics(images.left);
+  return frame;
+}
+
+StereoFrame StereoFrontend::Complete(StereoFrame frame, const StereoImages& images,
+                                     StageTimes* stage_ms) {
+  Stopwatch stopwatch;
   Features right_features;
   TaskThread::Task right =
       right_thread_.Start([&] { right_features = right_surf_.Extract(images.right); });
   frame.features = left_mask_.WithoutHidden(left_surf_.Extract(images.left));
-  frame.grey = ComputeGreyStatistics(images.left);
   right.Get();
   frame.num_right_keypoints = right_features.size();
   const double features_ms = stopwatch.LapMs();

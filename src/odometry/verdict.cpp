@@ -40,23 +40,26 @@ Eigen::Matrix<double, 6, 6> SpreadTo(const Rigid3& other, const Rigid3& pose) {
   return step * step.transpose();
 }
 
-GroundPrior Advance(double interval_s, double hidden_after_s, Belief& ground) {
+GroundPrior AdvanceGround(double interval_s, double hidden_after_s, Belief& ground) {
   const double just_hidden = ground.Advance(interval_s, hidden_after_s, kAnotherLeaves_s);
   return {ground.Probability(), just_hidden};
 }
 
 }  // namespace
 
-void Verdict::Look(const StereoFrame& frame) {
-  const double interval_s = std::max(0., frame.stamp_s - stamp_s_);
+void Verdict::Advance(double stamp_s) {
+  const double interval_s = std::max(0., stamp_s - stamp_s_);
   right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
   fixed_.Advance(interval_s, kIsTakenAway_s, kIsFixed_s);
   another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
   // What has come hides the ground at some moment of its stay.
   Belief where_come = ground_;
-  if_come_ = Advance(interval_s, kAnotherLeaves_s, where_come);
-  if_none_ = Advance(interval_s, kAnotherComes_s, ground_);
-  stamp_s_ = frame.stamp_s;
+  if_come_ = AdvanceGround(interval_s, kAnotherLeaves_s, where_come);
+  if_none_ = AdvanceGround(interval_s, kAnotherComes_s, ground_);
+  stamp_s_ = stamp_s;
+}
+
+void Verdict::Look(const StereoFrame& frame) {
   left_fault_ = FaultOfLeft(frame);
   if (left_fault_ == Reason::kNone && !frame.right_is_repeated) {
     right_belongs_.Add(LogRatioOfShare(frame.row_agreement, kTogether, kApart));

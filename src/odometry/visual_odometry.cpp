@@ -34,14 +34,16 @@ void VisualOdometry::SetCorrection(const CorrectionBelief& correction) {
 
 SessionUpdate VisualOdometry::Process(const StereoImages& images) {
   StageTimes frontend_ms;
-  const StereoFrame frame = frontend_.Process(images, &frontend_ms);
+  const StereoFrame known = frontend_.Look(images);
+  const FrameOnRequest frame(known,
+                             [&] { return frontend_.Complete(known, images, &frontend_ms); });
   SessionUpdate pose = Process(frame, images);
   StageTimes& stages = pose.update.stage_ms;
   stages.insert(stages.begin(), frontend_ms.begin(), frontend_ms.end());
   return pose;
 }
 
-SessionUpdate VisualOdometry::Process(const StereoFrame& frame, const StereoImages& images) {
+SessionUpdate VisualOdometry::Process(const FrameOnRequest& frame, const StereoImages& images) {
   if (added_.valid()) TakeAdded();
   if (adjustment_.valid() && session_.num_frames() >= adjusted_at_) TakeAdjustment();
   SessionUpdate pose = session_.Process(frame, camera_, images, Rigid3());

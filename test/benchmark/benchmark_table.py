@@ -65,7 +65,7 @@ def list_pair(lines_path, timing_path):
         timing = list(csv.DictReader(stream))
     others = ("frame", "stamp_s", "total_ms", "memory_mb", "state", "reason", "log_odds", "matches", "inliers")
     stages = [name for name in timing[0] if name not in others]
-    medians = ", ".join(f"{stage} {statistics.median(float(r[stage]) for r in timing):.1f}" for stage in stages)
+    medians = ", ".join(f"{stage} {statistics.median(float(r[stage]) for r in timing if r[stage]):.1f}" for stage in stages)
     return (f"median {float(lines['ms_per_pair_median']):.1f} ms, p95 "
             f"{float(lines['ms_per_pair_p95']):.1f} ms, CPU of all threads "
             f"{float(lines['cpu_ms_per_pair']):.1f} ms (medians of the stages, ms: {medians})")

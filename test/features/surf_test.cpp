@@ -133,6 +133,28 @@ TEST(SurfTest, ARegionOfInterestIsAPictureOfItsOwn) {
   EXPECT_EQ(cv::norm(inside.descriptors, alone.descriptors, cv::NORM_INF), 0);
 }
 
+TEST(SurfTest, InLargeImagesOnlyLargeBlobsAreLookedFor) {
+  cv::Mat image(400, 600, CV_8UC1, cv::Scalar(100));
+  cv::circle(image, {300, 200}, 20, cv::Scalar(200), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, {100, 100}, 3, cv::Scalar(200), cv::FILLED, cv::LINE_AA);
+  SurfOptions options;
+  const Features all = Surf(options).Extract(image);
+  options.max_pixels = 0.3 * image.total();
+  const Features large = Surf(options).Extract(image);
+  const auto nearest = [](const Features& features, float x, float y) {
+    return *std::min_element(features.keypoints.begin(), features.keypoints.end(),
+                             [&](const Keypoint& a, const Keypoint& b) {
+                               return std::hypot(a.x - x, a.y - y) < std::hypot(b.x - x, b.y - y);
+                             });
+  };
+  const Keypoint blob = nearest(large, 300, 200), same = nearest(all, 300, 200);
+  EXPECT_NEAR(blob.x, 300, 0.2);
+  EXPECT_NEAR(blob.y, 200, 0.2);
+  EXPECT_NEAR(blob.scale, same.scale, 0.1 * same.scale);
+  EXPECT_NEAR(nearest(all, 100, 100).x, 100, 0.5);
+  EXPECT_GT(std::abs(nearest(large, 100, 100).x - 100), 50) << "too small";
+}
+
 TEST(SurfTest, RefusesAnythingButGrey) {
   EXPECT_THROW(Surf({}).Extract(cv::Mat()), std::invalid_argument);
   EXPECT_THROW(Surf({}).Extract(cv::Mat(50, 50, CV_8UC3)), std::invalid_argument);

@@ -24,6 +24,7 @@ class VerdictTest : public ::testing::Test {
   void Look(double row_agreement = 0.9) {
     frame_.stamp_s += 0.1;
     frame_.row_agreement = row_agreement;
+    verdict_.Advance(frame_.stamp_s);
     verdict_.Look(frame_);
   }
   OdometryUpdate Weigh() {

@@ -17,7 +17,7 @@ class VisualOdometryTest : public ::testing::Test {
   VisualOdometryTest() : odometry_(wall_.camera(), {}) {}
 
   /// Frame `i` of a drive along the wall, 10 cm a frame.
-  static Rigid3 Truth(int i) {
+  static Rigid3 Truth(double i) {
     return {ExpSO3({0, 0.005 * i, 0}), Eigen::Vector3d(-0.1 * i, 0, 0.01 * i)};
   }
   PoseEstimate See(int i) { return odometry_.Process(wall_.Render(0.1 * i, Truth(i))).update.pose; }
@@ -25,7 +25,7 @@ class VisualOdometryTest : public ::testing::Test {
     return odometry_.Process(wall_.RenderDark(0.1 * i)).update.pose;
   }
 
-  static double ErrorIn(const Rigid3& camera_from_world, int i) {
+  static double ErrorIn(const Rigid3& camera_from_world, double i) {
     return (camera_from_world * Truth(i).Inverse()).translation.norm();
   }
 
@@ -43,6 +43,25 @@ TEST_F(VisualOdometryTest, FollowsADrive) {
   const Trajectory trajectory = odometry_.Finish();
   ASSERT_EQ(trajectory.size(), 15u);
   EXPECT_LT(ErrorIn(trajectory.back().world_from_camera.Inverse(), 14), 0.02);
+}
+
+TEST_F(VisualOdometryTest, ASlowDriveNeedsTheFeaturesOfKeyframesAndOfItsFirstPairs) {
+  StereoFrontend frontend(wall_.camera(), {});
+  constexpr int kNumPairs = 60, kNumFirst = 25;
+  int num_made = 0, num_needed = 0;
+  for (int i = 0; i < kNumPairs; ++i) {
+    const StereoImages images = wall_.Render(0.1 * i, Truth(0.1 * i));
+    const StereoFrame known = frontend.Look(images);
+    const FrameOnRequest frame(known, [&] { return frontend.Complete(known, images); });
+    const SessionUpdate seen = odometry_.Process(frame, images);
+    ASSERT_TRUE(seen.IsTracked()) << i << ": " << seen.text;
+    EXPECT_LT(ErrorIn(seen.update.pose.camera_from_world, 0.1 * i), 0.01) << i;
+    EXPECT_TRUE(frame.IsWhole() || !seen.update.is_keyframe);
+    if (i < kNumFirst) continue;
+    num_made += frame.IsWhole();
+    num_needed += seen.update.is_keyframe;
+  }
+  EXPECT_LE(num_made, num_needed + 2);
 }
 
 /// What a pixel in the columns would make of the path's length is no part of it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
@@ -15,6 +16,8 @@ struct SurfOptions {
   /// Smooth the image by (1 2 1) / 4 before: box filters and wavelets of whole pixels alias.
   bool smooth = true;
   int threads = 1;  ///< for one image
+  /// Larger images are halved until they have no more: their smallest blobs are not needed.
+  double max_pixels = std::numeric_limits<double>::infinity();
 
   /// Throws std::invalid_argument naming the key that is out of range.
   void Check() const;
@@ -24,6 +27,7 @@ struct SurfOptions {
     visit("descriptor", descriptor);
     visit("smooth", smooth);
     visit("threads", threads);
+    visit("max_pixels", max_pixels);
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/mapping/keyframe.h"
+#include "arfm_vo/mapping/local_map.h"
 
 namespace arfm_vo {
 
@@ -32,5 +32,8 @@ struct KeyframePolicyOptions {
 bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
                    const Rigid3& camera_from_world, const LandmarkObservations& observations,
                    const KeyframePolicyOptions& options);
+/// The same of a frame to come, where its camera is at this pose and sees what it should.
+bool WillNeedKeyframe(const StereoCamera& camera, const LocalMap& map,
+                      const Rigid3& camera_from_world, const KeyframePolicyOptions& options);
 
 }  // namespace arfm_vo

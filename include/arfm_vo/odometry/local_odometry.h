@@ -7,13 +7,13 @@
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/local_map.h"
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/odometry/frame_tracker.h"
+#include "arfm_vo/tracking/frame_tracker.h"
 #include "arfm_vo/odometry/keyframe_archive.h"
 #include "arfm_vo/odometry/keyframe_policy.h"
 #include "arfm_vo/odometry/local_bundle.h"
 #include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/odometry/standstill_lock.h"
-#include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/reconstruction/frame_on_request.h"
 
 namespace arfm_vo {
 
@@ -56,8 +56,9 @@ class LocalOdometry {
   ~LocalOdometry();
 
   /// Localises the next frame, later than the one before; `images` are those it was made from,
-  /// `predicted`, never required, is where it may be.
-  OdometryUpdate Process(const StereoFrame& frame, const StereoImages& images,
+  /// `predicted`, never required, is where it may be. The frame's features are asked for where
+  /// patches near the prediction do not tell the pose, or a keyframe is made.
+  OdometryUpdate Process(const FrameOnRequest& frame, const StereoImages& images,
                          const std::optional<PredictedPose>& predicted);
 
   /// Improves the local map by a global adjustment. The newest keyframe that both know stays where

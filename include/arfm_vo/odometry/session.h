@@ -45,7 +45,7 @@ class Session {
   explicit Session(const LocalOdometryOptions& options, uint32_t first_epoch = 1);
 
   /// Takes the next pair, later than the one before. A camera that has changed begins a new epoch.
-  SessionUpdate Process(const StereoFrame& frame, const StereoCamera& camera,
+  SessionUpdate Process(const FrameOnRequest& frame, const StereoCamera& camera,
                         const StereoImages& images, const Rigid3& base_from_camera);
   /// Takes note of a pair that cannot be used: kNoTransform or kHeadSlewing, and why in words.
   SessionUpdate Skip(double stamp_s, PoseStatus status, const std::string& text);
@@ -82,12 +82,12 @@ class Session {
   void PrepareFor(const StereoCamera& camera);
   /// Where the camera may be by the base's motion.
   std::optional<PredictedPose> Predict(double stamp_s, const Rigid3& base_from_camera) const;
-  void Track(const StereoFrame& frame, const StereoImages& images, const Rigid3& base_from_camera,
-             SessionUpdate& pose);
+  void Track(const FrameOnRequest& frame, const StereoImages& images,
+             const Rigid3& base_from_camera, SessionUpdate& pose);
   void FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose);
   void DoubtNewMap(SessionUpdate& pose);
   void Bridge(const Rigid3& base_from_camera, SessionUpdate& pose);
-  bool IsOnNewGround(const StereoFrame& frame, const SessionUpdate& pose);
+  bool IsOnNewGround(const FrameOnRequest& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
   PlacedKeyframe NewestKeyframe(const Rigid3& base_from_camera) const;
   void SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const;

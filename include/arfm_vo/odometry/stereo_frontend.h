@@ -21,10 +21,12 @@ struct FrontendOptions {
   /// keypoint there is used; empty: no such place.
   std::string left_mask;
 
-  /// As Bay et al. look for blobs: aligned patches make up for their coarser places.
+  /// As Bay et al. look for blobs, and in large images for large ones alone: aligned patches make
+  /// up for their coarser places.
   static SurfOptions SurfAtEverySecondPixel() {
     SurfOptions options;
     options.detector.initial_step = 2;
+    options.max_pixels = 1.5e6;
     return options;
   }
 
@@ -52,9 +54,16 @@ class StereoFrontend {
     reconstructor_.SetCorrection(correction);
   }
 
-  /// Appends the time of its stages to `stage_ms`, if not null. Throws std::invalid_argument where
-  /// the images do not fit the camera.
-  StereoFrame Process(const StereoImages& images, StageTimes* stage_ms = nullptr);
+  /// Takes the next pair: stamp, grey levels, and which image is repeated. Throws
+  /// std::invalid_argument where the images do not fit the camera.
+  StereoFrame Look(const StereoImages& images);
+  /// Adds features and points. Appends the time of its stages to `stage_ms`, if not null.
+  StereoFrame Complete(StereoFrame looked_at, const StereoImages& images,
+                       StageTimes* stage_ms = nullptr);
+  /// Both.
+  StereoFrame Process(const StereoImages& images, StageTimes* stage_ms = nullptr) {
+    return Complete(Look(images), images, stage_ms);
+  }
 
  private:
   StereoCamera camera_;

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "arfm_vo/base/belief.h"
-#include "arfm_vo/odometry/frame_tracker.h"
+#include "arfm_vo/tracking/frame_tracker.h"
 #include "arfm_vo/odometry/odometry_update.h"
 
 namespace arfm_vo {
@@ -19,7 +19,9 @@ class Verdict {
  public:
   explicit Verdict(double baseline_m) : baseline_m_(baseline_m) {}
 
-  /// Takes the next pair's pictures.
+  /// The next pair comes: what was believed is the less sure the longer ago that was.
+  void Advance(double stamp_s);
+  /// Takes the pair's frame, where it was made.
   void Look(const StereoFrame& frame);
   /// Why the left picture is not to be used, or the right one; kNone where it is.
   Reason left_fault() const { return left_fault_; }

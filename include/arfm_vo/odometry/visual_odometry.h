@@ -42,7 +42,7 @@ class VisualOdometry {
   /// do not fit the camera.
   SessionUpdate Process(const StereoImages& images);
   /// The same for a pair whose frame was made elsewhere.
-  SessionUpdate Process(const StereoFrame& frame, const StereoImages& images);
+  SessionUpdate Process(const FrameOnRequest& frame, const StereoImages& images);
 
   /// Global bundle adjustment over all keyframes and points (Fig. 4) where it is switched on, then
   /// the pose of every frame, relative to its refined keyframe.

@@ -195,6 +195,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
   StereoFrameStamped message;
   message.header.stamp.fromSec(frame.stamp_s);
   message.camera = ToMessage(camera);
+  message.has_features = true;
   ExportKeypoints(frame.features, message);
   for (const StereoPoint& point : frame.points) {
     message.point_keypoint.push_back(point.keypoint);

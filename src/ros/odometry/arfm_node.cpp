@@ -25,6 +25,12 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
       [this](const ros::SingleSubscriberPublisher&) {
         if (features_.getNumSubscribers() == 0) input_.reset();
       });
+  requests_ = node.subscribe<FeaturesRequest>(
+      "features_request", 10,
+      [this](const FeaturesRequestConstPtr& request) {
+        worker_.Post([this, request] { Answer(*request); });
+      },
+      {}, ros::TransportHints().tcpNoDelay());
   timer_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
     // A nodelet's queue takes nothing while the node is made, also not that who waited for features
     // is connected.
@@ -35,7 +41,8 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
 ArfmNode::~ArfmNode() {
   worker_.RunAndWait([this] {
-    TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs worked on, " +
+    TellAtEnd("arfm_node: " + std::to_string(figures_.num_published) + " pairs, " +
+              std::to_string(figures_.num_with_features) + " with features, " +
               std::to_string(worker_.num_dropped()) + " dropped, " +
               std::to_string(figures_.refusals.num()) + " refused" + figures_.times.Total());
   });
@@ -73,7 +80,6 @@ void ArfmNode::TellDrops() {
 }
 
 void ArfmNode::Process(const StereoMessagePair& pair) {
-  Stopwatch stopwatch;
   if (!AcceptStamp(pair.left->header.stamp)) return;
   PrepareFrontend(pair);
   CheckSize(*pair.left, *pair.left_info, topics_.left_image);
@@ -81,22 +87,49 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   const StereoImages images{pair.left->header.stamp.toSec(),
                             ToGrey(pair.left, topics_.left_image, window_),
                             ToGrey(pair.right, topics_.right_image, window_)};
+  Announced announced{pair, images, StereoFrameStamped(), frontend_->Look(images)};
+  announced.message = ToMessage(announced.frame, camera_);
+  announced.message.has_features = false;
+  announced.message.header = pair.left->header;
+  announced.message.pair_number = ++figures_.num_published;
+  announced.message.num_dropped_pairs = worker_.num_dropped();
+  if (options_.features_always) {
+    PublishFeatures(announced);
+  } else {
+    features_.publish(announced.message);
+    announced_.push_back(std::move(announced));
+    if (announced_.size() > static_cast<size_t>(options_.max_kept_pairs)) announced_.pop_front();
+  }
+  figures_.refusals.Clear();
+}
+
+void ArfmNode::PublishFeatures(const Announced& pair) {
+  Stopwatch stopwatch;
   StageTimes stages;
-  const StereoFrame frame = frontend_->Process(images, &stages);
+  const StereoFrame frame = frontend_->Complete(pair.frame, pair.images, &stages);
   const auto message = boost::make_shared<StereoFrameStamped>(ToMessage(frame, camera_));
-  message->header = pair.left->header;
+  message->header = pair.message.header;
+  message->pair_number = pair.message.pair_number;
+  message->num_dropped_pairs = pair.message.num_dropped_pairs;
   for (const auto& [name, ms] : stages) {
     message->stage_names.push_back(name);
     message->stage_ms.push_back(ms);
   }
-  message->pair_number = ++figures_.num_published;
-  message->num_dropped_pairs = worker_.num_dropped();
   features_.publish(message);
+  ++figures_.num_with_features;
+  figures_.times.Add(stopwatch.LapMs());
   figures_.num_left = message->keypoint_x.size();
   figures_.num_right = message->num_right_keypoints;
   figures_.num_points = message->point_keypoint.size();
-  figures_.refusals.Clear();
-  figures_.times.Add(stopwatch.LapMs());
+}
+
+void ArfmNode::Answer(const FeaturesRequest& request) {
+  const auto pair = std::find_if(announced_.begin(), announced_.end(), [&](const auto& announced) {
+    return announced.message.header.stamp == request.stamp;
+  });
+  if (pair == announced_.end()) return;
+  if (request.wanted) PublishFeatures(*pair);
+  announced_.erase(announced_.begin(), std::next(pair));
 }
 
 bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
@@ -109,6 +142,7 @@ bool ArfmNode::AcceptStamp(const ros::Time& stamp) {
   if (verdict == StampVerdict::kJumpBack) {
     ROS_WARN("time jumped back: starting anew");
     frontend_.reset();
+    announced_.clear();
   }
   return true;
 }
@@ -119,6 +153,7 @@ void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
   frontend_ = std::make_unique<StereoFrontend>(camera, options_.algorithm.frontend);
   if (const auto known = learned_.ReadFor(camera)) frontend_->SetCorrection(*known);
   camera_ = camera;
+  announced_.clear();
   const auto& distortion = pair.left_info->D;
   const bool is_distorted =
       std::any_of(distortion.begin(), distortion.end(), [](double d) { return d != 0; });
@@ -134,6 +169,7 @@ void ArfmNode::PrepareFrontend(const StereoMessagePair& pair) {
 void ArfmNode::Report(Diagnostics& status) {
   figures_.times.Report(status);
   status.add("pairs published", figures_.num_published);
+  status.add("with features", figures_.num_with_features);
   status.add("pairs dropped", worker_.num_dropped());
   status.add("pairs refused", figures_.refusals.num());
   status.add("pairs that came again or late", figures_.num_strays);

@@ -42,19 +42,19 @@ bool CameraMount::IsSlewing(const std::string& image_frame, const ros::Time& sta
   }
 }
 
-SessionUpdate CameraMount::Process(const StereoFrame& frame, const StereoCamera& camera,
+SessionUpdate CameraMount::Process(const FrameOnRequest& frame, const StereoCamera& camera,
                                    const StereoImages& images, const std_msgs::Header& header,
                                    Session& session, MountLog& log) const {
   Rigid3 base_from_camera;
   try {
     base_from_camera = BaseFromCamera(header.frame_id, header.stamp);
   } catch (const std::invalid_argument& error) {
-    return session.Skip(frame.stamp_s, PoseStatus::kNoTransform,
+    return session.Skip(frame.stamp_s(), PoseStatus::kNoTransform,
                         std::string("no transform: ") + error.what());
   }
-  log.Add(frame.stamp_s, base_from_camera);
+  log.Add(frame.stamp_s(), base_from_camera);
   if (IsSlewing(header.frame_id, header.stamp, base_from_camera))
-    return session.Skip(frame.stamp_s, PoseStatus::kHeadSlewing,
+    return session.Skip(frame.stamp_s(), PoseStatus::kHeadSlewing,
                         ToString(PoseStatus::kHeadSlewing));
   return session.Process(frame, camera, images, base_from_camera);
 }

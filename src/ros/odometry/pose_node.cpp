@@ -24,10 +24,11 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
       health_(options_.health),
       learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
+      requests_(node),
       worker_(options_.max_waiting_pairs,
               [this](const std::exception& error) { health_.CountRefused(error.what()); }),
       pairing_(kPairQueueSize, [this](const auto& frame, const auto& left, const auto& right) {
-        worker_.PostLossy([this, frame, left, right] { Process(*frame, left, right); });
+        worker_.PostLossy([this, frame, left, right] { Process(frame, left, right); });
       }) {
   if (options_.max_held_pairs > 0) worker_.Hold(options_.max_held_pairs);
   Offer(node, private_node);
@@ -72,8 +73,11 @@ void PoseNode::Subscribe(ros::NodeHandle& node, const ros::NodeHandle& private_n
       StereoTopic(node, "right/image_rect"), kPairQueueSize,
       [this](const sensor_msgs::ImageConstPtr& image) { pairing_.Add<2>(image); }, {}, hints);
   frames_ = node.subscribe<Frame>(
-      "features", kPairQueueSize, [this](const auto& frame) { pairing_.Add<0>(frame); }, {},
-      no_delay);
+      "features", kPairQueueSize,
+      [this](const StereoFrameStampedConstPtr& frame) {
+        if (!requests_.Take(frame)) pairing_.Add<0>(frame);
+      },
+      {}, no_delay);
 }
 
 std::string PoseNode::Save() {
@@ -86,25 +90,35 @@ std::string PoseNode::SaveTrajectory() const {
   return trajectory_output_.Save(trajectory_output_.Select(session_->MakeTrajectory(), mounts_));
 }
 
-void PoseNode::Process(const Frame& message, const sensor_msgs::ImageConstPtr& left,
+void PoseNode::Process(const StereoFrameStampedConstPtr& pair,
+                       const sensor_msgs::ImageConstPtr& left,
                        const sensor_msgs::ImageConstPtr& right) {
   Stopwatch stopwatch;
-  const uint32_t num_dropped = numbers_.CountMissing(message.pair_number);
+  const uint32_t num_dropped = numbers_.CountMissing(pair->pair_number);
   health_.CountDropped(num_dropped);
-  if (!AcceptStamp(message.header.stamp)) return;
-  const StereoCamera camera = FromMessage(message.camera);
-  const StereoFrame frame = FromMessage(message);
-  const StereoImages images{frame.stamp_s, ToGrey(left, "left/image_rect", window_),
+  if (!AcceptStamp(pair->header.stamp)) return;
+  const StereoCamera camera = FromMessage(pair->camera);
+  StereoFrameStampedConstPtr message = pair;
+  FrameOnRequest frame(FromMessage(*pair));
+  if (!pair->has_features) {
+    frame = FrameOnRequest(frame.Known(), [&] {
+      message = requests_.Get(pair->header.stamp);
+      return FromMessage(*message);
+    });
+  }
+  const StereoImages images{frame.stamp_s(), ToGrey(left, "left/image_rect", window_),
                             ToGrey(right, "right/image_rect", window_)};
   images.Check();
   Require(images.left.cols == camera.width && images.left.rows == camera.height,
           "left/image_rect does not have the size that features tells of the camera");
   if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
   const SessionUpdate pose =
-      mount_.Process(frame, camera, images, message.header, *session_, mounts_);
-  outputs_.Publish(pose, message, num_dropped);
-  outputs_.PublishPicture(images.left, frame, pose, message.header);
-  const auto line = health_.Count(frame, pose, stopwatch.LapMs(), ros::SteadyTime::now().toSec());
+      mount_.Process(frame, camera, images, pair->header, *session_, mounts_);
+  if (!frame.IsWhole()) requests_.Release(pair->header.stamp);
+  outputs_.Publish(pose, *message, num_dropped);
+  outputs_.PublishPicture(images.left, frame.Known(), pose, pair->header);
+  const auto line =
+      health_.Count(frame.Known(), pose, stopwatch.LapMs(), ros::SteadyTime::now().toSec());
   if (line && line->is_warning) ROS_WARN("%s", line->text.c_str());
   if (line && !line->is_warning) ROS_INFO("%s", line->text.c_str());
   if (pose.update.pose.status != PoseStatus::kNoTransform) worker_.Release();

@@ -28,6 +28,7 @@ OdometryStatusPtr MakeStatus(const SessionUpdate& pose, const StereoFrameStamped
   status->text = pose.text;
   status->is_keyframe = pose.update.is_keyframe;
   status->epoch = pose.epoch;
+  status->has_features = frame.has_features;
   status->num_features = static_cast<uint32_t>(frame.keypoint_x.size());
   status->num_right_features = frame.num_right_keypoints;
   status->num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <arfm_vo/FeaturesRequest.h>
 #include <arfm_vo/StereoFrameStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <deque>
 #include <memory>
 #include <string>
 
@@ -19,23 +21,30 @@ namespace arfm_vo {
 struct ArfmNodeOptions {
   OdometryOptions algorithm;  ///< its keys stand beside those of the node; `frontend` is used
   int max_waiting_pairs = 4;  ///< older ones are dropped
+  /// Whether the features of every pair are computed, not only of those that pose_node asks for.
+  bool features_always = false;
+  int max_kept_pairs = 10;            ///< that may be asked for; older ones are forgotten
   LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
 
   void Check() const {
     algorithm.Check();
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
+    Require(max_kept_pairs >= 1, "max_kept_pairs must be at least 1");
   }
   template <class Visitor>
   void VisitFields(Visitor&& visit) {
     algorithm.VisitFields(visit);
     visit("max_waiting_pairs", max_waiting_pairs);
+    visit("features_always", features_always);
+    visit("max_kept_pairs", max_kept_pairs);
     learned.VisitFields(visit);
   }
 };
 
-/// Rectified stereo pairs in, `features` out: layers image to reconstruction. Subscribes to the
-/// pairs only while somebody subscribes to `features`, so that a player which waits for subscribers
-/// waits for the whole chain.
+/// Rectified stereo pairs in, `features` out: layers image to reconstruction. Pairs are announced,
+/// and their features are computed where they are asked for. Subscribes to the pairs only while
+/// somebody subscribes to `features`, so that a player which waits for subscribers waits for the
+/// whole chain.
 class ArfmNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter (ArfmNodeOptions).
@@ -46,7 +55,7 @@ class ArfmNode {
  private:
   /// How the pairs since the start fared.
   struct Figures {
-    uint32_t num_published = 0, num_strays = 0;
+    uint32_t num_published = 0, num_with_features = 0, num_strays = 0;
     Refusals refusals{"pair"};
     size_t num_left = 0, num_right = 0, num_points = 0;
     PairTimes times;
@@ -60,6 +69,15 @@ class ArfmNode {
   void TellDrops();
   // On the worker's thread:
   void Process(const StereoMessagePair& pair);
+  void Answer(const FeaturesRequest& request);
+  /// A pair as it was announced.
+  struct Announced {
+    StereoMessagePair messages;  ///< own the pixels of `images`
+    StereoImages images;
+    StereoFrameStamped message;
+    StereoFrame frame;
+  };
+  void PublishFeatures(const Announced& pair);
   /// Says whether the pair is to be worked on; begins anew where time has jumped.
   bool AcceptStamp(const ros::Time& stamp);
   void PrepareFrontend(const StereoMessagePair& pair);
@@ -75,6 +93,7 @@ class ArfmNode {
   StereoCamera camera_;
   GreyWindow window_;
   std::unique_ptr<StereoFrontend> frontend_;
+  std::deque<Announced> announced_;  // the newest
   LearnedCalibration learned_;
   StampOrder<ros::Time> stamps_;
   Figures figures_;
@@ -82,6 +101,7 @@ class ArfmNode {
   Worker worker_;
   std::unique_ptr<StereoInput> input_;
   ros::Publisher features_;
+  ros::Subscriber requests_;
   ros::WallTimer timer_;
 };
 

@@ -55,7 +55,7 @@ class CameraMount {
   /// Gives `session` a pair, whose left image has `header`, with the camera where tf says it was at
   /// that stamp. Skipped where tf cannot tell or the head was slewing. Where the camera sat goes to
   /// `log`.
-  SessionUpdate Process(const StereoFrame& frame, const StereoCamera& camera,
+  SessionUpdate Process(const FrameOnRequest& frame, const StereoCamera& camera,
                         const StereoImages& images, const std_msgs::Header& header,
                         Session& session, MountLog& log) const;
 

@@ -18,6 +18,7 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/odometry/camera_mount.h"
+#include "arfm_vo/ros/odometry/features_requests.h"
 #include "arfm_vo/ros/odometry/learned_calibration.h"
 #include "arfm_vo/ros/odometry/odometry_health.h"
 #include "arfm_vo/ros/odometry/pose_outputs.h"
@@ -72,7 +73,7 @@ class PoseNode {
   void Offer(ros::NodeHandle& node, ros::NodeHandle& private_node);
   std::string Save();
   // On the worker's thread:
-  void Process(const Frame& message, const sensor_msgs::ImageConstPtr& left,
+  void Process(const StereoFrameStampedConstPtr& pair, const sensor_msgs::ImageConstPtr& left,
                const sensor_msgs::ImageConstPtr& right);
   /// Says whether the pair is to be worked on; begins anew where time has jumped.
   bool AcceptStamp(const ros::Time& stamp);
@@ -92,6 +93,7 @@ class PoseNode {
   ros::Time last_stamp_;
   PairNumbers numbers_;
   diagnostic_updater::Updater diagnostics_;
+  FeaturesRequests requests_;
   Worker worker_;
   // Of the thread that calls back:
   ExactPairing<Frame, Image, Image> pairing_;

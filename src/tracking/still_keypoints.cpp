@@ -1,12 +1,13 @@
-#include "still_keypoints.h"
+#include "arfm_vo/tracking/still_keypoints.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <opencv2/core.hpp>
 
 #include "arfm_vo/matching/keypoint_grid.h"
-#include "arfm_vo/odometry/correspondences.h"
+#include "arfm_vo/tracking/correspondences.h"
 
 namespace arfm_vo {
 namespace {
@@ -34,6 +35,27 @@ double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
   const Eigen::Vector3d x = before_from_now * (point.x_in_camera * (disparity_px / least_px));
   if (x.z() <= 0) return camera.width;
   return (camera.Project(x) - point.observation.head<2>()).norm();
+}
+
+/// Of what a region shows, what is still.
+struct Count {
+  int num = 0, num_still = 0;
+
+  void Add(bool is_still) {
+    ++num;
+    num_still += is_still;
+  }
+  bool IsEnough() const { return num >= kEnough; }
+  double Share() const { return IsEnough() ? static_cast<double>(num_still) / num : 1; }
+};
+using Counts = std::array<Count, Correspondences::kRegions>;
+
+/// Of one region, of whose picture this share is still: it may be covered; one where most has moved
+/// tells against rest.
+double RestLogRatio(double share) {
+  const double if_still = std::log(1 / kCovered),
+               if_moved = std::log(kAnotherPasses / (1 - kCovered));
+  return share > kMostStill ? if_still : share < kFewStill ? if_moved : 0;
 }
 
 bool IsSame(const Features& before, int i, const Features& now, int k) {
@@ -67,34 +89,35 @@ void FlagStill(const Features& before, StereoFrame& frame) {
 
 double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame,
                     const Correspondences& matches, const std::vector<char>& agrees, char flag) {
-  // A region that is still may be covered; one where most has moved tells against rest.
-  const double if_still = std::log(1 / kCovered),
-               if_moved = std::log(kAnotherPasses / (1 - kCovered));
-  struct Region {
-    int num = 0, num_still = 0, num_matches = 0, num_agreeing = 0;
-  } of_region[Correspondences::kRegions];
-  const auto region_at = [&](double u, double v) -> Region& {
-    return of_region[Correspondences::RegionOf(camera, u, v)];
-  };
   if (std::count(frame.is_still.begin(), frame.is_still.end(), 1) == 0) return 0;
+  Counts of_keypoints, of_matches;
   for (int i = 0; i < frame.features.size(); ++i) {
     const Keypoint& keypoint = frame.features.keypoints[i];
-    Region& region = region_at(keypoint.x, keypoint.y);
-    ++region.num;
-    region.num_still += frame.is_still[i];
+    of_keypoints[Correspondences::RegionOf(camera, keypoint.x, keypoint.y)].Add(frame.is_still[i]);
   }
   for (size_t i = 0; i < matches.points.size(); ++i) {
-    Region& region = region_at(matches.points[i].pixels.x(), matches.points[i].pixels.y());
-    ++region.num_matches;
-    region.num_agreeing += agrees[i] == flag;
+    const Eigen::Vector3d& pixels = matches.points[i].pixels;
+    of_matches[Correspondences::RegionOf(camera, pixels.x(), pixels.y())].Add(agrees[i] == flag);
   }
   double log_ratio = 0;
-  for (const Region& region : of_region) {
-    if (region.num < kEnough) continue;
-    double share = static_cast<double>(region.num_still) / region.num;
-    if (region.num_matches >= kEnough)
-      share = std::min(share, static_cast<double>(region.num_agreeing) / region.num_matches);
-    log_ratio += share > kMostStill ? if_still : share < kFewStill ? if_moved : 0;
+  for (size_t i = 0; i < of_keypoints.size(); ++i) {
+    if (!of_keypoints[i].IsEnough()) continue;
+    log_ratio += RestLogRatio(std::min(of_keypoints[i].Share(), of_matches[i].Share()));
+  }
+  return log_ratio;
+}
+
+double RestLogRatio(const StereoCamera& camera, const std::vector<const Landmark*>& in_view,
+                    const Rigid3& camera_from_world, const LandmarkObservations& seen) {
+  Counts of_landmarks;
+  for (const Landmark* landmark : in_view) {
+    const Eigen::Vector2d pixel = camera.Project(camera_from_world * landmark->x_in_world);
+    of_landmarks[Correspondences::RegionOf(camera, pixel.x(), pixel.y())].Add(
+        FindObservation(seen, landmark->id) != nullptr);
+  }
+  double log_ratio = 0;
+  for (const Count& count : of_landmarks) {
+    if (count.IsEnough()) log_ratio += RestLogRatio(count.Share());
   }
   return log_ratio;
 }

@@ -7,8 +7,8 @@
 #include "arfm_vo/mapping/local_map.h"
 #include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/match.h"
-#include "arfm_vo/odometry/correspondences.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/tracking/correspondences.h"
 
 namespace arfm_vo {
 

@@ -1,4 +1,4 @@
-#include "odometry/right_turn.h"
+#include "arfm_vo/tracking/right_turn.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "arfm_vo/odometry/correspondences.h"
+#include "arfm_vo/tracking/correspondences.h"
 
 #include <algorithm>
 #include <map>
@@ -136,6 +136,16 @@ void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& co
   point.votes = Votes(landmark, arrived);
   point.is_proven = landmark.LogOddsOfGround() > 0;
   points.push_back(point);
+}
+
+void Correspondences::Append(const Correspondences& more) {
+  const auto append = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(more.landmarks, landmarks);
+  append(more.observed, observed);
+  append(more.points, points);
+  append(more.is_still, is_still);
 }
 
 void Correspondences::ShareVotes(int width_px) {

@@ -46,6 +46,7 @@ struct Correspondences {
   /// `arrived`: see GroundBelief.
   void Add(const StereoCamera& camera, const StereoCorrection& correction, const Landmark& landmark,
            const LandmarkObservation& observation, bool still = false, double arrived = 0);
+  void Append(const Correspondences& more);
   /// Each cell of the picture votes, not each point, so that texture does not outvote the rest.
   void ShareVotes(int width_px);
   /// The observations whose flag in `flags` [N] is this one, sorted by landmark.

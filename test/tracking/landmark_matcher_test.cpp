@@ -1,4 +1,4 @@
-#include "arfm_vo/odometry/landmark_matcher.h"
+#include "arfm_vo/tracking/landmark_matcher.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "odometry/still_keypoints.h"
+#include "arfm_vo/tracking/still_keypoints.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "arfm_vo/odometry/correspondences.h"
+#include "arfm_vo/tracking/correspondences.h"
 
 #include <gtest/gtest.h>
 

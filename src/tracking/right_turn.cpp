@@ -1,4 +1,4 @@
-#include "right_turn.h"
+#include "arfm_vo/tracking/right_turn.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

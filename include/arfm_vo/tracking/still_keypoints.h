@@ -5,8 +5,8 @@
 
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
-#include "arfm_vo/odometry/correspondences.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
+#include "arfm_vo/tracking/correspondences.h"
 
 namespace arfm_vo {
 
@@ -21,6 +21,10 @@ void FlagStill(const Features& before, StereoFrame& frame);
 /// resting pose.
 double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame,
                     const Correspondences& matches, const std::vector<char>& agrees, char flag);
+/// The same by landmarks alone: what of those in view of the resting pose (`camera_from_world`) is
+/// among `seen` there (sorted by landmark) is still.
+double RestLogRatio(const StereoCamera& camera, const std::vector<const Landmark*>& in_view,
+                    const Rigid3& camera_from_world, const LandmarkObservations& seen);
 
 /// Those of `frame.points` that are fixed before the camera: still, though they must have moved in
 /// the picture as the camera has moved since the newest keyframe.

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+
+#include "arfm_vo/tracking/landmark_matcher.h"
+#include "arfm_vo/tracking/patch_tracker.h"
+
+namespace arfm_vo {
+
+struct FrameTrackerOptions {
+  /// Whether landmarks are looked for near their predicted places; false: among all keypoints, as
+  /// the features of two images are matched (FeatureMatcher, the frame's own ratio threshold).
+  bool guided = true;
+  int min_guided_inliers = 40;  ///< fewer call for a search among all keypoints
+  LandmarkMatcherOptions matching;
+  PoseEstimatorOptions pose;
+  bool align_patches = true;  ///< false: the keypoints' own positions
+  LandmarkAlignerOptions alignment;
+  PoseRefinementOptions refinement;  ///< of the pose on aligned patches
+
+  void Check() const;
+  template <class Visitor>
+  void VisitFields(Visitor&& visit) {
+    visit("guided", guided);
+    matching.VisitFields(visit);
+    visit("pose", pose);
+    visit("align_patches", align_patches);
+    visit("refinement", refinement);
+  }
+};
+
+/// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
+/// among all keypoints where there is no prediction or it fails; EPnP in RANSAC; then every
+/// landmark in view is measured by its patch, and the pose refined on these.
+class FrameTracker {
+ public:
+  FrameTracker(const StereoCamera& camera, const FrameTrackerOptions& options);
+
+  /// `by_patches`: what they have told, if they did.
+  TrackedFrame Track(const StereoFrame& frame, const StereoImages& images, const LocalMap& map,
+                     const Expectation& expected,
+                     const std::optional<TrackedFrame>& by_patches = std::nullopt) const;
+  /// Whether patches alone may tell the pose, and from which level on (PatchTracker).
+  std::optional<int> LevelOfPatches(const LocalMap& map, const Expectation& expected) const;
+  std::optional<TrackedFrame> TrackByPatches(const StereoImages& images, const LocalMap& map,
+                                             const Expectation& expected, int level) const {
+    return patches_.Track(images, map, expected, level);
+  }
+  /// Takes the right image's displacement into account from now on. Observations stay as measured.
+  void SetCorrection(const StereoCorrection& correction);
+  /// See LandmarkAligner.
+  void SetMotionBetweenEyes(const Rigid3& later_from_now) {
+    patches_.SetMotionBetweenEyes(later_from_now);
+  }
+
+ private:
+  TrackedFrame Localise(Correspondences matches, const StereoFrame& frame, const LocalMap& map,
+                        const Expectation& expected) const;
+  /// How likely its pose and the rival are the ground's.
+  void Weigh(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
+             TrackedFrame& tracked) const;
+  /// The rival is likelier: it becomes the pose, and the pose its rival.
+  void PreferRival(TrackedFrame& tracked) const;
+  void Align(const StereoImages& images, const LocalMap& map, const Expectation& expected,
+             const std::optional<TrackedFrame>& by_patches, TrackedFrame& tracked) const;
+
+  StereoCamera camera_;
+  FrameTrackerOptions options_;
+  LandmarkMatcher matcher_;
+  PatchTracker patches_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "arfm_vo/image/stereo_images.h"
+#include "arfm_vo/mapping/landmark_aligner.h"
+#include "arfm_vo/mapping/local_map.h"
+#include "arfm_vo/pose/pose_refinement.h"
+#include "arfm_vo/tracking/correspondences.h"
+#include "arfm_vo/tracking/tracked_frame.h"
+
+namespace arfm_vo {
+
+/// When patches tell a pose.
+struct PatchTrackerOptions {
+  LandmarkAlignerOptions alignment;
+  PoseRefinementOptions refinement;
+  int min_inliers = 15;
+  double min_inlier_share = 0.15;  ///< of the patches that were found
+  int min_deciding = 40;           ///< inliers, where no features are looked at
+};
+
+/// Finds the pose of a frame in the local map by the landmarks' patches, about a pose that is known
+/// to some pixels.
+class PatchTracker {
+ public:
+  PatchTracker(const StereoCamera& camera, const PatchTrackerOptions& options);
+
+  /// How often the image must be halved for patches to reach where the landmarks may be by the
+  /// prediction; nothing where they cannot.
+  std::optional<int> LevelFor(const LocalMap& map, const PredictedPose& predicted) const;
+  /// The pose about the prediction, from that level on; without features, which cost most of the
+  /// work on a pair. Nothing where patches do not decide: where not most of the landmarks that were
+  /// seen just before are seen where one pose has them.
+  std::optional<TrackedFrame> Track(const StereoImages& images, const LocalMap& map,
+                                    const Expectation& expected, int level) const;
+
+  /// The landmarks in view, without those that move and do not agree with the pose.
+  static std::vector<const Landmark*> ToMeasure(const LocalMap& map, const TrackedFrame& tracked);
+  /// Where they are seen, by their patches; in parallel.
+  Correspondences Measure(const StereoImages& images, const LocalMap& map,
+                          const std::vector<const Landmark*>& landmarks,
+                          const Rigid3& camera_from_world, bool use_right) const;
+  /// The pose by patches, about the one that is there. Returns which agree, [patches]; where too
+  /// few do nothing, and all stays.
+  std::vector<char> Refine(const Correspondences& patches, const Expectation& expected,
+                           TrackedFrame& tracked) const;
+
+  /// Takes the right image's displacement into account from now on. Observations stay as measured.
+  void SetCorrection(const StereoCorrection& correction);
+  /// See LandmarkAligner.
+  void SetMotionBetweenEyes(const Rigid3& later_from_now) {
+    aligner_.SetMotionBetweenEyes(later_from_now);
+  }
+
+ private:
+  using AlignLandmark =
+      std::function<std::optional<LandmarkObservation>(const Landmark&, const Keyframe& reference)>;
+  Correspondences Measure(const LocalMap& map, const std::vector<const Landmark*>& landmarks,
+                          const AlignLandmark& align) const;
+  /// Refines the pose by some patches in small images, then in larger ones; whether it can.
+  bool Approach(const cv::Mat& left, const LocalMap& map, int level,
+                Rigid3& camera_from_world) const;
+  /// The landmarks in view measured about the pose, which is refined by them; returns them.
+  std::vector<const Landmark*> MeasureInView(const StereoImages& images, const LocalMap& map,
+                                             const Expectation& expected,
+                                             TrackedFrame& tracked) const;
+  void AllowForKeypoints(TrackedFrame& tracked) const;
+
+  StereoCamera camera_;
+  StereoCorrection correction_;
+  PatchTrackerOptions options_;
+  LandmarkAligner aligner_;
+};
+
+}  // namespace arfm_vo

@@ -1,0 +1,217 @@
+#include "arfm_vo/tracking/patch_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core/utility.hpp>
+
+#include "arfm_vo/base/median.h"
+#include "arfm_vo/tracking/ground_weighing.h"
+#include "arfm_vo/tracking/right_turn.h"
+#include "arfm_vo/tracking/still_keypoints.h"
+
+namespace arfm_vo {
+namespace {
+
+/// Log odds of a landmark of the ground below which it is not looked for where its match disagrees.
+constexpr double kMoves = -1.5;
+
+/// How far a keypoint may be from where it should be.
+constexpr double kMaxSigmas = 3;
+
+/// Landmarks nearer to the border of the image are not looked for.
+constexpr double kBorder_px = 8;
+
+/// So many landmarks tell the pose coarsely.
+constexpr size_t kEnoughCoarse = 100;
+
+/// A prediction that errs by so many standard deviations must not put patches out of reach.
+constexpr double kReachSigmas = 2;
+
+/// Those that were not found.
+std::vector<const Landmark*> Without(std::vector<const Landmark*> landmarks,
+                                     const Correspondences& found) {
+  const auto is_found = [&, next = found.landmarks.begin()](const Landmark* landmark) mutable {
+    if (next == found.landmarks.end() || *next != landmark) return false;
+    ++next;
+    return true;
+  };
+  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), is_found), landmarks.end());
+  return landmarks;
+}
+
+}  // namespace
+
+PatchTracker::PatchTracker(const StereoCamera& camera, const PatchTrackerOptions& options)
+    : camera_(camera), options_(options), aligner_(camera, options.alignment) {}
+
+void PatchTracker::SetCorrection(const StereoCorrection& correction) {
+  correction_ = correction;
+  aligner_.SetCorrection(correction);
+}
+
+std::optional<int> PatchTracker::LevelFor(const LocalMap& map,
+                                          const PredictedPose& predicted) const {
+  std::vector<double> depths;
+  for (const auto& [id, landmark] : map.landmarks()) {
+    const Eigen::Vector3d x = predicted.camera_from_world * landmark.x_in_world;
+    if (x.z() > camera_.baseline_m && camera_.Contains(camera_.Project(x), 0)) {
+      depths.push_back(x.z());
+    }
+  }
+  if (depths.empty()) return std::nullopt;
+  const double sigma_px =
+      camera_.fx * (predicted.sigma_turn_rad + predicted.sigma_shift_m / Median(std::move(depths)));
+  for (int level = 0; level <= kMostHalved; ++level) {
+    if (kReachSigmas * sigma_px < std::ldexp(PatchAlignmentLimits().max_shift_px, level)) {
+      return level;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<const Landmark*> PatchTracker::MeasureInView(const StereoImages& images,
+                                                         const LocalMap& map,
+                                                         const Expectation& expected,
+                                                         TrackedFrame& tracked) const {
+  const auto landmarks = ToMeasure(map, tracked);
+  const Rigid3 before = tracked.pose.camera_from_world;
+  tracked.expected.clear();
+  for (const Landmark* landmark : landmarks) tracked.expected.push_back(landmark->id);
+  tracked.matches = Measure(images, map, landmarks, before, expected.use_right);
+  tracked.agrees = Refine(tracked.matches, expected, tracked);
+  if (!IsSame(camera_, landmarks, tracked.pose.camera_from_world, before)) {
+    // What was out of reach may be in reach now: near points as a rule.
+    const auto missed = Without(landmarks, tracked.matches);
+    tracked.matches.Append(
+        Measure(images, map, missed, tracked.pose.camera_from_world, expected.use_right));
+    tracked.agrees = Refine(tracked.matches, expected, tracked);
+  }
+  return landmarks;
+}
+
+/// What is off by less than a keypoint may err does not contradict.
+void PatchTracker::AllowForKeypoints(TrackedFrame& tracked) const {
+  for (size_t i = 0; i < tracked.agrees.size(); ++i) {
+    const Landmark& landmark = *tracked.matches.landmarks[i];
+    const Eigen::Vector2d there =
+        camera_.Project(tracked.pose.camera_from_world * landmark.x_in_world);
+    const double off_px = (there - tracked.matches.points[i].pixels.head<2>()).norm();
+    if (off_px < kMaxSigmas * kKeypointSigma * landmark.keypoint.scale) tracked.agrees[i] = 1;
+  }
+}
+
+std::optional<TrackedFrame> PatchTracker::Track(const StereoImages& images, const LocalMap& map,
+                                                const Expectation& expected, int level) const {
+  TrackedFrame tracked;
+  tracked.pose.status = PoseStatus::kTracked;
+  Rigid3& pose = tracked.pose.camera_from_world;
+  pose = expected.predicted->camera_from_world;
+  if (level > 0 && !Approach(images.left, map, level, pose)) return std::nullopt;
+  auto seen_before = MeasureInView(images, map, expected, tracked);
+  if (tracked.agrees.empty() || tracked.pose.num_inliers < options_.min_deciding) {
+    return std::nullopt;
+  }
+  const auto was_missed = [](const Landmark* landmark) { return landmark->num_missed > 0; };
+  seen_before.erase(std::remove_if(seen_before.begin(), seen_before.end(), was_missed),
+                    seen_before.end());
+  const auto is_seen = [&](const Landmark* landmark) {
+    return FindObservation(tracked.observations, landmark->id) != nullptr;
+  };
+  const auto num_seen = std::count_if(seen_before.begin(), seen_before.end(), is_seen);
+  if (2 * static_cast<size_t>(num_seen) < seen_before.size()) return std::nullopt;
+  AllowForKeypoints(tracked);
+  const auto rest_log_ratio = [&](char) {
+    return RestLogRatio(camera_, seen_before, pose, tracked.observations);
+  };
+  WeighGround(camera_, map, expected, rest_log_ratio, tracked);
+  // Where poses before may not have been the ground's there is more to weigh.
+  const double ground = expected.if_none.ground;
+  const double before = std::min(0., std::log(ground / (1 - ground)));
+  if (before + tracked.log_odds < kSure || tracked.is_odd_rest) return std::nullopt;
+  SortMatches(tracked);
+  return tracked;
+}
+
+bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
+                            Rigid3& camera_from_world) const {
+  const std::vector<cv::Mat> left_halved = Halve(left);
+  for (; level > 0; --level) {
+    std::vector<const Landmark*> landmarks = map.LandmarksInView(camera_from_world, kBorder_px);
+    // (Those of a keyframe are spread over the image, in any order.)
+    const size_t every = 1 + landmarks.size() / kEnoughCoarse;
+    std::vector<const Landmark*> some;
+    for (size_t i = 0; i < landmarks.size(); i += every) some.push_back(landmarks[i]);
+    const Correspondences patches = Measure(map, some, [&](const auto& landmark, const auto& seen) {
+      return aligner_.AlignCoarsely(landmark, seen, left_halved, level, camera_from_world);
+    });
+    const PoseRefinement refined =
+        RefinePose(camera_, patches.points, camera_from_world, options_.refinement);
+    if (refined.status != RefinementStatus::kConverged ||
+        refined.num_inliers < options_.min_inliers) {
+      return false;
+    }
+    camera_from_world = refined.camera_from_world;
+  }
+  return true;
+}
+
+std::vector<const Landmark*> PatchTracker::ToMeasure(const LocalMap& map,
+                                                     const TrackedFrame& tracked) {
+  auto landmarks = map.LandmarksInView(tracked.pose.camera_from_world, kBorder_px);
+  const auto moves = [&](const Landmark* landmark) {
+    return landmark->LogOddsOfGround(map.arrived()) < kMoves &&
+           FindObservation(tracked.observations, landmark->id) == nullptr;
+  };
+  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
+  return landmarks;
+}
+
+Correspondences PatchTracker::Measure(const LocalMap& map,
+                                      const std::vector<const Landmark*>& landmarks,
+                                      const AlignLandmark& align) const {
+  std::vector<std::optional<LandmarkObservation>> observations(landmarks.size());
+  const cv::Range all(0, static_cast<int>(landmarks.size()));
+  cv::parallel_for_(all, [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const Keyframe* reference = map.FindKeyframe(landmarks[i]->reference);
+      if (reference != nullptr) observations[i] = align(*landmarks[i], *reference);
+    }
+  });
+  Correspondences correspondences;
+  for (size_t i = 0; i < landmarks.size(); ++i) {
+    if (observations[i]) {
+      correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
+    }
+  }
+  return correspondences;
+}
+
+Correspondences PatchTracker::Measure(const StereoImages& images, const LocalMap& map,
+                                      const std::vector<const Landmark*>& landmarks,
+                                      const Rigid3& camera_from_world, bool use_right) const {
+  return Measure(map, landmarks, [&](const Landmark& landmark, const Keyframe& reference) {
+    return aligner_.Align(landmark, reference, images, camera_from_world, use_right);
+  });
+}
+
+std::vector<char> PatchTracker::Refine(const Correspondences& patches, const Expectation& expected,
+                                       TrackedFrame& tracked) const {
+  PoseRefinement refined =
+      RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
+  const double enough = std::max<double>(
+      options_.min_inliers, options_.min_inlier_share * static_cast<double>(patches.points.size()));
+  if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) return {};
+  if (expected.may_turn && expected.use_right) {
+    tracked.turn_against_map = FindTurnAgainstMap(camera_, correction_, patches.landmarks,
+                                                  patches.observed, refined.camera_from_world);
+  }
+  tracked.pose.camera_from_world = refined.camera_from_world;
+  tracked.pose.covariance = refined.covariance;
+  tracked.pose.num_matches = static_cast<int>(patches.points.size());
+  tracked.pose.num_inliers = refined.num_inliers;
+  tracked.pose.rms_px = refined.rms_px;
+  tracked.observations = patches.Select(refined.is_inlier, 1);
+  return refined.is_inlier;
+}
+
+}  // namespace arfm_vo

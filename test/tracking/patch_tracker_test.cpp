@@ -1,0 +1,127 @@
+#include "arfm_vo/tracking/patch_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "tracking/tracked_wall.h"
+
+namespace arfm_vo {
+namespace {
+
+class PatchTrackerTest : public FrameTrackerTest {};
+
+/// As if poses before had agreed with all landmarks.
+void CountAllSeen(LocalMap& map) {
+  LandmarkObservations seen;
+  std::vector<LandmarkId> expected;
+  for (const auto& [id, landmark] : map.landmarks()) {
+    LandmarkObservation observation{};
+    observation.landmark = id;
+    observation.pixels.setZero();
+    seen.push_back(observation);
+    expected.push_back(id);
+  }
+  for (int i = 0; i < 3; ++i) map.CountSightings(expected, seen);
+}
+
+Expectation ExpectedWithin(const Rigid3& predicted, double sigma_turn_rad) {
+  PredictedPose pose(predicted);
+  pose.sigma_turn_rad = sigma_turn_rad;
+  pose.sigma_shift_m = 0.001;
+  const GroundPrior prior{0.98, 0.01};
+  return {pose, prior, prior};
+}
+
+TEST_F(PatchTrackerTest, PatchesReachAsFarAsThePredictionMayErr) {
+  const FrameTracker tracker(camera_, {});
+  int before = -1;
+  for (const double sigma_px : {1., 2., 5., 10.}) {
+    const auto level = tracker.LevelOfPatches(map_, ExpectedWithin(truth_, sigma_px / camera_.fx));
+    ASSERT_TRUE(level) << sigma_px;
+    EXPECT_EQ(*level, ++before) << sigma_px;
+  }
+  EXPECT_FALSE(tracker.LevelOfPatches(map_, ExpectedWithin(truth_, 20 / camera_.fx)));
+  EXPECT_FALSE(tracker.LevelOfPatches(map_, {PredictedPose(truth_)})) << "as if sigma were known";
+  EXPECT_FALSE(tracker.LevelOfPatches(map_, {std::nullopt}));
+  Expectation wary = ExpectedWithin(truth_, 1 / camera_.fx);
+  wary.is_wary = true;
+  EXPECT_FALSE(tracker.LevelOfPatches(map_, wary));
+  FrameTrackerOptions keypoints_alone;
+  keypoints_alone.align_patches = false;
+  EXPECT_FALSE(FrameTracker(camera_, keypoints_alone)
+                   .LevelOfPatches(map_, ExpectedWithin(truth_, 1 / camera_.fx)));
+}
+
+TEST_F(PatchTrackerTest, PatchesTellThePoseAsKeypointsAndPatchesDo) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  const StereoImages images = wall_.Render(1, truth_);
+  const TrackedFrame whole = Track(truth_, truth_);
+  for (const auto& [off_px, level] : {std::pair(0.5, 0), {2., 0}, {5., 1}, {7., 2}}) {
+    const Rigid3 predicted = Rigid3(ExpSO3({0, off_px / camera_.fx, 0}), {0, 0, 0}) * truth_;
+    const auto tracked =
+        tracker.TrackByPatches(images, map_, ExpectedWithin(predicted, off_px / camera_.fx), level);
+    ASSERT_TRUE(tracked) << off_px;
+    EXPECT_TRUE(tracked->pose.IsTracked());
+    ExpectNear(tracked->pose.camera_from_world, whole.pose.camera_from_world, 0.001);
+    EXPECT_GT(tracked->pose.num_inliers, 0.9 * whole.pose.num_inliers) << off_px;
+    EXPECT_EQ(tracked->observations.size(), static_cast<size_t>(tracked->pose.num_inliers));
+    EXPECT_NEAR(tracked->expected.size(), whole.expected.size(), 10);
+  }
+}
+
+TEST_F(PatchTrackerTest, PatchesDoNotDecideOutOfReachNorWhereMostIsHidden) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  StereoImages images = wall_.Render(1, truth_);
+  const Rigid3 off(ExpSO3({0, 18 / camera_.fx, 0}), {0, 0, 0});
+  EXPECT_FALSE(tracker.TrackByPatches(images, map_, ExpectedWithin(off * truth_, 0.01), 0));
+  const Expectation expected = ExpectedWithin(truth_, 0.001);
+  EXPECT_TRUE(tracker.TrackByPatches(images, map_, expected, 0));
+  const StereoImages dark = wall_.RenderDark(1);
+  const cv::Rect most(0, 0, camera_.width * 6 / 10, camera_.height);
+  dark.left(most).copyTo(images.left(most));
+  dark.right(most).copyTo(images.right(most));
+  EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
+}
+
+/// The camera seems to rest by what covers most of the picture, the rest has moved out of reach.
+TEST_F(PatchTrackerTest, PatchesDoNotTakeWhatIsFixedBeforeTheCameraForRest) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  const StereoImages rest = wall_.Render(1, Rigid3());
+  const Expectation expected = ExpectedWithin(Rigid3(), 0.001);
+  EXPECT_TRUE(tracker.TrackByPatches(rest, map_, expected, 0));
+  StereoImages images = wall_.Render(1, Rigid3(ExpSO3({0, 0.03, 0}), {0, 0, 0}));
+  const cv::Rect cover(0, 0, camera_.width * 6 / 10, camera_.height);
+  rest.left(cover).copyTo(images.left(cover));
+  rest.right(cover).copyTo(images.right(cover));
+  EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
+}
+
+/// A keyframe's features are matched too; what patches have measured is not measured again.
+TEST_F(PatchTrackerTest, KeypointsTakeOverWhatPatchesHaveMeasured) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  const StereoImages images = wall_.Render(1, truth_);
+  const Expectation expected = ExpectedWithin(truth_, 0.001);
+  const auto by_patches = tracker.TrackByPatches(images, map_, expected, 0);
+  ASSERT_TRUE(by_patches);
+  const StereoFrame frame = frontend_.Process(images);
+  // (Patches that were measured in the dark would not be there.)
+  const TrackedFrame tracked =
+      tracker.Track(frame, wall_.RenderDark(1), map_, expected, by_patches);
+  ExpectNear(tracked.pose.camera_from_world, by_patches->pose.camera_from_world, 1e-6);
+  EXPECT_EQ(tracked.observations.size(), by_patches->observations.size());
+  EXPECT_GT(tracked.matches.landmarks.size(), 50u) << "of keypoints";
+  // Where keypoints tell of another pose, that is measured anew.
+  const StereoImages elsewhere = wall_.Render(2, truth_.Inverse());
+  const TrackedFrame corrected = tracker.Track(frontend_.Process(elsewhere), elsewhere, map_,
+                                               {PredictedPose(truth_)}, by_patches);
+  ExpectNear(corrected.pose.camera_from_world, truth_.Inverse(), 0.01);
+}
+
+}  // namespace
+}  // namespace arfm_vo
