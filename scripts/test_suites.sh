@@ -19,8 +19,8 @@ fail() { echo "test_suites: $*" >&2; exit 1; }
 [ "$(id -u)" -eq 0 ] || fail "a chroot can be made by root only"
 is_core=
 if [[ ${1-} == --core ]]; then is_core=1; shift; fi
-core=(base geometry image features matching reconstruction pose mapping bundle_adjustment odometry configuration calibration
-      datasets evaluation driving hardware simulation rehearsal)
+core=(base geometry image features matching reconstruction pose mapping tracking bundle_adjustment odometry configuration
+      calibration datasets evaluation driving hardware simulation rehearsal)
 
 need() { command -v "$1" > /dev/null || fail "$1 is missing (package $2)"; }
 

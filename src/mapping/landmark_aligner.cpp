@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/right_shift.h"
@@ -122,8 +121,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
 }
 
 std::optional<LandmarkObservation> LandmarkAligner::AlignCoarsely(
-    const Landmark& landmark, const Keyframe& reference, const std::vector<cv::Mat>& left_halved,
-    int level, const Rigid3& camera_from_world) const {
+    const Landmark& landmark, const Keyframe& reference, const HalvedImages& left_halved, int level,
+    const Rigid3& camera_from_world) const {
   const auto warp = FindWarp(landmark, reference, camera_from_world);
   if (!warp) return std::nullopt;
   const float size = std::ldexp(1.F, level);
@@ -143,14 +142,6 @@ std::optional<LandmarkObservation> LandmarkAligner::AlignCoarsely(
   const double sigma_px = std::sqrt(0.5 * (found.covariance[0] + found.covariance[2]));
   observation.sigma_px = size * std::max(options_.min_sigma_px, sigma_px);
   return observation;
-}
-
-std::vector<cv::Mat> Halve(const cv::Mat& grey) {
-  std::vector<cv::Mat> halved;
-  if (grey.empty()) return halved;
-  cv::buildPyramid(grey, halved, kMostHalved);
-  halved.erase(halved.begin());
-  return halved;
 }
 
 }  // namespace arfm_vo

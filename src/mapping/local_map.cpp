@@ -4,7 +4,6 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/pixel_scale.h"
-#include "arfm_vo/mapping/landmark_aligner.h"
 #include "moving_cells.h"
 #include "occupancy_grid.h"
 
@@ -239,9 +238,10 @@ void LocalMap::ForgetRight(KeyframeId before) {
 }
 
 void LocalMap::Transform(const Rigid3& new_from_old) {
+  const Rigid3 old_from_new = new_from_old.Inverse();
   const Eigen::Matrix3d rotation = new_from_old.RotationMatrix();
   for (Keyframe& keyframe : keyframes_) {
-    keyframe.camera_from_world = keyframe.camera_from_world * new_from_old.Inverse();
+    keyframe.camera_from_world = keyframe.camera_from_world * old_from_new;
   }
   for (auto& [id, landmark] : landmarks_) {
     landmark.x_in_world = new_from_old * landmark.x_in_world;

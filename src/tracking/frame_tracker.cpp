@@ -120,21 +120,16 @@ void FrameTracker::PreferRival(TrackedFrame& tracked) const {
 void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
                          const Expectation& expected, const std::optional<TrackedFrame>& by_patches,
                          TrackedFrame& tracked) const {
-  const Rigid3& pose = tracked.pose.camera_from_world;
-  const bool is_measured = by_patches && IsSame(camera_, by_patches->matches.landmarks, pose,
-                                                by_patches->pose.camera_from_world);
-  Correspondences patches;
-  if (is_measured) {
-    patches = by_patches->matches;
-    tracked.expected = by_patches->expected;
-  } else {
-    const auto landmarks = PatchTracker::ToMeasure(map, tracked);
-    tracked.expected.clear();
-    for (const Landmark* landmark : landmarks) tracked.expected.push_back(landmark->id);
-    patches = patches_.Measure(images, map, landmarks, pose, expected.use_right);
-  }
+  const bool is_measured =
+      by_patches && IsSame(camera_, by_patches->matches.landmarks, tracked.pose.camera_from_world,
+                           by_patches->pose.camera_from_world);
+  if (is_measured) tracked.expected = by_patches->expected;
+  const Correspondences patches =
+      is_measured ? by_patches->matches
+                  : patches_.MeasureInView(images, map, expected, tracked).patches;
   // Too few patches are no better than the keypoints that agreed.
-  if (patches_.Refine(patches, expected, tracked).empty()) return;
+  if (patches_.Refine(patches, tracked).empty()) return;
+  patches_.TellTurn(patches, expected, tracked);
   // Keypoints whose patches agree do too, unless the texture repeats and they are elsewhere.
   for (size_t i = 0; i < tracked.agrees.size(); ++i) {
     const LandmarkObservation& match = tracked.matches.observed[i];

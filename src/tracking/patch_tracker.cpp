@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
+#include <utility>
 
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/tracking/ground_weighing.h"
@@ -15,9 +16,6 @@ namespace {
 /// Log odds of a landmark of the ground below which it is not looked for where its match disagrees.
 constexpr double kMoves = -1.5;
 
-/// How far a keypoint may be from where it should be.
-constexpr double kMaxSigmas = 3;
-
 /// Landmarks nearer to the border of the image are not looked for.
 constexpr double kBorder_px = 8;
 
@@ -27,6 +25,11 @@ constexpr size_t kEnoughCoarse = 100;
 /// A prediction that errs by so many standard deviations must not put patches out of reach.
 constexpr double kReachSigmas = 2;
 
+template <class Condition>
+void EraseIf(std::vector<const Landmark*>& landmarks, const Condition& condition) {
+  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), condition), landmarks.end());
+}
+
 /// Those that were not found.
 std::vector<const Landmark*> Without(std::vector<const Landmark*> landmarks,
                                      const Correspondences& found) {
@@ -35,7 +38,7 @@ std::vector<const Landmark*> Without(std::vector<const Landmark*> landmarks,
     ++next;
     return true;
   };
-  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), is_found), landmarks.end());
+  EraseIf(landmarks, is_found);
   return landmarks;
 }
 
@@ -69,24 +72,21 @@ std::optional<int> PatchTracker::LevelFor(const LocalMap& map,
   return std::nullopt;
 }
 
-std::vector<const Landmark*> PatchTracker::MeasureInView(const StereoImages& images,
-                                                         const LocalMap& map,
-                                                         const Expectation& expected,
-                                                         TrackedFrame& tracked) const {
-  const auto landmarks = ToMeasure(map, tracked);
-  const Rigid3 before = tracked.pose.camera_from_world;
+MeasuredPatches PatchTracker::MeasureInView(const StereoImages& images, const LocalMap& map,
+                                            const Expectation& expected,
+                                            TrackedFrame& tracked) const {
+  const Rigid3& pose = tracked.pose.camera_from_world;
+  MeasuredPatches measured;
+  measured.landmarks = map.LandmarksInView(pose, kBorder_px);
+  const auto moves = [&](const Landmark* landmark) {
+    return landmark->LogOddsOfGround(map.arrived()) < kMoves &&
+           FindObservation(tracked.observations, landmark->id) == nullptr;
+  };
+  EraseIf(measured.landmarks, moves);
   tracked.expected.clear();
-  for (const Landmark* landmark : landmarks) tracked.expected.push_back(landmark->id);
-  tracked.matches = Measure(images, map, landmarks, before, expected.use_right);
-  tracked.agrees = Refine(tracked.matches, expected, tracked);
-  if (!IsSame(camera_, landmarks, tracked.pose.camera_from_world, before)) {
-    // What was out of reach may be in reach now: near points as a rule.
-    const auto missed = Without(landmarks, tracked.matches);
-    tracked.matches.Append(
-        Measure(images, map, missed, tracked.pose.camera_from_world, expected.use_right));
-    tracked.agrees = Refine(tracked.matches, expected, tracked);
-  }
-  return landmarks;
+  for (const Landmark* landmark : measured.landmarks) tracked.expected.push_back(landmark->id);
+  measured.patches = Measure(images, map, measured.landmarks, pose, expected.use_right);
+  return measured;
 }
 
 /// What is off by less than a keypoint may err does not contradict.
@@ -96,7 +96,7 @@ void PatchTracker::AllowForKeypoints(TrackedFrame& tracked) const {
     const Eigen::Vector2d there =
         camera_.Project(tracked.pose.camera_from_world * landmark.x_in_world);
     const double off_px = (there - tracked.matches.points[i].pixels.head<2>()).norm();
-    if (off_px < kMaxSigmas * kKeypointSigma * landmark.keypoint.scale) tracked.agrees[i] = 1;
+    if (off_px < Reach(landmark.keypoint)) tracked.agrees[i] = 1;
   }
 }
 
@@ -107,13 +107,23 @@ std::optional<TrackedFrame> PatchTracker::Track(const StereoImages& images, cons
   Rigid3& pose = tracked.pose.camera_from_world;
   pose = expected.predicted->camera_from_world;
   if (level > 0 && !Approach(images.left, map, level, pose)) return std::nullopt;
-  auto seen_before = MeasureInView(images, map, expected, tracked);
+  const Rigid3 before = pose;
+  MeasuredPatches measured = MeasureInView(images, map, expected, tracked);
+  std::vector<const Landmark*>& seen_before = measured.landmarks;
+  Correspondences& patches = measured.patches;
+  tracked.agrees = Refine(patches, tracked);
+  if (!IsSame(camera_, seen_before, pose, before)) {
+    // What was out of reach may be in reach now: near points as a rule.
+    const auto missed = Without(seen_before, patches);
+    patches.Append(Measure(images, map, missed, pose, expected.use_right));
+    tracked.agrees = Refine(patches, tracked);
+  }
   if (tracked.agrees.empty() || tracked.pose.num_inliers < options_.min_deciding) {
     return std::nullopt;
   }
-  const auto was_missed = [](const Landmark* landmark) { return landmark->num_missed > 0; };
-  seen_before.erase(std::remove_if(seen_before.begin(), seen_before.end(), was_missed),
-                    seen_before.end());
+  TellTurn(patches, expected, tracked);
+  tracked.matches = std::move(patches);
+  EraseIf(seen_before, [](const Landmark* landmark) { return landmark->num_missed > 0; });
   const auto is_seen = [&](const Landmark* landmark) {
     return FindObservation(tracked.observations, landmark->id) != nullptr;
   };
@@ -126,15 +136,15 @@ std::optional<TrackedFrame> PatchTracker::Track(const StereoImages& images, cons
   WeighGround(camera_, map, expected, rest_log_ratio, tracked);
   // Where poses before may not have been the ground's there is more to weigh.
   const double ground = expected.if_none.ground;
-  const double before = std::min(0., std::log(ground / (1 - ground)));
-  if (before + tracked.log_odds < kSure || tracked.is_odd_rest) return std::nullopt;
+  const double prior = std::min(0., std::log(ground / (1 - ground)));
+  if (prior + tracked.log_odds < kSure || tracked.is_odd_rest) return std::nullopt;
   SortMatches(tracked);
   return tracked;
 }
 
 bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
                             Rigid3& camera_from_world) const {
-  const std::vector<cv::Mat> left_halved = Halve(left);
+  const HalvedImages left_halved = Halve(left);
   for (; level > 0; --level) {
     std::vector<const Landmark*> landmarks = map.LandmarksInView(camera_from_world, kBorder_px);
     // (Those of a keyframe are spread over the image, in any order.)
@@ -153,17 +163,6 @@ bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
     camera_from_world = refined.camera_from_world;
   }
   return true;
-}
-
-std::vector<const Landmark*> PatchTracker::ToMeasure(const LocalMap& map,
-                                                     const TrackedFrame& tracked) {
-  auto landmarks = map.LandmarksInView(tracked.pose.camera_from_world, kBorder_px);
-  const auto moves = [&](const Landmark* landmark) {
-    return landmark->LogOddsOfGround(map.arrived()) < kMoves &&
-           FindObservation(tracked.observations, landmark->id) == nullptr;
-  };
-  landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), moves), landmarks.end());
-  return landmarks;
 }
 
 Correspondences PatchTracker::Measure(const LocalMap& map,
@@ -194,24 +193,27 @@ Correspondences PatchTracker::Measure(const StereoImages& images, const LocalMap
   });
 }
 
-std::vector<char> PatchTracker::Refine(const Correspondences& patches, const Expectation& expected,
+std::vector<char> PatchTracker::Refine(const Correspondences& patches,
                                        TrackedFrame& tracked) const {
   PoseRefinement refined =
       RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
   const double enough = std::max<double>(
       options_.min_inliers, options_.min_inlier_share * static_cast<double>(patches.points.size()));
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) return {};
-  if (expected.may_turn && expected.use_right) {
-    tracked.turn_against_map = FindTurnAgainstMap(camera_, correction_, patches.landmarks,
-                                                  patches.observed, refined.camera_from_world);
-  }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
   tracked.pose.num_matches = static_cast<int>(patches.points.size());
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;
   tracked.observations = patches.Select(refined.is_inlier, 1);
-  return refined.is_inlier;
+  return std::move(refined.is_inlier);
+}
+
+void PatchTracker::TellTurn(const Correspondences& patches, const Expectation& expected,
+                            TrackedFrame& tracked) const {
+  if (!expected.may_turn || !expected.use_right) return;
+  tracked.turn_against_map = FindTurnAgainstMap(camera_, correction_, patches.landmarks,
+                                                patches.observed, tracked.pose.camera_from_world);
 }
 
 }  // namespace arfm_vo

@@ -23,9 +23,6 @@ constexpr double kCovered = 0.3, kAnotherPasses = 0.05;
 /// Least cosine between descriptors of one and the same thing.
 constexpr float kAlike = 0.8F;
 
-/// Keypoints of one and the same place are no further from one another than this, px.
-double StillReach(const Keypoint& keypoint) { return 3 * kKeypointSigma * keypoint.scale; }
-
 /// How far a point has moved in the picture since `before`, even if it is as far as it may be; px.
 double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
                  const StereoPoint& point) {
@@ -61,7 +58,7 @@ double RestLogRatio(double share) {
 bool IsSame(const Features& before, int i, const Features& now, int k) {
   const Keypoint &a = before.keypoints[i], &b = now.keypoints[k];
   const double du = a.x - b.x, dv = a.y - b.y;
-  const double reach = std::min(StillReach(a), StillReach(b));
+  const double reach = std::min(Reach(a), Reach(b));
   if (a.laplacian_sign != b.laplacian_sign || du * du + dv * dv > reach * reach) return false;
   const float *of_a = before.descriptors.ptr<float>(i), *of_b = now.descriptors.ptr<float>(k);
   return std::inner_product(of_a, of_a + 64, of_b, 0.F) > kAlike;
@@ -127,7 +124,7 @@ FixedPoints::FixedPoints(const StereoCamera& camera, const StereoFrame& frame,
     : is_fixed(frame.features.size()) {
   int num_moved = 0, num_fixed = 0;
   for (const StereoPoint& point : frame.points) {
-    const double reach_px = 2 * StillReach(frame.features.keypoints[point.keypoint]);
+    const double reach_px = 2 * Reach(frame.features.keypoints[point.keypoint]);
     if (before_from_now && LeastFlow(camera, *before_from_now, point) <= reach_px) continue;
     is_fixed[point.keypoint] = frame.is_still[point.keypoint];
     num_fixed += frame.is_still[point.keypoint];

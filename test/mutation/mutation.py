@@ -33,9 +33,8 @@ SUITES = {"driving": (["test_driving"], [str(PROGRAMS / "test_driving")]),
     "hardware": (["test_hardware"], [str(PROGRAMS / "test_hardware"), "--gtest_filter=Chassis*:ToChassis*:BusLock*"]),
     "simulation": (["test_simulation"],
                    [str(PROGRAMS / "test_simulation"), "--gtest_filter=FaultTable*:WrongPose*:SlippedBelt*:Fence*:SimulatedChassis*"]),
-    "ros": (["test_ros"], [str(PROGRAMS / "test_ros"), "--gtest_filter=-*HeadSweep*:BagSequence*"]),
-}
-for suite in ("pose", "odometry", "simulated_run"):
+    "ros": (["test_ros"], [str(PROGRAMS / "test_ros"), "--gtest_filter=-*HeadSweep*:BagSequence*"])}
+for suite in ("pose", "tracking", "odometry", "simulated_run"):
     SUITES[suite] = (["test_" + suite], [str(PROGRAMS / ("test_" + suite))])
 for suite, targets in (("chassis_node", ["chassis_node", "test_chassis_node"]),
                        ("clock_stall", ["chassis_node", "test_chassis_node"]),
@@ -54,7 +53,8 @@ COMPILE_LIMIT_S, TIMED_OUT = 300, 124
 FAILED = re.compile(r"\[  FAILED  \] ([\w.]+)|rosunit-\w+/(\w+)\]\[FAILURE\]")
 BASIC = ("driving", "simulation", "hardware")
 # The suites that are to notice the changes by rule to a folder's sources.
-FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/odometry": ("odometry", "simulated_run"),
+FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/tracking": ("tracking", "odometry"),
+           "src/odometry": ("odometry", "simulated_run"),
            "src/ros": ("ros", "live_poses", "ba_node", "kitti_player", "odometry_chain_nodes")}
 # The same of those sources that another node's test runs.
 FILES = {"chassis_": ("ros", "chassis_node"), "camera_eye|camera_node": ("ros", "stereo_camera"),

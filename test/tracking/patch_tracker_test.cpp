@@ -10,7 +10,26 @@
 namespace arfm_vo {
 namespace {
 
-class PatchTrackerTest : public FrameTrackerTest {};
+Expectation ExpectedWithin(const Rigid3& predicted, double sigma_turn_rad) {
+  PredictedPose pose(predicted);
+  pose.sigma_turn_rad = sigma_turn_rad;
+  pose.sigma_shift_m = 0.001;
+  const GroundPrior prior{0.98, 0.01};
+  return {pose, prior, prior};
+}
+
+class PatchTrackerTest : public FrameTrackerTest {
+ protected:
+  std::optional<int> LevelWithin(double sigma_px, const FrameTracker& tracker) const {
+    return tracker.LevelOfPatches(map_, ExpectedWithin(truth_, sigma_px / camera_.fx));
+  }
+  /// Lays the left 6/10 of `cover` over both images.
+  static void CoverMost(const StereoImages& cover, StereoImages& images) {
+    const cv::Rect most(0, 0, images.left.cols * 6 / 10, images.left.rows);
+    cover.left(most).copyTo(images.left(most));
+    cover.right(most).copyTo(images.right(most));
+  }
+};
 
 /// As if poses before had agreed with all landmarks.
 void CountAllSeen(LocalMap& map) {
@@ -26,23 +45,15 @@ void CountAllSeen(LocalMap& map) {
   for (int i = 0; i < 3; ++i) map.CountSightings(expected, seen);
 }
 
-Expectation ExpectedWithin(const Rigid3& predicted, double sigma_turn_rad) {
-  PredictedPose pose(predicted);
-  pose.sigma_turn_rad = sigma_turn_rad;
-  pose.sigma_shift_m = 0.001;
-  const GroundPrior prior{0.98, 0.01};
-  return {pose, prior, prior};
-}
-
 TEST_F(PatchTrackerTest, PatchesReachAsFarAsThePredictionMayErr) {
   const FrameTracker tracker(camera_, {});
   int before = -1;
   for (const double sigma_px : {1., 2., 5., 10.}) {
-    const auto level = tracker.LevelOfPatches(map_, ExpectedWithin(truth_, sigma_px / camera_.fx));
+    const auto level = LevelWithin(sigma_px, tracker);
     ASSERT_TRUE(level) << sigma_px;
     EXPECT_EQ(*level, ++before) << sigma_px;
   }
-  EXPECT_FALSE(tracker.LevelOfPatches(map_, ExpectedWithin(truth_, 20 / camera_.fx)));
+  EXPECT_FALSE(LevelWithin(20, tracker));
   EXPECT_FALSE(tracker.LevelOfPatches(map_, {PredictedPose(truth_)})) << "as if sigma were known";
   EXPECT_FALSE(tracker.LevelOfPatches(map_, {std::nullopt}));
   Expectation wary = ExpectedWithin(truth_, 1 / camera_.fx);
@@ -50,8 +61,7 @@ TEST_F(PatchTrackerTest, PatchesReachAsFarAsThePredictionMayErr) {
   EXPECT_FALSE(tracker.LevelOfPatches(map_, wary));
   FrameTrackerOptions keypoints_alone;
   keypoints_alone.align_patches = false;
-  EXPECT_FALSE(FrameTracker(camera_, keypoints_alone)
-                   .LevelOfPatches(map_, ExpectedWithin(truth_, 1 / camera_.fx)));
+  EXPECT_FALSE(LevelWithin(1, FrameTracker(camera_, keypoints_alone)));
 }
 
 TEST_F(PatchTrackerTest, PatchesTellThePoseAsKeypointsAndPatchesDo) {
@@ -80,10 +90,7 @@ TEST_F(PatchTrackerTest, PatchesDoNotDecideOutOfReachNorWhereMostIsHidden) {
   EXPECT_FALSE(tracker.TrackByPatches(images, map_, ExpectedWithin(off * truth_, 0.01), 0));
   const Expectation expected = ExpectedWithin(truth_, 0.001);
   EXPECT_TRUE(tracker.TrackByPatches(images, map_, expected, 0));
-  const StereoImages dark = wall_.RenderDark(1);
-  const cv::Rect most(0, 0, camera_.width * 6 / 10, camera_.height);
-  dark.left(most).copyTo(images.left(most));
-  dark.right(most).copyTo(images.right(most));
+  CoverMost(wall_.RenderDark(1), images);
   EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
 }
 
@@ -95,9 +102,7 @@ TEST_F(PatchTrackerTest, PatchesDoNotTakeWhatIsFixedBeforeTheCameraForRest) {
   const Expectation expected = ExpectedWithin(Rigid3(), 0.001);
   EXPECT_TRUE(tracker.TrackByPatches(rest, map_, expected, 0));
   StereoImages images = wall_.Render(1, Rigid3(ExpSO3({0, 0.03, 0}), {0, 0, 0}));
-  const cv::Rect cover(0, 0, camera_.width * 6 / 10, camera_.height);
-  rest.left(cover).copyTo(images.left(cover));
-  rest.right(cover).copyTo(images.right(cover));
+  CoverMost(rest, images);
   EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
 }
 

@@ -17,6 +17,8 @@ struct Keypoint {
 
 /// Standard deviation of a keypoint's position along each axis, in units of its scale.
 constexpr double kKeypointSigma = 0.4;
+/// Keypoints of one and the same place are no further from one another than this, px.
+inline double Reach(const Keypoint& keypoint) { return 3 * kKeypointSigma * keypoint.scale; }
 
 /// Keypoints with their descriptors, row i of `descriptors` belongs to keypoint i.
 struct Features {

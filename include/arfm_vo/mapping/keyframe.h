@@ -2,10 +2,10 @@
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <vector>
 
 #include "arfm_vo/geometry/correction_belief.h"
 #include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/image/halved_images.h"
 #include "arfm_vo/mapping/landmark.h"
 
 namespace arfm_vo {
@@ -21,8 +21,7 @@ struct Keyframe {
   /// calibration.
   std::optional<RightTurn> right_turn;
   cv::Mat left;  ///< grey, for templates of patches; the local map's alone have it
-  /// The same at 1/2, 1/4 .. of its size (Halve).
-  std::vector<cv::Mat> left_halved;
+  HalvedImages left_halved;
 };
 
 }  // namespace arfm_vo

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/geometry/stereo_correction.h"
+#include "arfm_vo/image/halved_images.h"
 #include "arfm_vo/image/patch_alignment.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/keyframe.h"
@@ -33,11 +33,10 @@ class LandmarkAligner {
                                            const Rigid3& camera_from_world,
                                            bool use_right = true) const;
   /// The same in the left image alone, made small by 2^level: it reaches as much further, and errs
-  /// as much more. `left_halved`: Halve.
+  /// as much more.
   std::optional<LandmarkObservation> AlignCoarsely(const Landmark& landmark,
                                                    const Keyframe& reference,
-                                                   const std::vector<cv::Mat>& left_halved,
-                                                   int level,
+                                                   const HalvedImages& left_halved, int level,
                                                    const Rigid3& camera_from_world) const;
   /// What is known of the right image's displacement: tells where to look there.
   void SetCorrection(const StereoCorrection& correction) { correction_ = correction; }
@@ -55,10 +54,6 @@ class LandmarkAligner {
   Rigid3 later_from_now_;
   LandmarkAlignerOptions options_;
 };
-
-/// The image at 1/2, 1/4 .. 1/2^kMostHalved of its size; nothing where there is none.
-constexpr int kMostHalved = 3;
-std::vector<cv::Mat> Halve(const cv::Mat& grey);
 
 /// The 2 x 2 matrix that takes small pixel steps around a landmark from `target` to `source`, two
 /// poses (camera_from_world) of the same camera, by the plane through it with its normal. Nothing

@@ -13,13 +13,19 @@
 
 namespace arfm_vo {
 
-/// When patches tell a pose.
+/// When patches tell a pose: FrameTrackerOptions say it.
 struct PatchTrackerOptions {
   LandmarkAlignerOptions alignment;
   PoseRefinementOptions refinement;
-  int min_inliers = 15;
-  double min_inlier_share = 0.15;  ///< of the patches that were found
-  int min_deciding = 40;           ///< inliers, where no features are looked at
+  int min_inliers;
+  double min_inlier_share;  ///< of the patches that were found
+  int min_deciding;         ///< inliers, where no features are looked at
+};
+
+/// The landmarks that were looked for, and where those that were found are.
+struct MeasuredPatches {
+  std::vector<const Landmark*> landmarks;
+  Correspondences patches;
 };
 
 /// Finds the pose of a frame in the local map by the landmarks' patches, about a pose that is known
@@ -37,16 +43,16 @@ class PatchTracker {
   std::optional<TrackedFrame> Track(const StereoImages& images, const LocalMap& map,
                                     const Expectation& expected, int level) const;
 
-  /// The landmarks in view, without those that move and do not agree with the pose.
-  static std::vector<const Landmark*> ToMeasure(const LocalMap& map, const TrackedFrame& tracked);
-  /// Where they are seen, by their patches; in parallel.
-  Correspondences Measure(const StereoImages& images, const LocalMap& map,
-                          const std::vector<const Landmark*>& landmarks,
-                          const Rigid3& camera_from_world, bool use_right) const;
+  /// Looks for the landmarks in view of the pose that is there, but for those that move and do not
+  /// agree with it.
+  MeasuredPatches MeasureInView(const StereoImages& images, const LocalMap& map,
+                                const Expectation& expected, TrackedFrame& tracked) const;
   /// The pose by patches, about the one that is there. Returns which agree, [patches]; where too
   /// few do nothing, and all stays.
-  std::vector<char> Refine(const Correspondences& patches, const Expectation& expected,
-                           TrackedFrame& tracked) const;
+  std::vector<char> Refine(const Correspondences& patches, TrackedFrame& tracked) const;
+  /// How the right camera stands, by patches and their pose.
+  void TellTurn(const Correspondences& patches, const Expectation& expected,
+                TrackedFrame& tracked) const;
 
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
@@ -58,15 +64,15 @@ class PatchTracker {
  private:
   using AlignLandmark =
       std::function<std::optional<LandmarkObservation>(const Landmark&, const Keyframe& reference)>;
+  /// In parallel.
   Correspondences Measure(const LocalMap& map, const std::vector<const Landmark*>& landmarks,
                           const AlignLandmark& align) const;
+  Correspondences Measure(const StereoImages& images, const LocalMap& map,
+                          const std::vector<const Landmark*>& landmarks,
+                          const Rigid3& camera_from_world, bool use_right) const;
   /// Refines the pose by some patches in small images, then in larger ones; whether it can.
   bool Approach(const cv::Mat& left, const LocalMap& map, int level,
                 Rigid3& camera_from_world) const;
-  /// The landmarks in view measured about the pose, which is refined by them; returns them.
-  std::vector<const Landmark*> MeasureInView(const StereoImages& images, const LocalMap& map,
-                                             const Expectation& expected,
-                                             TrackedFrame& tracked) const;
   void AllowForKeypoints(TrackedFrame& tracked) const;
 
   StereoCamera camera_;
