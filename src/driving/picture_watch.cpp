@@ -22,9 +22,7 @@ void PictureWatch::Observe(const Picture& picture) {
   if (!(gap_s >= 0 && gap_s <= max_age_s_)) {
     pictures_.clear();
     has_settled_ = false;
-    with_features_ = {};
   }
-  if (pictures_.empty() || picture.has_features) with_features_ = picture;
   pictures_.push_back(picture);
   while (pictures_.size() > kMinPictures && pictures_[1].taken_s <= picture.taken_s - kWindow_s)
     pictures_.pop_front();
@@ -59,7 +57,6 @@ std::vector<CheckLine> PictureWatch::Check(double now_s) const {
     return {{"camera", {}, none}, {"exposure", {}, none}, {"both_eyes", {}, none}};
   }
   const Picture& last = pictures_.back();
-  const Picture& seen = with_features_;
   const double age_s = now_s - last.taken_s;
   const bool has_rate = age_s <= max_age_s_ && Span() > 0;
   const double rate_hz = has_rate ? static_cast<double>(pictures_.size() - 1) / Span() : 0;
@@ -71,8 +68,8 @@ std::vector<CheckLine> PictureWatch::Check(double now_s) const {
        Format("%s, mean grey %.0f", has_settled_ ? "has settled" : "has not settled",
               last.grey_mean)},
       {"both_eyes",
-       seen.num_stereo_points * kMinStereoShare >= seen.num_features && seen.num_stereo_points > 0,
-       Format("%zu of %zu keypoints are seen by both", seen.num_stereo_points, seen.num_features)}};
+       last.num_stereo_points * kMinStereoShare >= last.num_features && last.num_stereo_points > 0,
+       Format("%zu of %zu keypoints are seen by both", last.num_stereo_points, last.num_features)}};
 }
 
 }  // namespace arfm_vo

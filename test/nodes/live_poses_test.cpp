@@ -34,6 +34,7 @@ class LivePoses : public testing::Test {
     WaitUntil([&] { return odom_.size() > 0 && odom_.last().header.stamp == stamp; }, "odom");
     WaitUntil([&] { return status_.size() > 0 && status_.last().header.stamp == stamp; }, "status");
     ASSERT_EQ(status_.last().state, OdometryStatus::TRACKED);
+    ASSERT_GT(status_.last().num_stereo_points, 0u);  // of an earlier pair where this has none
     num_keyframes_ += status_.last().is_keyframe;
     num_without_features_ += !status_.last().has_features;
     if (!status_.last().is_keyframe || num_keyframes_ < next_adjustment_) return;

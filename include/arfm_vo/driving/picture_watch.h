@@ -13,7 +13,6 @@ struct Picture {
   double taken_s = 0;
   double grey_mean = 0;  ///< of the left picture, grey levels
   size_t num_features = 0, num_stereo_points = 0;
-  bool has_features = true;  ///< false: none were computed, as patches told the pose
 };
 
 /// Judges the camera by its pictures: whether they come, whether its automatic exposure has settled
@@ -37,7 +36,6 @@ class PictureWatch {
 
   double max_age_s_;
   std::deque<Picture> pictures_;  // of the last second, at least four
-  Picture with_features_;         // the newest that has them
   bool has_settled_ = false;
 };
 

@@ -21,7 +21,8 @@ static_assert(static_cast<uint8_t>(PoseStatus::kTracked) == OdometryStatus::TRAC
 namespace {
 
 OdometryStatusPtr MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
-                             const std_msgs::Header& header, uint32_t num_dropped) {
+                             const FeatureCounts& counts, const std_msgs::Header& header,
+                             uint32_t num_dropped) {
   const auto status = boost::make_shared<OdometryStatus>();
   status->header = header;
   status->state = static_cast<uint8_t>(pose.update.pose.status);
@@ -29,9 +30,9 @@ OdometryStatusPtr MakeStatus(const SessionUpdate& pose, const StereoFrameStamped
   status->is_keyframe = pose.update.is_keyframe;
   status->epoch = pose.epoch;
   status->has_features = frame.has_features;
-  status->num_features = static_cast<uint32_t>(frame.keypoint_x.size());
-  status->num_right_features = frame.num_right_keypoints;
-  status->num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
+  status->num_features = counts.left;
+  status->num_right_features = counts.right;
+  status->num_stereo_points = counts.stereo_points;
   status->num_matches = pose.update.pose.num_matches;
   status->num_inliers = pose.update.pose.num_inliers;
   status->rms_px = pose.update.pose.rms_px;
@@ -68,8 +69,11 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   std_msgs::Header header;
   header.stamp = frame.header.stamp;
   header.frame_id = options_.odom_frame;
+  if (frame.has_features)
+    counts_ = {static_cast<uint32_t>(frame.keypoint_x.size()), frame.num_right_keypoints,
+               static_cast<uint32_t>(frame.point_keypoint.size())};
   // First, so that who drives by the pose hears of a new epoch before its poses.
-  status_publisher_.publish(MakeStatus(pose, frame, header, num_dropped));
+  status_publisher_.publish(MakeStatus(pose, frame, counts_, header, num_dropped));
   if (pose.IsTried()) PublishOdometry(pose, header);
   if (pose.update.pose.IsMeasured()) {  // nobody steers by what no picture told
     if (options_.publish_tf)

@@ -243,8 +243,7 @@ void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatu
   const double taken_s = clock_.At(status.header.stamp);
   driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
   driver_.pilot().picture_watch().Observe({taken_s, status.grey_mean, status.num_features,
-                                           status.num_stereo_points,
-                                           static_cast<bool>(status.has_features)});
+                                           status.num_stereo_points});
 }
 
 }  // namespace arfm_vo

@@ -29,6 +29,11 @@ struct PoseOutputOptions {
   }
 };
 
+/// How many features the newest pair has for which any were computed.
+struct FeatureCounts {
+  uint32_t left = 0, right = 0, stereo_points = 0;
+};
+
 /// All that pose_node publishes: odom, path, status, keyframe, matches_image, tf.
 class PoseOutputs {
  public:
@@ -51,6 +56,7 @@ class PoseOutputs {
   PoseOutputOptions options_;
   std::string base_frame_;
   BoundedPath path_;
+  FeatureCounts counts_;
   ros::Publisher odometry_publisher_, path_publisher_, status_publisher_, keyframe_publisher_;
   image_transport::Publisher picture_publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
