@@ -6,7 +6,7 @@ std::string OdometryUpdate::Describe() const {
   const std::string status = ToString(pose.status), why = ToString(reason);
   if (reason == Reason::kNone) return status;
   if (!pose.HasPose()) return why;
-  return status + ": " + why + (pose.IsMeasured() ? "" : ", the last motion is continued");
+  return status + ": " + why + (pose.IsMeasured() ? "" : std::string(", ") + goes_on_by);
 }
 
 }  // namespace arfm_vo

@@ -3,7 +3,9 @@
 namespace arfm_vo {
 
 const std::vector<ReasonRow>& ListReasons() {
-  static constexpr char kLost[] = "no measurement: the last motion is continued for 2 s, then lost";
+  static constexpr char kLost[] =
+      "no measurement: the last motion is continued for 2 s, or what tracks and gyro tell for 2 m, "
+      "then lost";
   static const std::vector<ReasonRow> rows = {
       {Reason::kNone, "", "tracked"},
       {Reason::kLeftRepeated, "the left camera repeats its picture", kLost},

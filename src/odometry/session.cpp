@@ -13,11 +13,6 @@ constexpr double kMaxTwistInterval_s = 1;
 
 /// So long the base is taken to go on as it went, without a picture that tells.
 constexpr double kMaxBridge_s = 2;
-/// What a vehicle, or a hand, cannot do; and how wrong the speed before may be.
-constexpr double kMaxAcceleration_m_s2 = 10, kMaxTurnAcceleration_rad_s2 = 10;
-constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
-/// Poses err by so much however evenly the base moves.
-constexpr double kLeastShift_m = 0.005, kLeastTurn_rad = 0.001;
 /// After so many good pairs that the map does not know it is given up, where the base has gone on
 /// by this part of the distance of what it sees.
 constexpr int kMaxUnknownPairs = 3;
@@ -25,8 +20,9 @@ constexpr double kNewGround = 0.05;
 
 }  // namespace
 
-Session::Session(const LocalOdometryOptions& options, uint32_t first_epoch)
-    : options_(options), epoch_(first_epoch) {
+Session::Session(const LocalOdometryOptions& options, uint32_t first_epoch,
+                 const SensesOptions& senses)
+    : options_(options), epoch_(first_epoch), motion_(senses) {
   options.Check();
 }
 
@@ -53,34 +49,21 @@ SessionUpdate Session::Process(const FrameOnRequest& frame, const StereoCamera& 
     Track(frame, images, base_from_camera, pose);
   }
   pose.text = pose.update.Describe();
+  const std::string faults = senses().FindFaults();
+  if (!faults.empty()) pose.text += "; " + faults;
   log_.Add(pose.update, odometry_->map());
   ++num_frames_;
   return pose;
 }
 
-std::optional<PredictedPose> Session::Predict(double stamp_s,
-                                              const Rigid3& base_from_camera) const {
-  if (!options_.predict_motion) return std::nullopt;
-  const auto base_from_world = motion_.Predict(stamp_s);
-  if (!base_from_world) return std::nullopt;
-  PredictedPose predicted(base_from_camera.Inverse() * *base_from_world);
-  if (motion_.KnowsSpeed()) {
-    const double squared_s = motion_.ChangeTime(stamp_s);
-    predicted.max_shift_m = kMaxAcceleration_m_s2 * squared_s + kMaxShift_m;
-    predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * squared_s + kMaxTurn_rad;
-    predicted.sigma_shift_m = motion_.usual_acceleration_m_s2() * squared_s + kLeastShift_m;
-    predicted.sigma_turn_rad =
-        motion_.usual_turn_acceleration_rad_s2() * squared_s + kLeastTurn_rad;
-  }
-  return predicted;
-}
-
 void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
                     const Rigid3& base_from_camera, SessionUpdate& pose) {
-  if (last_ && frame.stamp_s() - last_->stamp_s > kMaxBridge_s) motion_.Reset();
+  if (last_ && frame.stamp_s() - last_->stamp_s > kMaxBridge_s) motion_.ForgetSpeed();
+  std::optional<PredictedPose> predicted;
+  if (options_.predict_motion) predicted = motion_.Predict(frame.stamp_s(), base_from_camera);
   pose.epoch = epoch_;
   pose.odom_from_base = base_.odom_from_base();
-  pose.update = odometry_->Process(frame, images, Predict(frame.stamp_s(), base_from_camera));
+  pose.update = odometry_->Process(frame, images, predicted);
   const PoseEstimate& estimate = pose.update.pose;
   if (!estimate.HasPose()) {
     if (pose.update.reason == Reason::kNone) pose.update.reason = ReasonOf(estimate.status);
@@ -92,18 +75,29 @@ void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
   lost_since_s_.reset();
   num_unknown_ = 0;
   if (pose.update.is_relocalised) motion_.Reset();  // how it came there is not known
-  motion_.Add(frame.stamp_s(), base_from_camera * estimate.camera_from_world);
+  motion_.Add(frame.stamp_s(), base_from_camera * estimate.camera_from_world,
+              BaseCovariance(estimate.covariance, base_from_camera));
 }
 
 void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
-  if (!last_ || !motion_.KnowsSpeed() || !base_.has_world()) return;
-  const double gap_s = pose.update.stamp_s - last_->stamp_s;
+  gap_by_senses_.reset();
+  if (!last_ || !base_.has_world()) return;
+  const double stamp_s = pose.update.stamp_s;
+  const auto by_senses = motion_.BySenses(stamp_s);
+  if (!by_senses && !motion_.KnowsSpeed()) return;
   PoseEstimate& estimate = pose.update.pose;
   estimate.status = PoseStatus::kDegraded;
   estimate.num_inliers = 0;
-  estimate.camera_from_world = base_from_camera.Inverse() * *motion_.Predict(pose.update.stamp_s);
+  estimate.camera_from_world = motion_.Predict(stamp_s, base_from_camera)->camera_from_world;
   pose.odom_from_base = base_.Move(estimate.camera_from_world, base_from_camera);
-  pose.covariance = last_->covariance + GapCovariance(last_->twist, gap_s);
+  pose.covariance = last_->covariance + GapCovariance(last_->twist, stamp_s - last_->stamp_s);
+  if (by_senses) {
+    pose.update.goes_on_by = by_senses->by;
+    DriftCovariance carried;
+    carried.StartEpoch(last_->odom_from_base, last_->covariance, Matrix6::Zero());
+    pose.covariance = carried.At(pose.odom_from_base, by_senses->covariance);
+    gap_by_senses_ = pose.covariance - last_->covariance;
+  }
   pose.twist = last_->twist;
 }
 
@@ -144,8 +138,9 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     map_.StartEpoch(base_.odom_from_world());
     if (!map_from_first_) map_from_first_ = map_.map_from_world();
     if (last_) {
+      const double gap_s = pose.update.stamp_s - last_->stamp_s;
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
-                        GapCovariance(last_->twist, pose.update.stamp_s - last_->stamp_s));
+                        gap_by_senses_.value_or(GapCovariance(last_->twist, gap_s)));
       if (is_map_doubtful_) {
         new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
       }
@@ -157,6 +152,7 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
   if (!is_new_epoch) SetTwist(BaseCovariance(estimate.covariance, base_from_camera), pose);
   if (pose.update.is_keyframe) pose.keyframe = NewestKeyframe(base_from_camera);
   last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
+  gap_by_senses_.reset();
 }
 
 void Session::DoubtNewMap(SessionUpdate& pose) {

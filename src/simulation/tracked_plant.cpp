@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kSlipPatch_m = 0.5;  // way over which the slip changes
 
-/// Of mean 0 and variance 1.
-double RandomDeviate(RandomEngine& engine) {
-  double sum = -6;
-  for (int i = 0; i < 12; ++i) sum += RandomUnit(engine);
-  return sum;
-}
-
 }  // namespace
 
 void TrackedPlantOptions::Check() const {

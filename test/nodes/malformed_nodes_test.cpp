@@ -81,15 +81,25 @@ TEST_F(MalformedNodes, Arfm) {
 
 TEST_F(MalformedNodes, Pose) {
   const ros::NodeHandle node("pose"), stereo(node, "stereo");
-  const PoseNode pose(node, Private("pose"));
+  ros::NodeHandle options = Private("pose");
+  options.setParam("senses/use_imu", true);
+  options.setParam("senses/use_tracks", true);
+  const PoseNode pose(node, options);
   const Answers<OdometryStatus> status("pose/status");
   SpoiltTopic features(node, "features", ValidFrame());
   SpoiltTopic left(stereo, "left/image_rect", ValidImage());
   SpoiltTopic right(stereo, "right/image_rect", ValidImage());
   SpoiltTopic updates(node, "map_update", ValidUpdate());
   SpoiltTopic moving(node, "/tf", ValidTransforms(ros::Time()));
+  sensor_msgs::Imu reading;
+  reading.header.frame_id = "base_link";
+  nav_msgs::Odometry ways = ValidOdometry(ros::Time());
+  ways.child_frame_id = "base_link";
+  SpoiltTopic imu(node, "imu", reading);
+  SpoiltTopic tracks(node, "track_odom", ways);
   const auto settle = [&] { status.Await(features, left, right); };
   Flood(settle, features, left, right);
+  Flood(settle, imu, tracks);
   Flood(settle, updates);
   Flood(settle, moving);
 }

@@ -18,4 +18,11 @@ inline double RandomUnit(RandomEngine& engine) {
   return static_cast<double>(engine()) / 4294967296.0;
 }
 
+/// A number of mean 0 and variance 1, about normal.
+inline double RandomDeviate(RandomEngine& engine) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += RandomUnit(engine);
+  return sum;
+}
+
 }  // namespace arfm_vo

@@ -33,6 +33,8 @@ struct OdometryUpdate {
   std::optional<EyeSkew> skew;        ///< where the right picture is late or early, and made up for
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
+  /// What the motion is told by where no picture measured it.
+  const char* goes_on_by = "the last motion is continued";
 
   /// Its status in words, and why.
   std::string Describe() const;

@@ -9,8 +9,8 @@
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/odometry/local_odometry.h"
 #include "arfm_vo/odometry/map_frame.h"
-#include "arfm_vo/odometry/motion_model.h"
 #include "arfm_vo/odometry/new_map_doubt.h"
+#include "arfm_vo/odometry/senses/motion_prior.h"
 #include "arfm_vo/odometry/trajectory_log.h"
 
 namespace arfm_vo {
@@ -42,11 +42,14 @@ struct SessionUpdate {
 class Session {
  public:
   /// `first_epoch` numbers the epochs.
-  explicit Session(const LocalOdometryOptions& options, uint32_t first_epoch = 1);
+  explicit Session(const LocalOdometryOptions& options, uint32_t first_epoch = 1,
+                   const SensesOptions& senses = {});
 
   /// Takes the next pair, later than the one before. A camera that has changed begins a new epoch.
   SessionUpdate Process(const FrameOnRequest& frame, const StereoCamera& camera,
                         const StereoImages& images, const Rigid3& base_from_camera);
+  /// What readings of other senses are added to, before the pair that follows them.
+  Senses& senses() { return motion_.senses(); }
   /// Takes note of a pair that cannot be used: kNoTransform or kHeadSlewing, and why in words.
   SessionUpdate Skip(double stamp_s, PoseStatus status, const std::string& text);
 
@@ -80,8 +83,6 @@ class Session {
     NewMapDoubt doubt;
   };
   void PrepareFor(const StereoCamera& camera);
-  /// Where the camera may be by the base's motion.
-  std::optional<PredictedPose> Predict(double stamp_s, const Rigid3& base_from_camera) const;
   void Track(const FrameOnRequest& frame, const StereoImages& images,
              const Rigid3& base_from_camera, SessionUpdate& pose);
   void FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose);
@@ -102,9 +103,10 @@ class Session {
   std::optional<MapUpdate> offer_;  // of this epoch
   BaseMotion base_;
   DriftCovariance drift_;
-  MotionModel motion_;            // of the base in the odometry's world
-  std::optional<Tracked> last_;   // measured
-  bool is_map_doubtful_ = false;  // begun after a loss
+  MotionPrior motion_;                    // of the base in the odometry's world
+  std::optional<Matrix6> gap_by_senses_;  // of the pose against last_, as of GapCovariance
+  std::optional<Tracked> last_;           // measured
+  bool is_map_doubtful_ = false;          // begun after a loss
   std::optional<NewMap> new_map_;
   std::optional<double> lost_since_s_;
   int num_unknown_ = 0;  // good pairs in a row that the map does not know

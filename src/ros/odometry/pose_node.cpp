@@ -20,7 +20,7 @@ PoseNode::PoseNode(ros::NodeHandle node, ros::NodeHandle private_node)
       mount_(buffer_, options_.mount),
       trajectory_output_(options_.trajectory, options_.mount.base_frame),
       outputs_(node, options_.output, options_.mount.base_frame),
-      session_(std::make_unique<Session>(options_.algorithm.odometry)),
+      session_(std::make_unique<Session>(options_.algorithm.odometry, 1, options_.senses)),
       health_(options_.health),
       learned_(options_.learned),
       diagnostics_(node, private_node, private_node.getNamespace()),
@@ -57,6 +57,12 @@ void PoseNode::Offer(ros::NodeHandle& node, ros::NodeHandle& private_node) {
 
 void PoseNode::Subscribe(ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   transforms_ = std::make_unique<TransformInput>(node, buffer_);
+  if (options_.senses.use_imu || options_.senses.use_tracks) {
+    senses_ =
+        std::make_unique<SenseInputs>(node, options_.senses, options_.mount.base_frame, buffer_,
+                                      worker_, [this]() -> Senses& { return session_->senses(); });
+    diagnostics_.add("senses", senses_.get(), &SenseInputs::Report);
+  }
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
   updates_ = node.subscribe<MapUpdateStamped>(
@@ -131,7 +137,8 @@ bool PoseNode::AcceptStamp(const ros::Time& stamp) {
     if (trajectory_output_.is_enabled()) ROS_INFO("%s", SaveTrajectory().c_str());
     trajectory_output_.StartRun();
     mounts_.Clear();
-    session_ = std::make_unique<Session>(options_.algorithm.odometry, session_->epoch() + 1);
+    session_ = std::make_unique<Session>(options_.algorithm.odometry, session_->epoch() + 1,
+                                         options_.senses);
     outputs_.ClearPath();
     health_.Clear();
   }

@@ -1,7 +1,9 @@
 #include "arfm_vo/ros/rover/simulator_node.h"
 
 #include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/Imu.h>
 #include <std_srvs/SetBool.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +102,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
           [this](const ros::SingleSubscriberPublisher& subscriber) {
             subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
           })),
+      gyro_(node.advertise<sensor_msgs::Imu>("imu", 100)),
       status_subscriber_(node.subscribe<OdometryStatus>(
           "status", 10,
           [this](const OdometryStatusConstPtr& status) {
@@ -157,6 +160,14 @@ void SimulatorNode::Step() {
   now_ns_ += kStep_ns;
   PublishClock();
   chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
+  if (const auto rate = imu_.Read(1e-9 * now_ns_, chassis_.plant().WorldFromBase().rotation)) {
+    sensor_msgs::Imu reading;
+    reading.header.stamp = Stamp();
+    reading.header.frame_id = options_.base_frame;
+    tf2::toMsg(*rate, reading.angular_velocity);
+    reading.orientation_covariance[0] = reading.linear_acceleration_covariance[0] = -1;  // neither
+    gyro_.publish(reading);
+  }
   if (now_ns_ < pair_due_ns_) return;
   pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));
   TakePair();

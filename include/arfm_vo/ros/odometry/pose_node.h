@@ -22,6 +22,7 @@
 #include "arfm_vo/ros/odometry/learned_calibration.h"
 #include "arfm_vo/ros/odometry/odometry_health.h"
 #include "arfm_vo/ros/odometry/pose_outputs.h"
+#include "arfm_vo/ros/odometry/sense_inputs.h"
 
 namespace arfm_vo {
 
@@ -30,6 +31,7 @@ struct PoseNodeOptions {
   CameraMountOptions mount;   ///< its keys stand beside those of the node
   PoseOutputOptions output;   ///< its keys stand beside those of the node
   OdometryHealthOptions health;
+  SensesOptions senses;
   LearnedCalibrationOptions learned;   ///< its keys stand beside those of the node
   TrajectoryOutputOptions trajectory;  ///< its keys stand beside those of the node
   int max_waiting_pairs = 4;           ///< older ones are dropped
@@ -41,6 +43,7 @@ struct PoseNodeOptions {
     mount.Check();
     output.Check();
     health.Check();
+    senses.Check();
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_held_pairs >= 0, "max_held_pairs must not be negative");
   }
@@ -51,6 +54,7 @@ struct PoseNodeOptions {
     output.VisitFields(visit);
     learned.VisitFields(visit);
     visit("health", health);
+    visit("senses", senses);
     visit("max_waiting_pairs", max_waiting_pairs);
     visit("max_held_pairs", max_held_pairs);
     trajectory.VisitFields(visit);
@@ -98,6 +102,7 @@ class PoseNode {
   // Of the thread that calls back:
   ExactPairing<Frame, Image, Image> pairing_;
   std::unique_ptr<TransformInput> transforms_;  // of buffer_
+  std::unique_ptr<SenseInputs> senses_;
   image_transport::Subscriber left_, right_;
   ros::Subscriber frames_, updates_;
   ros::ServiceServer reset_, save_;

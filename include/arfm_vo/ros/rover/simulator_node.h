@@ -16,6 +16,7 @@
 #include "arfm_vo/rehearsal/rehearsal.h"
 #include "arfm_vo/ros/replay/stereo_publisher.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "arfm_vo/simulation/simulated_imu.h"
 
 namespace arfm_vo {
 
@@ -96,6 +97,7 @@ class SimulatorNode {
   StereoCamera camera_;
   Rigid3 map_from_world_;
   SimulatedChassis chassis_;
+  SimulatedImu imu_;
   Drive drive_;  ///< since the last goal ended, for the picture
   double driven_before_m_ = 0;
   std::atomic<uint64_t> now_ns_;  ///< read by the head's thread
@@ -107,7 +109,7 @@ class SimulatorNode {
   ros::Time odometry_done_, pair_stamp_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   StereoPublisher stereo_;
-  ros::Publisher clock_, truth_, ground_;
+  ros::Publisher clock_, truth_, ground_, gyro_;
   ros::Subscriber status_subscriber_, odometry_subscriber_, report_subscriber_;
   ros::ServiceServer set_clock_;
 };

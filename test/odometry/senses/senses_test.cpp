@@ -1,0 +1,201 @@
+#include "arfm_vo/odometry/senses/senses.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "arfm_vo/odometry/senses/motion_prior.h"
+#include "odometry/senses/sensed_drive.h"
+
+namespace arfm_vo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kNumSeeds = 10;
+constexpr double kPairPeriod_s = 0.1, kCamera_m = 0.003, kCamera_rad = 0.0005;
+
+SensesOptions Use(bool use_tracks, bool use_imu) {
+  SensesOptions options;
+  options.use_tracks = use_tracks;
+  options.use_imu = use_imu;
+  return options;
+}
+
+/// A rover whose cameras tell each pose but for some noise.
+class Rover {
+ public:
+  explicit Rover(const SensedDriveOptions& options, const SensesOptions& use = Use(true, true),
+                 const SenseFaults& faults = {})
+      : drive_(options), senses_(faults), prior_(use), engine_(options.plant.seed) {}
+
+  void DriveOn(double time_s) {
+    drive_.DriveOn(time_s, {&senses_});
+    senses_.GiveTo(drive_.now_s(), prior_.senses());
+  }
+  void See() {
+    Eigen::Matrix<double, 6, 1> noise;
+    for (int i = 0; i < 6; ++i) {
+      noise[i] = (i < 3 ? kCamera_rad : kCamera_m) * RandomDeviate(engine_);
+    }
+    Matrix6 covariance = Matrix6::Zero();
+    covariance.diagonal().head<3>().fill(kCamera_m * kCamera_m);
+    covariance.diagonal().tail<3>().fill(kCamera_rad * kCamera_rad);
+    prior_.Add(drive_.now_s(), BoxPlus(drive_.WorldFromBase().Inverse(), noise), covariance);
+  }
+  /// Seeing; returns the way after which a sense was first left out, 0 where none was.
+  double DriveFar(double way_m) {
+    double left_out_after_m = 0;
+    while (drive_.driven_m() < way_m) {
+      DriveOn(kPairPeriod_s);
+      See();
+      if (left_out_after_m == 0 && !faults().empty()) left_out_after_m = drive_.driven_m();
+    }
+    return left_out_after_m;
+  }
+  std::string faults() { return prior_.senses().FindFaults(); }
+  MotionPrior& prior() { return prior_; }
+  const SensedDrive& drive() const { return drive_; }
+
+ private:
+  SensedDrive drive_;
+  FaultySenses senses_;
+  MotionPrior prior_;
+  RandomEngine engine_;
+};
+
+TEST(Senses, ThatAreRightAreNotLeftOut) {
+  for (int seed = 1; seed <= kNumSeeds; ++seed) {
+    Rover rover(SensedDriveOptions::WithSeed(seed));
+    EXPECT_EQ(rover.DriveFar(100), 0) << "seed " << seed << ": " << rover.faults();
+  }
+}
+
+/// Each of some seeds; prints how soon.
+void ExpectNamed(const std::string& what, const SenseFaults& faults) {
+  double latest_m = 0;
+  for (int seed = 1; seed <= kNumSeeds; ++seed) {
+    Rover rover(SensedDriveOptions::WithSeed(seed), Use(true, true), faults);
+    latest_m = std::max(latest_m, rover.DriveFar(20));
+    EXPECT_THAT(rover.faults(), HasSubstr(what)) << "seed " << seed;
+  }
+  std::printf("  '%s': left out after %.1f m at most\n", what.c_str(), latest_m);
+}
+
+TEST(Senses, AGyroOfTheWrongSignIsNamed) {
+  SenseFaults faults;
+  faults.gyro_sign = -1;
+  ExpectNamed("imu: turn about z over what it reads about z -1.", faults);
+}
+
+TEST(Senses, AnImuWhoseFrameHasAWrongTfIsNamed) {
+  SenseFaults faults;
+  faults.imu_from_base = ExpSO3({0, M_PI / 2, 0});
+  ExpectNamed("imu: turn about ", faults);
+}
+
+TEST(Senses, AnImuThatIsLateIsNamed) {
+  SenseFaults faults;
+  faults.imu_late_s = 0.05;
+  ExpectNamed("imu: delay of its stamps (s) 0.05", faults);
+}
+
+TEST(Senses, TracksThatAreTooLongAreNamed) {
+  SenseFaults faults;
+  faults.track_scale = 1.2;
+  ExpectNamed("tracks: way over that of the cameras 1.", faults);
+}
+
+TEST(Senses, BiasAndSlipAreLearnt) {
+  Rover rover(SensedDriveOptions::WithSeed(1));
+  EXPECT_FALSE(rover.prior().BySenses(0));
+  rover.DriveFar(20);
+  const Senses& senses = rover.prior().senses();
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(senses.gyro().state().mean()[axis], 0.01, 1e-3);
+  EXPECT_NEAR(senses.tracks().state().mean()[0], 1 / 0.9, 0.03);
+  EXPECT_EQ(senses.gyro().state().Describe().back().first, "imu: delay of its stamps (s)");
+}
+
+/// Errors of 5 s without pictures.
+struct Blind {
+  double mean_percent = 0, nees = 0;  ///< of the way; of 6 degrees of freedom
+};
+
+Blind DriveBlind(const SensesOptions& use) {
+  constexpr int kTimes = 5;
+  Blind blind;
+  for (int seed = 1; seed <= kNumSeeds; ++seed) {
+    SensedDriveOptions options = SensedDriveOptions::WithSeed(seed);
+    options.plant.slip_variation = 0.02;
+    Rover rover(options, use);
+    rover.DriveFar(20);
+    for (int i = 0; i < kTimes; ++i) {
+      const Rigid3 before = rover.drive().WorldFromBase();
+      const double driven_m = rover.drive().driven_m();
+      rover.DriveOn(5);
+      const auto motion = rover.prior().BySenses(rover.drive().now_s());
+      if (!motion) return {1e9, 1e9};
+      const Rigid3 error =
+          motion->before_from_now.Inverse() * before.Inverse() * rover.drive().WorldFromBase();
+      Eigen::Matrix<double, 6, 1> step;
+      step << error.translation, LogSO3(error.rotation);
+      blind.nees += step.dot(motion->covariance.ldlt().solve(step)) / (kTimes * kNumSeeds);
+      blind.mean_percent += 100 * error.translation.norm() / (rover.drive().driven_m() - driven_m) /
+                            (kTimes * kNumSeeds);
+      rover.See();
+    }
+  }
+  std::printf("  %.2f %% of the way, NEES %.1f\n", blind.mean_percent, blind.nees);
+  return blind;
+}
+
+TEST(Senses, CarryThePoseBlind) {
+  const Blind by_tracks = DriveBlind(Use(true, false)), by_both = DriveBlind(Use(true, true));
+  EXPECT_LT(by_tracks.mean_percent, 5);
+  EXPECT_LT(by_both.mean_percent, 2);
+  EXPECT_LT(by_tracks.nees, 6);
+  EXPECT_LT(by_both.nees, 6);
+}
+
+TEST(Senses, TracksCarryThePoseForABoundedWay) {
+  Rover rover(SensedDriveOptions::WithSeed(1));
+  rover.DriveFar(5);
+  const double driven_m = rover.drive().driven_m();
+  do {
+    rover.DriveOn(kPairPeriod_s);
+  } while (rover.prior().BySenses(rover.drive().now_s()));
+  EXPECT_NEAR(rover.drive().driven_m() - driven_m, 2, 0.15);
+  EXPECT_TRUE(rover.prior().Predict(rover.drive().now_s(), {}));  // where to look, all the same
+}
+
+TEST(Senses, AGyroAloneTurnsTheLastSpeed) {
+  Rover rover(SensedDriveOptions::WithSeed(1), Use(false, true));
+  rover.DriveFar(5);
+  rover.DriveOn(0.5);
+  const auto motion = rover.prior().BySenses(rover.drive().now_s());
+  ASSERT_TRUE(motion);
+  EXPECT_FALSE(motion->is_way_measured);
+  EXPECT_STREQ(motion->by, "the gyro tells the turn, and the last speed is kept");
+}
+
+TEST(SenseReadings, BeginAnewAfterAGapAndWhereTimeWasSetBack) {
+  SenseReadings<Eigen::Vector3d> readings;
+  EXPECT_FALSE(readings.Cover(0, 0));
+  for (const double stamp_s : {1.0, 1.1, 1.1, 1.2}) readings.Add(stamp_s, Eigen::Vector3d::Zero());
+  EXPECT_EQ(readings.size(), 3u);
+  EXPECT_TRUE(readings.Cover(1.0, 1.25));
+  EXPECT_FALSE(readings.Cover(0.9, 1.2));
+  EXPECT_FALSE(readings.Cover(1.0, 1.4));
+  readings.Add(2, Eigen::Vector3d::Zero());
+  EXPECT_EQ(readings.size(), 1u);
+  readings.Add(1e9, Eigen::Vector3d::Zero());
+  readings.Add(2.1, Eigen::Vector3d::Zero());
+  readings.Add(2.2, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(readings.Cover(2.1, 2.2));
+  for (int i = 0; i < 10000; ++i) readings.Add(3 + 0.01 * i, Eigen::Vector3d::Zero());
+  EXPECT_LE(readings.size(), 6001u);
+}
+
+}  // namespace
+}  // namespace arfm_vo
