@@ -84,7 +84,7 @@ void YamlMapReader::operator()(const char* name, Field& field) {
   if (const auto value = Find(name)) ReadYamlField(*value, field);
 }
 
-/// Reads options strictly: each key of the map must be a field (VisitFields) of the right type, or
+/// Reads options strictly: each key of the map must be a field (ARFM_FIELDS) of the right type, or
 /// std::invalid_argument names the key with its full dotted name and where it stands. Keys left out
 /// keep the value that they have. Ends with options.Check(). Where it throws, `options` is as
 /// before. A quoted scalar is a string and nothing else.

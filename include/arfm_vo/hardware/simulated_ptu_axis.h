@@ -8,18 +8,6 @@ struct SimulatedPtuAxisOptions {
   int min_position = -3090, max_position = 3090;
   int speed = 1000, min_speed = 31, max_speed = 2902, base_speed = 57;
   int acceleration = 2000;
-
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("resolution_arcsec", resolution_arcsec);
-    visit("min_position", min_position);
-    visit("max_position", max_position);
-    visit("speed", speed);
-    visit("min_speed", min_speed);
-    visit("max_speed", max_speed);
-    visit("base_speed", base_speed);
-    visit("acceleration", acceleration);
-  }
 };
 
 /// Counts of one axis under symmetric trapezoidal acceleration above the base speed; targets and

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 
 namespace arfm_vo {
 
@@ -27,18 +28,8 @@ struct VideoOptions {
     Require(num_buffers >= 2 && num_buffers <= 32, "video.num_buffers must be in 2..32");
     Require(input >= -1, "video.input must not be below -1");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("pixel_format", pixel_format);
-    visit("width", width);
-    visit("height", height);
-    visit("rate_hz", rate_hz);
-    visit("exposure_s", exposure_s);
-    visit("gain", gain);
-    visit("white_balance_k", white_balance_k);
-    visit("num_buffers", num_buffers);
-    visit("input", input);
-  }
+  ARFM_FIELDS(pixel_format, width, height, rate_hz, exposure_s, gain, white_balance_k, num_buffers,
+              input)
 };
 
 }  // namespace arfm_vo

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/pilot_options.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/rehearsal/goal_scene.h"
@@ -19,14 +20,7 @@ struct RehearsalOptions {
   RoverShape shape;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("pilot", pilot);
-    visit("plant", plant);
-    visit("sight", sight);
-    visit("odometry", odometry);
-    visit("shape", shape);
-  }
+  ARFM_FIELDS(pilot, plant, sight, odometry, shape)
 };
 
 /// Where the rover was, and thought that it was, at one pair; both in the map.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 
 namespace arfm_vo {
@@ -22,13 +23,7 @@ struct StereoRigOptions {
     const double focal_px = width / 2.0 / std::tan(field_of_view_deg * M_PI / 360);
     return {focal_px, focal_px, (width - 1) / 2.0, (height - 1) / 2.0, baseline_m, width, height};
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("width", width);
-    visit("height", height);
-    visit("field_of_view_deg", field_of_view_deg);
-    visit("baseline_m", baseline_m);
-  }
+  ARFM_FIELDS(width, height, field_of_view_deg, baseline_m)
 };
 
 }  // namespace arfm_vo

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/simulation/terrain.h"
 
@@ -35,15 +36,8 @@ struct RoverShape {
   double camera_tilt_deg = 17;  ///< downward
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("track_length_m", track_length_m);
-    visit("track_gauge_m", track_gauge_m);
-    visit("camera_height_m", camera_height_m);
-    visit("camera_forward_m", camera_forward_m);
-    visit("camera_left_m", camera_left_m);
-    visit("camera_tilt_deg", camera_tilt_deg);
-  }
+  ARFM_FIELDS(track_length_m, track_gauge_m, camera_height_m, camera_forward_m, camera_left_m,
+              camera_tilt_deg)
 };
 
 /// The base (x ahead, y left, z up, on the ground between the tracks) of a rover that stands on the

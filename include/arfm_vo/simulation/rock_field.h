@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/simulation/solid.h"
 
 namespace arfm_vo {
@@ -18,14 +19,7 @@ struct RockOptions {
   double flatness = 0.65;      ///< mean height over width
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("density_per_m2", density_per_m2);
-    visit("min_radius_m", min_radius_m);
-    visit("max_radius_m", max_radius_m);
-    visit("power", power);
-    visit("flatness", flatness);
-  }
+  ARFM_FIELDS(density_per_m2, min_radius_m, max_radius_m, power, flatness)
 };
 
 /// The lie of the land that rocks are strewn on.
