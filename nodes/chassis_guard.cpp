@@ -78,7 +78,6 @@ void Run(const std::string& bus, const std::string& stop_address, uint16_t stop_
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   std::string bus, stop_address = "127.0.0.1";
   uint16_t stop_port = 4700;
   Program program;
@@ -90,10 +89,8 @@ int main(int argc, char** argv) {
       "driver commands the chassis, and after a UDP packet until the operator starts anew; brakes\n"
       "where the rover moves otherwise than commanded. BUS: can0, or udp:LOCAL:PEER.";
   program.inputs = {{"BUS", &bus}};
-  program.options.add_options()("stop-port", po::value(&stop_port)->value_name("PORT"),
-                                "UDP, 4700 if not given: any packet stops the rover")(
-      "stop-address", po::value(&stop_address)->value_name("ADDRESS"),
-      "where it comes in, 127.0.0.1 if not given");
+  program.Add("stop-port", stop_port, "PORT", "UDP, 4700 if not given: any packet stops the rover");
+  program.Add("stop-address", stop_address, "ADDRESS", "where it comes in, 127.0.0.1 if not given");
   program.run = [&] { Run(bus, stop_address, stop_port); };
   std::vector<const char*> words;  // without those that roslaunch adds
   for (int i = 0; i < argc; ++i)

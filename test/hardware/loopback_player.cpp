@@ -98,7 +98,6 @@ void Play(const Playing& playing) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Playing playing;
   Program program;
   program.name = "loopback_player";
@@ -109,10 +108,9 @@ int main(int argc, char** argv) {
       "the\n"
       "start and truth.txt at the end.";
   program.inputs = {{"BAG", &playing.bag}, {"FOLDER", &playing.folder}};
-  program.options.add_options()("rate", po::value(&playing.rate_hz)->value_name("HZ"),
-                                "how often a pair is shown")(
-      "pairs", po::value(&playing.num_pairs)->value_name("N"), "at most")(
-      "timeout", po::value(&playing.timeout_s)->value_name("S"), "for one pair");
+  program.Add("rate", playing.rate_hz, "HZ", "how often a pair is shown");
+  program.Add("pairs", playing.num_pairs, "N", "at most");
+  program.Add("timeout", playing.timeout_s, "S", "for one pair");
   program.run = [&] { Play(playing); };
   ros::init(argc, argv, "loopback_player");
   return RunProgram(argc, argv, program);
