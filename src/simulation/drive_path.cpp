@@ -78,6 +78,17 @@ Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverSha
   return {world_from_base, Eigen::Vector3d(pose.position.x(), pose.position.y(), plane.z())};
 }
 
+PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
+  return [&terrain, shape](const RoverPose& pose) {
+    return PlaceRover(terrain, PlanarPose{{pose.x_m, pose.y_m}, pose.heading_rad}, shape);
+  };
+}
+
+double SlopeOf(const Rigid3& world_from_base) {
+  const Eigen::Vector3d up = world_from_base.rotation * Eigen::Vector3d::UnitZ();
+  return std::acos(std::min(1.0, up.z())) * 180 / M_PI;
+}
+
 Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad, double tilt_rad) {
   const double tilt = shape.camera_tilt_deg * M_PI / 180 + tilt_rad;
   Eigen::Matrix3d tilted_from_eye;  // the eye's axes in x ahead, y left, z up, before pan and tilt

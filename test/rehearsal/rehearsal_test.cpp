@@ -1,12 +1,10 @@
-#include "arfm_vo/rehearsal/rehearsal.h"
+#include "rehearsal/rehearsal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <thread>
-
-#include "arfm_vo/rehearsal/drive_picture.h"
 
 namespace arfm_vo {
 namespace {

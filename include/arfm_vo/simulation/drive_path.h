@@ -7,6 +7,7 @@
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/simulation/terrain.h"
+#include "arfm_vo/simulation/tracked_plant.h"
 
 namespace arfm_vo {
 
@@ -43,6 +44,10 @@ struct RoverShape {
 /// The base (x ahead, y left, z up, on the ground between the tracks) of a rover that stands on the
 /// plane fitted to the ground under its tracks.
 Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverShape& shape);
+/// The same at any place of a terrain, which must outlive it.
+PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape);
+/// The slope of the ground under a rover that stands so, degrees.
+double SlopeOf(const Rigid3& world_from_base);
 
 /// The left eye (x right, y down, z ahead) with the head panned to the left and tilted downward
 /// from its place of rest.

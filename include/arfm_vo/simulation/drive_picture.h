@@ -1,27 +1,14 @@
 #pragma once
 
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
-#include "arfm_vo/base/fields.h"
-#include "arfm_vo/driving/pilot_options.h"
-#include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/rehearsal/goal_scene.h"
-#include "arfm_vo/rehearsal/simulated_sight.h"
-#include "arfm_vo/simulation/tracked_plant.h"
+#include "arfm_vo/driving/route.h"
+#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/simulation/terrain.h"
 
 namespace arfm_vo {
-
-struct RehearsalOptions {
-  PilotOptions pilot;
-  TrackedPlantOptions plant;
-  SimulatedSightOptions sight;
-  OdometryOptions odometry;
-  RoverShape shape;
-
-  void Check() const;
-  ARFM_FIELDS(pilot, plant, sight, odometry, shape)
-};
 
 /// Where the rover was, and thought that it was, at one pair; both in the map.
 struct TrackPoint {
@@ -52,9 +39,13 @@ struct Drive {
   bool IsGood() const { return has_arrived && final_error_m <= AllowedError(); }
 };
 
-/// Drives to the scene's goal by sight alone, in process, on a clock of its own: pilot and chassis
-/// speak over a CAN bus in memory, the plant slips on the terrain, the odometry sees rendered
-/// pairs. The same options give the same drive to the last bit.
-Drive Rehearse(const GoalScene& scene, const RehearsalOptions& options);
+/// The drive seen from above (CV_8UC3): shaded ground with contours every 0.25 m, the true way, the
+/// way by sight, start, goal, a scale of 1 m, and the figures in words. `start` is where the map's
+/// origin lies in the world, whose y axis points up in the picture.
+cv::Mat DrawDrive(const Terrain& terrain, const RoverPose& start, const Drive& drive);
+
+/// Writes that picture as PNG, whole or not at all. Throws std::runtime_error naming the file.
+void SaveDrive(const std::string& path, const Terrain& terrain, const RoverPose& start,
+               const Drive& drive);
 
 }  // namespace arfm_vo

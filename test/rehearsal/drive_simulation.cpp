@@ -7,7 +7,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"
-#include "arfm_vo/rehearsal/drive_picture.h"
+#include "rehearsal/rehearsal.h"
 
 namespace {
 

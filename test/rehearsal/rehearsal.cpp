@@ -1,12 +1,12 @@
-#include "arfm_vo/rehearsal/rehearsal.h"
+#include "rehearsal/rehearsal.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

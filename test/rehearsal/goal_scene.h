@@ -38,7 +38,7 @@ class GoalScene {
   /// The goal as the map knows it, whose frame is the rover's base at the start.
   Waypoint GoalInMap() const;
   /// How the rover stands at a place.
-  PlaceOnGround Ground() const;
+  PlaceOnGround Ground() const { return GroundOf(*terrain_, shape_); }
   /// The steepest place of the straight way, degrees.
   double SteepestSlope() const { return steepest_deg_; }
 
@@ -51,8 +51,5 @@ class GoalScene {
   RoverPose start_, goal_;
   double steepest_deg_ = 0;
 };
-
-/// The slope of the ground under a rover that stands so, degrees.
-double SlopeOf(const Rigid3& world_from_base);
 
 }  // namespace arfm_vo
