@@ -61,13 +61,6 @@ std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
   return residuals;
 }
 
-double Percentile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto index =
-      static_cast<size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)));
-  return sorted[std::min(index, sorted.size() - 1)];
-}
-
 cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
                      const cv::Matx34d& projection) {
   cv::Mat map_x, map_y, rectified;

@@ -211,11 +211,5 @@ TEST(Rectification, RowsOfExactCornersAgreeAndP3IsMinusFxTimesBaseline) {
   EXPECT_NEAR(camera.baseline_m, 0.24, 1e-4);
 }
 
-TEST(Percentile, TakesTheNearestOfTheSorted) {
-  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 0.5), 3);
-  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 1), 5);
-  EXPECT_EQ(Percentile({}, 0.5), 0);
-}
-
 }  // namespace
 }  // namespace arfm_vo

@@ -23,9 +23,6 @@ Rectification Rectify(const StereoCalibration& calibration, double alpha = 0);
 std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
                                         const Rectification& rectification);
 
-/// The value below which the `share` of the sorted values lies; 0 of nothing.
-double Percentile(const std::vector<double>& sorted, double share);
-
 /// A rectified image of the eye, bilinear.
 cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
                      const cv::Matx34d& projection);
