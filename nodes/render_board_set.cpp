@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/evaluation/progress_bar.h"
@@ -19,11 +20,8 @@ struct BoardSet {
 };
 
 void WriteImage(const std::string& folder, const char* eye, int pair, const cv::Mat& image) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "/%s%03d.png", eye, pair);
-  if (!cv::imwrite(folder + name, image)) {
-    throw std::runtime_error(folder + name + ": cannot be written");
-  }
+  const std::string path = folder + Format("/%s%03d.png", eye, pair);
+  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
 void RenderBoardSet(const std::string& folder, const BoardSet& set) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -77,10 +78,10 @@ void CheckBoardSize(const std::vector<ImagePair>& files, const Chessboard& board
   const std::string asked = ToString(board.Size());
   const std::optional<cv::Size> seen = GuessCommonSize(files);
   if (static_cast<int>(num_found) < min_pairs) {
-    std::string message = "too few views: a board of " + asked +
-                          " inner corners is wholly seen by both eyes in " +
-                          std::to_string(num_found) + " of " + std::to_string(files.size()) +
-                          " pairs, at least " + std::to_string(min_pairs) + " are needed";
+    std::string message = Format(
+        "too few views: a board of %s inner corners is wholly seen by both eyes in %zu of %zu "
+        "pairs, at least %d are needed",
+        asked.c_str(), num_found, files.size(), min_pairs);
     const bool differs = seen && cv::Size(std::max(board.columns, board.rows),
                                           std::min(board.columns, board.rows)) != *seen;
     message += differs ? "; wrong board size? The images seem to show " + ToString(*seen) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/kitti_calibration.h"
 #include "arfm_vo/datasets/kitti_times.h"
@@ -67,9 +68,8 @@ std::vector<std::string> ListImages(const fs::path& folder) {
 
 std::vector<std::string> ListPairs(const Layout& layout) {
   const auto left = ListImages(layout.left), right = ListImages(layout.right);
-  Require(left.size() == right.size(),
-          layout.left.string() + " holds " + std::to_string(left.size()) + " images, " +
-              layout.right.string() + " " + std::to_string(right.size()));
+  Require(left.size() == right.size(), Format("%s holds %zu images, %s %zu", layout.left.c_str(),
+                                              left.size(), layout.right.c_str(), right.size()));
   for (size_t i = 0; i < left.size(); ++i) {
     Require(left[i] == right[i],
             (layout.left / left[i]).string() + ": has no partner in " + layout.right.string());
@@ -122,10 +122,8 @@ SequencePair KittiSequence::Load(const Frame& frame) {
                  ReadGreyPng(frame.right_path, window_)};
   const cv::Size expected(camera_.width, camera_.height);
   const auto check_size = [&](const cv::Mat& image, const std::string& path) {
-    Require(image.size() == expected, path + ": is " + std::to_string(image.cols) + "x" +
-                                          std::to_string(image.rows) + ", the first image " +
-                                          std::to_string(expected.width) + "x" +
-                                          std::to_string(expected.height));
+    Require(image.size() == expected, path + Format(": is %dx%d, the first image %dx%d", image.cols,
+                                                    image.rows, expected.width, expected.height));
   };
   check_size(pair.images.left, frame.left_path);
   check_size(pair.images.right, frame.right_path);

@@ -126,29 +126,20 @@ void RockField::VisitShadowCells(const Solid& rock, const Visit& visit) const {
 
 void RockField::IndexShadows() {
   shadow_side_ = std::max(1, static_cast<int>(std::ceil(side_m_ / kShadowCell)));
-  shadow_begin_.assign(static_cast<size_t>(shadow_side_) * shadow_side_ + 1, 0);
-  for (const Solid& rock : rocks_) {
-    VisitShadowCells(rock, [&](int cell) { ++shadow_begin_[cell + 1]; });
-  }
-  for (size_t i = 1; i < shadow_begin_.size(); ++i) shadow_begin_[i] += shadow_begin_[i - 1];
-  shadow_rocks_.resize(shadow_begin_.back());
-  std::vector<int> next(shadow_begin_.begin(), shadow_begin_.end() - 1);
-  for (size_t rock = 0; rock < rocks_.size(); ++rock) {
+  shadow_rocks_.resize(static_cast<size_t>(shadow_side_) * shadow_side_);
+  for (size_t rock = 0; rock < rocks_.size(); ++rock)
     VisitShadowCells(rocks_[rock],
-                     [&](int cell) { shadow_rocks_[next[cell]++] = static_cast<int>(rock); });
-  }
+                     [&](int cell) { shadow_rocks_[cell].push_back(static_cast<int>(rock)); });
 }
 
 bool RockField::IsShadowed(const Eigen::Vector3d& point) const {
   const int i = static_cast<int>(std::floor((point.x() + side_m_ / 2) / kShadowCell));
   const int j = static_cast<int>(std::floor((point.y() + side_m_ / 2) / kShadowCell));
   if (i < 0 || j < 0 || i >= shadow_side_ || j >= shadow_side_) return false;
-  const int cell = j * shadow_side_ + i;
-  const Ray ray{point, to_sun_};
-  for (int k = shadow_begin_[cell]; k < shadow_begin_[cell + 1]; ++k) {
-    if (rocks_[shadow_rocks_[k]].Blocks(ray)) return true;
-  }
-  return false;
+  const std::vector<int>& rocks = shadow_rocks_[j * shadow_side_ + i];
+  return std::any_of(rocks.begin(), rocks.end(), [&](int rock) {
+    return rocks_[rock].Blocks({point, to_sun_});
+  });
 }
 
 }  // namespace arfm_vo

@@ -67,9 +67,8 @@ class RockField {
   Eigen::Vector3d to_sun_ = Eigen::Vector3d::UnitZ();
   std::vector<Solid> rocks_;  ///< sorted by cell
   std::vector<Cell> cells_;
-  int shadow_side_ = 0;            ///< shadow cells along a side
-  std::vector<int> shadow_begin_;  ///< [cells + 1] into shadow_rocks_
-  std::vector<int> shadow_rocks_;  ///< indices of rocks_
+  int shadow_side_ = 0;                         ///< shadow cells along a side
+  std::vector<std::vector<int>> shadow_rocks_;  ///< [cells] indices of rocks_
 };
 
 }  // namespace arfm_vo
