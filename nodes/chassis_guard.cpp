@@ -30,8 +30,7 @@ FileDescriptor OpenStopSocket(const std::string& host, uint16_t port) {
           "stop-address '" + host + "' is no IPv4 address");
   FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (::bind(socket.Get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-    throw std::system_error(errno, std::generic_category(),
-                            "stop-port " + std::to_string(port) + " at " + host);
+    ThrowSystemError("stop-port " + std::to_string(port) + " at " + host);
   return socket;
 }
 

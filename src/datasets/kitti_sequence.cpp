@@ -5,8 +5,7 @@
 
 #include "arfm_vo/base/format.h"
 #include "arfm_vo/base/process_usage.h"
-#include "arfm_vo/datasets/kitti_calibration.h"
-#include "arfm_vo/datasets/kitti_times.h"
+#include "arfm_vo/datasets/kitti_files.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/image/png_image.h"
 

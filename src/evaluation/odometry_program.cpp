@@ -7,7 +7,6 @@
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/evaluation/odometry_run.h"
 #include "arfm_vo/evaluation/progress_bar.h"
-#include "arfm_vo/evaluation/run_files.h"
 #include "arfm_vo/evaluation/run_report.h"
 #include "arfm_vo/odometry/reason.h"
 #include "arfm_vo/odometry/visual_odometry.h"

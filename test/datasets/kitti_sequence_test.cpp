@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "arfm_vo/datasets/kitti_times.h"
+#include "arfm_vo/datasets/kitti_files.h"
 #include "datasets/sequence_folder.h"
 
 namespace arfm_vo {

@@ -241,6 +241,7 @@ void Run(const Experiment& experiment) {
 
 int main(int argc, char** argv) {
   using namespace arfm_vo;
+  namespace po = boost::program_options;
   Experiment experiment;
   Program program;
   program.name = "matching_experiment";
@@ -249,10 +250,8 @@ int main(int argc, char** argv) {
       "img6.png, H1to2p ..) or KITTI folders.";
   std::string first_folder;
   program.inputs = {{"FOLDER", &first_folder}};
-  program.options.add_options()(
-      "more",
-      boost::program_options::value(&experiment.folders)->multitoken()->value_name("FOLDER.."),
-      "more folders");
+  const auto more = po::value(&experiment.folders)->multitoken()->value_name("FOLDER..");
+  program.options.add_options()("more", more, "more folders");
   program.Add("pictures", experiment.pictures, "DIR", "pictures of matches there");
   program.Add("points", experiment.num_points, "N", "points an image");
   program.Add("pairs", experiment.max_pairs, "N", "pairs of a KITTI folder");

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arfm_vo/base/whole_file.h"
-#include "arfm_vo/calibration/camera_info_file.h"
+#include "arfm_vo/calibration/rectification.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/ros/replay/bag_sequence.h"
 #include "hardware/loopback_writer.h"

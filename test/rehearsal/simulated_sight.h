@@ -6,7 +6,6 @@
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/simulation/drive_path.h"
-#include "arfm_vo/simulation/stereo_rig.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
 
 namespace arfm_vo {

@@ -15,8 +15,8 @@ MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 
 FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scripts", "src", "test", "urdf")
 LARGER = {
     # Folders, files.
-    "docs": 32, "include/arfm_vo/hardware": 32, "include/arfm_vo/odometry": 34, "src/odometry": 42,
-    "test/hardware": 28, "test/nodes": 33, "test/odometry": 27, "test/recordings": 26,
+    "docs": 32, "include/arfm_vo/hardware": 26, "include/arfm_vo/odometry": 34, "src/odometry": 42,
+    "test/hardware": 27, "test/nodes": 33, "test/odometry": 27, "test/recordings": 26,
     # Lines.
     "src/mapping/local_map.cpp": 259, "src/odometry/global_map.cpp": 265,
     "src/odometry/local_odometry.cpp": 259, "test/odometry/global_map_test.cpp": 260, "src/pose/pose_election.cpp": 261,

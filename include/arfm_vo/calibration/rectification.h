@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "arfm_vo/calibration/stereo_calibration.h"
@@ -26,5 +28,13 @@ std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
 /// A rectified image of the eye, bilinear.
 cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
                      const cv::Matx34d& projection);
+
+/// One eye's calibration as the YAML text that camera_calibration_parsers reads.
+std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size, const Eye& eye,
+                             const cv::Matx33d& rectification, const cv::Matx34d& projection);
+
+/// Writes left.yaml and right.yaml to `folder`; std::system_error naming the file that fails.
+void WriteCameraInfos(const std::filesystem::path& folder, const StereoCalibration& calibration,
+                      const Rectification& rectification);
 
 }  // namespace arfm_vo

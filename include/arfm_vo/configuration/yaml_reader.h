@@ -92,11 +92,7 @@ template <class Options>
 void ReadYaml(const YAML::Node& node, const std::string& source, Options& options) {
   Options read = options;
   ReadYamlField(YamlValue{node, source, ""}, read);
-  try {
-    read.Check();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(source + ": " + error.what());
-  }
+  Within(source, [&] { read.Check(); });
   options = read;
 }
 

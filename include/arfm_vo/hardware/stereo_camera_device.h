@@ -11,7 +11,6 @@
 #include "arfm_vo/hardware/backoff.h"
 #include "arfm_vo/hardware/frame_pairer.h"
 #include "arfm_vo/hardware/video_device.h"
-#include "arfm_vo/hardware/video_options.h"
 
 namespace arfm_vo {
 

@@ -18,7 +18,6 @@
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/drive_picture.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
-#include "arfm_vo/simulation/stereo_rig.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
 
 namespace arfm_vo {

@@ -1,4 +1,3 @@
-#include "arfm_vo/base/running_median.h"
 
 #include <gtest/gtest.h>
 
