@@ -53,11 +53,9 @@ cv::Mat DrawCorners(const cv::Mat& left, const cv::Mat& right, const CornerPair&
 /// The pair rectified, side by side, with level lines across both (Fig. 13).
 cv::Mat DrawRectified(const cv::Mat& left, const cv::Mat& right,
                       const StereoCalibration& calibration, const Rectification& rectification) {
-  cv::Mat both = Shrink(
-      SideBySide(ToColour(RectifyImage(left, calibration.left, rectification.left_rotation,
-                                       rectification.left_projection)),
-                 ToColour(RectifyImage(right, calibration.right, rectification.right_rotation,
-                                       rectification.right_projection))));
+  cv::Mat both =
+      Shrink(SideBySide(ToColour(RectifyImage(left, calibration.left, rectification.left)),
+                        ToColour(RectifyImage(right, calibration.right, rectification.right))));
   const int step = std::max(both.rows / 20, 1);
   for (int v = step / 2; v < both.rows; v += step)
     cv::line(both, {0, v}, {both.cols - 1, v}, {0, 200, 0}, 1);
@@ -112,7 +110,7 @@ std::string FormatRig(const StereoCalibration& calibration, const Rectification&
       "* rectified camera: f = %.3f px, c = (%.3f, %.3f) px, P[3] of the right eye = %.4f\n",
       calibration.BaselineM(), right_in_left.x(), right_in_left.y(), right_in_left.z(),
       Degrees(turn.x()), Degrees(turn.y()), Degrees(turn.z()), camera.fx, camera.cx, camera.cy,
-      rectification.right_projection(0, 3));
+      rectification.right.projection(0, 3));
 }
 
 /// Share of the cells of an eye's image, 10 x 8, in which a corner was seen: distortion is known

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -31,23 +30,13 @@ View DetectView(const std::filesystem::path& path, const Chessboard& board) {
   return {grey.size(), DetectCorners(grey, board.Size())};
 }
 
-/// f(0) .. f(count - 1) on all cores; the first exception is thrown on.
+/// f(0) .. f(count - 1) on all cores; an exception is thrown on.
 template <class Function>
-void ParallelFor(int count, Function&& f) {
-  std::mutex mutex;
-  std::exception_ptr failure;
-  cv::parallel_for_(
-      {0, count},
-      [&](const cv::Range& range) {
-        try {
-          for (int i = range.start; i < range.end; ++i) f(i);
-        } catch (...) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          if (!failure) failure = std::current_exception();
-        }
-      },
-      count);
-  if (failure) std::rethrow_exception(failure);
+void ParallelFor(int count, const Function& f) {
+  const auto run = [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) f(i);
+  };
+  cv::parallel_for_({0, count}, run, count);
 }
 
 /// The size of board that most of some left images show; nothing where they do not agree.

@@ -204,7 +204,7 @@ TEST(Rectification, RowsOfExactCornersAgreeAndP3IsMinusFxTimesBaseline) {
   const auto calibration = Calibrate(synthetic.See(synthetic.Poses(10), 0), synthetic.rig);
   const Rectification rectification = Rectify(calibration);
   EXPECT_LT(MeasureRowResiduals(calibration, rectification).back(), 2e-3);
-  const cv::Matx34d& p = rectification.right_projection;
+  const cv::Matx34d& p = rectification.right.projection;
   EXPECT_NEAR(p(0, 3), -p(0, 0) * synthetic.rig.right_from_left.translation.norm(), 0.02);
   const StereoCamera camera = rectification.Camera(calibration.image_size);
   EXPECT_NO_THROW(camera.Check());

@@ -30,10 +30,10 @@ void WriteCalibration(const std::string& folder, const StereoCamera& camera) {
     const cv::Matx34d projection(camera.fx, 0, camera.cx, tx, 0, camera.fy, camera.cy, 0, 0, 0, 1,
                                  0);
     const std::string name = is_right ? "right" : "left";
-    WriteWholeFile(
-        folder + "/" + name + ".yaml",
-        FormatCameraInfo(name, {camera.width, camera.height},
-                         {matrix, cv::Mat::zeros(1, 5, CV_64FC1)}, cv::Matx33d::eye(), projection));
+    WriteWholeFile(folder + "/" + name + ".yaml",
+                   FormatCameraInfo(name, {camera.width, camera.height},
+                                    {matrix, cv::Mat::zeros(1, 5, CV_64FC1)},
+                                    {cv::Matx33d::eye(), projection}));
   }
 }
 

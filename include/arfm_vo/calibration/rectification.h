@@ -10,10 +10,15 @@
 
 namespace arfm_vo {
 
-/// Turns both eyes so that rows agree: rotations R and projections P as camera_info has them.
+/// How an eye is turned, as camera_info has it.
+struct RectifiedEye {
+  cv::Matx33d rotation;    ///< R, rectified from eye
+  cv::Matx34d projection;  ///< P, of the right eye [0, 3] = -fx * baseline, px m
+};
+
+/// Turns both eyes so that rows agree.
 struct Rectification {
-  cv::Matx33d left_rotation, right_rotation;      ///< rectified from eye
-  cv::Matx34d left_projection, right_projection;  ///< right [0, 3] = -fx * baseline, px m
+  RectifiedEye left, right;
 
   StereoCamera Camera(cv::Size image_size) const;
 };
@@ -26,12 +31,11 @@ std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
                                         const Rectification& rectification);
 
 /// A rectified image of the eye, bilinear.
-cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
-                     const cv::Matx34d& projection);
+cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const RectifiedEye& rectified);
 
 /// One eye's calibration as the YAML text that camera_calibration_parsers reads.
 std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size, const Eye& eye,
-                             const cv::Matx33d& rectification, const cv::Matx34d& projection);
+                             const RectifiedEye& rectified);
 
 /// Writes left.yaml and right.yaml to `folder`; std::system_error naming the file that fails.
 void WriteCameraInfos(const std::filesystem::path& folder, const StereoCalibration& calibration,
