@@ -25,17 +25,6 @@ std::vector<PathSegment> Segments(const std::string& path, double length_m) {
   return {{std::max(length_m, 1.0), 0}};
 }
 
-/// Moves the path so that the middle of its bounding box is the origin; its longer half side.
-double CenterPath(PlanarPath& path) {
-  Eigen::Vector2d low = path.front().position, high = low;
-  for (const PlanarPose& pose : path) {
-    low = low.cwiseMin(pose.position);
-    high = high.cwiseMax(pose.position);
-  }
-  for (PlanarPose& pose : path) pose.position -= (low + high) / 2;
-  return (high - low).maxCoeff() / 2;
-}
-
 }  // namespace
 
 const std::vector<std::string>& Scene::PathNames() {
@@ -113,7 +102,7 @@ void Scene::ChooseCamera() {
 }
 
 PlanarPath Scene::ChoosePath() const {
-  PlanarPose start;
+  RoverPose start;
   start.heading_rad = 2 * M_PI * HashUnit(HashWord(options_.seed) + 5);
   if (options_.path == "rest" || options_.path == "shadow") {
     return PlanarPath(options_.num_pairs, start);
@@ -149,14 +138,7 @@ TerrainOptions Scene::ChooseTerrain(const PlanarPath& path) const {
 
 Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
   Corridor corridor;
-  for (const PlanarPose& pose : path) {
-    if (corridor.points.empty() || (pose.position - corridor.points.back()).norm() >= 1) {
-      corridor.points.push_back(pose.position);
-    }
-  }
-  const PlanarPose& last = path.back();
-  corridor.points.push_back(
-      last.position + 10 * Eigen::Vector2d(std::cos(last.heading_rad), std::sin(last.heading_rad)));
+  corridor.points = FollowPath(path, 10);
   if (options_.path == "wide_turn") {
     corridor.half_width_m = 9;
     corridor.max_rock_radius_m = 0;

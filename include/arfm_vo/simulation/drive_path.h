@@ -13,12 +13,7 @@
 
 namespace arfm_vo {
 
-/// A place on the map and where the rover looks, counter-clockwise from +x.
-struct PlanarPose {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double heading_rad = 0;
-};
-using PlanarPath = std::vector<PlanarPose>;
+using PlanarPath = std::vector<RoverPose>;
 
 /// A piece of a path: an arc of `length_m` over which the heading changes evenly by `turn_rad`; a
 /// turn in place where the length is 0.
@@ -28,8 +23,13 @@ struct PathSegment {
 
 /// `num_poses` poses from `start` on, `step_m` apart along arcs and `turn_step_rad` apart in turns
 /// in place; the segments are driven again from the first when the last is done.
-PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& segments,
+PlanarPath SamplePath(const RoverPose& start, const std::vector<PathSegment>& segments,
                       double step_m, double turn_step_rad, int num_poses);
+/// Moves the path so that the middle of its bounding box is the origin; returns the box's longer
+/// half side, m.
+double CenterPath(PlanarPath& path);
+/// The places of a path that are a metre apart at least, and one `beyond_m` further on.
+std::vector<Eigen::Vector2d> FollowPath(const PlanarPath& path, double beyond_m);
 
 /// Where the tracks touch the ground and where the camera sits on the rover.
 struct RoverShape {
@@ -63,7 +63,7 @@ struct StereoRigOptions {
 
 /// The base (x ahead, y left, z up, on the ground between the tracks) of a rover that stands on the
 /// plane fitted to the ground under its tracks.
-Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverShape& shape);
+Rigid3 PlaceRover(const Terrain& terrain, const RoverPose& pose, const RoverShape& shape);
 /// The same at any place of a terrain, which must outlive it.
 PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape);
 /// The slope of the ground under a rover that stands so, degrees.
