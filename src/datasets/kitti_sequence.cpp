@@ -90,7 +90,7 @@ KittiSequence::KittiSequence(const std::string& folder, const PairSelection& sel
   selection.Check();
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
-  const cv::Size size = ReadPngSize((layout.left / names[0]).string());
+  const cv::Size size = ReadGreyPng((layout.left / names[0]).string(), window_).size();
   camera_ = ReadKittiCalibration(layout.calibration.string(), layout.left_camera, size.width,
                                  size.height);
 

@@ -24,7 +24,7 @@ class KittiSequence : public StereoSequence {
     kOnDemand,  ///< within Next(), so that the time of the caller's work is its own
   };
 
-  /// Reads everything but the images. Throws std::invalid_argument naming file or key for: a
+  /// Reads everything but the images after the first. Throws std::invalid_argument naming file or key for: a
   /// missing folder, images without partner, a wrong calibration, times that do not increase,
   /// numbers of times or poses other than that of the pairs, anything not finite.
   explicit KittiSequence(const std::string& folder, const PairSelection& selection = {},
