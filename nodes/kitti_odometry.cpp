@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
       "times.txt\n"
       "and poses.txt; or raw data), in process and repeatable.";
   const auto open = [](const std::string& folder, const PairSelection& selection) {
-    return std::make_unique<KittiSequence>(folder, selection, KittiSequence::Loading::kOnDemand);
+    return std::make_unique<KittiSequence>(folder, selection);
   };
   return RunOdometryProgram(argc, argv, program, "SEQUENCE_DIR", open);
 }

@@ -84,9 +84,7 @@ void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
 
 }  // namespace
 
-KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection,
-                             Loading loading)
-    : loading_(loading) {
+KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection) {
   selection.Check();
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
@@ -126,22 +124,13 @@ SequencePair KittiSequence::Load(const Frame& frame) {
   };
   check_size(pair.images.left, frame.left_path);
   check_size(pair.images.right, frame.right_path);
-  loading_cpu_s_ = loading_cpu_s_ + GetThreadCpuSeconds() - start_s;
+  loading_cpu_s_ += GetThreadCpuSeconds() - start_s;
   return pair;
-}
-
-void KittiSequence::StartLoading() {
-  if (num_started_ == frames_.size()) return;
-  const auto policy = loading_ == Loading::kAhead ? std::launch::async : std::launch::deferred;
-  ahead_ = std::async(policy, [this, frame = frames_[num_started_++]] { return Load(frame); });
 }
 
 std::optional<SequencePair> KittiSequence::Next() {
-  if (!ahead_.valid()) StartLoading();  // the first, or the end
-  if (!ahead_.valid()) return std::nullopt;
-  SequencePair pair = ahead_.get();
-  StartLoading();
-  return pair;
+  if (num_given_ == frames_.size()) return std::nullopt;
+  return Load(frames_[num_given_++]);
 }
 
 }  // namespace arfm_vo

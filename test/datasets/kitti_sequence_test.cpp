@@ -50,15 +50,6 @@ TEST(KittiSequence, GivesPairsStampsTruthAndCamera) {
   EXPECT_GT(sequence.loading_cpu_s(), 0);
 }
 
-TEST(KittiSequence, LoadsOnDemandTheSame) {
-  const SequenceFolder folder(3);
-  KittiSequence sequence(folder.Path(), {}, KittiSequence::Loading::kOnDemand);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(sequence.Next()->images.left.at<uint8_t>(3, 4), 10 * i);
-  }
-  EXPECT_FALSE(sequence.Next());
-}
-
 TEST(KittiSequence, WithoutTimesAndPosesItIsTenHertzAndWithoutTruth) {
   const SequenceFolder folder(2);
   fs::remove(folder.File("poses.txt"));
