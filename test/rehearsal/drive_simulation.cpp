@@ -28,7 +28,7 @@ struct Summary {
   double worst_share = 0, worst_error_m = 0, worst_heading_deg = 0, fastest_mps = 0, driven_m = 0,
          steepest_deg = 0;
 
-  void Add(const Drive& drive) {
+  void Add(const RehearsedDrive& drive) {
     num_good += drive.IsGood();
     num_arrived += drive.has_arrived;
     num_lost += drive.num_lost;
@@ -51,7 +51,7 @@ void PrintHeader() {
               "before", "pairs", "lost", "drive_s", "stops", "outcome");
 }
 
-void PrintRow(int seed, const Drive& drive) {
+void PrintRow(int seed, const RehearsedDrive& drive) {
   std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f %5d  %s\n",
               seed, std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
               drive.AllowedError(), drive.final_heading_error_deg, drive.steepest_deg,
@@ -91,7 +91,7 @@ void DriveGoals(Request request) {
     request.scene.seed = options.plant.seed = request.first_seed + i;
     options.sight.render.sensor.seed = request.scene.seed;
     const GoalScene scene(request.scene, options.shape);
-    const Drive drive = Rehearse(scene, options);
+    const RehearsedDrive drive = Rehearse(scene, options);
     summary.Add(drive);
     PrintRow(request.scene.seed, drive);
     if (request.output.empty()) continue;

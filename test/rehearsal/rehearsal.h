@@ -21,9 +21,21 @@ struct RehearsalOptions {
   ARFM_FIELDS(pilot, plant, sight, odometry, shape)
 };
 
+/// A drive, and what was counted on the way.
+struct RehearsedDrive : Drive {
+  bool has_arrived = false;
+  double fastest_command_mps = 0;  ///< in any frame on the bus
+  long num_frames = 0, num_frames_before_start = 0;
+  int num_pairs = 0, num_lost = 0;
+  int num_stops = 0;      ///< on the way: pauses and blocks
+  double slip_ratio = 0;  ///< of the tracks over the whole way ahead, true
+
+  bool IsGood() const { return has_arrived && final_error_m <= AllowedError(); }
+};
+
 /// Drives to the scene's goal by sight alone, in process, on a clock of its own: pilot and chassis
 /// speak over a CAN bus in memory, the plant slips on the terrain, the odometry sees rendered
 /// pairs. The same options give the same drive to the last bit.
-Drive Rehearse(const GoalScene& scene, const RehearsalOptions& options);
+RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options);
 
 }  // namespace arfm_vo

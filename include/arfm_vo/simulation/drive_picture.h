@@ -21,22 +21,15 @@ struct TrackPoint {
 
 /// How one drive to a goal went.
 struct Drive {
-  bool has_arrived = false;
   std::string outcome;                                    ///< as the goal report says it
   Waypoint goal;                                          ///< in the map
   double final_error_m = 0, final_heading_error_deg = 0;  ///< of the true pose
   double driven_m = 0;                                    ///< over ground
   double duration_s = 0;
-  double fastest_command_mps = 0;  ///< in any frame on the bus
-  long num_frames = 0, num_frames_before_start = 0;
-  int num_pairs = 0, num_lost = 0;
-  int num_stops = 0;        ///< on the way: pauses and blocks
   double steepest_deg = 0;  ///< under the rover
-  double slip_ratio = 0;    ///< of the tracks over the whole way ahead, true
   std::vector<TrackPoint> track;
 
   double AllowedError() const { return 0.01 * driven_m + 0.05; }
-  bool IsGood() const { return has_arrived && final_error_m <= AllowedError(); }
 };
 
 /// The drive seen from above (CV_8UC3): shaded ground with contours every 0.25 m, the true way, the

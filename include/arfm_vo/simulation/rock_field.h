@@ -59,9 +59,8 @@ class RockField {
     double radius_m;
   };
   void FillCell(const RockOptions& options, const RockBed& bed, int i, int j, uint32_t seed);
-  void IndexShadows();
-  template <class Visit>
-  void VisitShadowCells(const Solid& rock, const Visit& visit) const;
+  /// Adds a rock to the cells that its shadow may reach.
+  void IndexShadow(int index);
 
   double side_m_ = 0;
   Eigen::Vector3d to_sun_ = Eigen::Vector3d::UnitZ();
