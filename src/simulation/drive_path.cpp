@@ -14,8 +14,6 @@ RoverPose Along(const RoverPose& start, const PathSegment& segment, double share
   return Advance(start, share * segment.length_m, share * segment.turn_rad);
 }
 
-Eigen::Vector2d PositionOf(const RoverPose& pose) { return {pose.x_m, pose.y_m}; }
-
 }  // namespace
 
 PlanarPath SamplePath(const RoverPose& start, const std::vector<PathSegment>& segments,

@@ -14,10 +14,9 @@ struct Bounds {
   Eigen::Vector2d low, high;  ///< along and across the way
 
   explicit Bounds(const PlanarPath& path) : world_from_way(path.front().heading_rad) {
-    low = high = world_from_way.inverse() * Eigen::Vector2d(path.front().x_m, path.front().y_m);
+    low = high = world_from_way.inverse() * PositionOf(path.front());
     for (const RoverPose& pose : path) {
-      const Eigen::Vector2d position =
-          world_from_way.inverse() * Eigen::Vector2d(pose.x_m, pose.y_m);
+      const Eigen::Vector2d position = world_from_way.inverse() * PositionOf(pose);
       low = low.cwiseMin(position);
       high = high.cwiseMax(position);
     }

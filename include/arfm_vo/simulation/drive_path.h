@@ -15,6 +15,8 @@ namespace arfm_vo {
 
 using PlanarPath = std::vector<RoverPose>;
 
+inline Eigen::Vector2d PositionOf(const RoverPose& pose) { return {pose.x_m, pose.y_m}; }
+
 /// A piece of a path: an arc of `length_m` over which the heading changes evenly by `turn_rad`; a
 /// turn in place where the length is 0.
 struct PathSegment {
