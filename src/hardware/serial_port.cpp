@@ -47,7 +47,8 @@ SerialPort::SerialPort(const std::string& path, int baud) : path_(path) {
   settings.c_cc[VMIN] = 0;
   settings.c_cc[VTIME] = 0;
   ::cfsetspeed(&settings, speed);
-  if (::tcsetattr(fd_.Get(), TCSANOW, &settings) != 0) ThrowSystemError("serial port '" + path + "'");
+  if (::tcsetattr(fd_.Get(), TCSANOW, &settings) != 0)
+    ThrowSystemError("serial port '" + path + "'");
   ::ioctl(fd_.Get(), TIOCEXCL);  // no second driver on the same line
   ::tcflush(fd_.Get(), TCIOFLUSH);
 }

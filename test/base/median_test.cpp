@@ -1,7 +1,7 @@
 
-#include <gtest/gtest.h>
-
 #include "arfm_vo/base/median.h"
+
+#include <gtest/gtest.h>
 
 namespace arfm_vo {
 namespace {
