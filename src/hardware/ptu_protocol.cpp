@@ -1,6 +1,7 @@
 #include "arfm_vo/hardware/ptu_protocol.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <sstream>
 
@@ -13,12 +14,6 @@ constexpr size_t kMaxReply = 160;
 char AxisLetter(PtuAxis axis) { return axis == PtuAxis::kPan ? 'p' : 't'; }
 
 bool IsLineEnd(char c) { return c == '\r' || c == '\n'; }
-
-std::string Trim(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// [+-]DIGITS[.DIGITS], nothing else: no exponent, no hexadecimal, no "nan".
 std::optional<double> ParsePlainNumber(const std::string& text) {
@@ -89,7 +84,7 @@ std::optional<PtuReply> PtuReplyParser::Next() {
   }
   const bool is_error = buffer_[0] == '!';
   PtuReply reply{is_error ? PtuReplyKind::kError : PtuReplyKind::kDone,
-                 Trim(std::string(buffer_.begin() + 1, end))};
+                 boost::trim_copy(std::string(buffer_.begin() + 1, end))};
   if (!is_error && !reply.text.empty()) reply.kind = PtuReplyKind::kValue;
   buffer_.erase(buffer_.begin(), end + 1);
   return reply;
