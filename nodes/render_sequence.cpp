@@ -1,3 +1,5 @@
+#include <boost/algorithm/string/join.hpp>
+
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/evaluation/progress_bar.h"
 #include "arfm_vo/simulation/kitti_folder_writer.h"
@@ -18,12 +20,6 @@ void RenderSequence(const std::string& folder, const SceneOptions& options) {
   writer.Close();
 }
 
-std::string FormatPaths() {
-  std::string names;
-  for (const std::string& name : Scene::PathNames()) names += (names.empty() ? "" : "|") + name;
-  return names;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -36,7 +32,7 @@ int main(int argc, char** argv) {
       "times.txt, poses.txt) with exact calibration and ground truth. The same options give the\n"
       "same bytes.";
   program.inputs = {{"OUTPUT_DIR", &folder}};
-  const std::string paths = FormatPaths();
+  const std::string paths = boost::join(Scene::PathNames(), "|");
   program.Add("path", scene.path, paths.c_str(), "kind of drive, curve if not given");
   program.Add("pairs", scene.num_pairs, "N", "number of pairs");
   program.Add("step", scene.step_m, "M", "metres from pair to pair");

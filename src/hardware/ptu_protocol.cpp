@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
+#include <regex>
 #include <sstream>
 
 namespace arfm_vo {
@@ -17,15 +18,8 @@ bool IsLineEnd(char c) { return c == '\r' || c == '\n'; }
 
 /// [+-]DIGITS[.DIGITS], nothing else: no exponent, no hexadecimal, no "nan".
 std::optional<double> ParsePlainNumber(const std::string& text) {
-  const size_t first = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-  const size_t digits = text.find_first_not_of("0123456789", first);
-  const bool has_digits = digits != first && text.size() > first;
-  if (!has_digits || text.size() > 16) return std::nullopt;
-  if (digits != std::string::npos) {
-    const bool is_fraction = text[digits] == '.' && digits + 1 < text.size() &&
-                             text.find_first_not_of("0123456789", digits + 1) == std::string::npos;
-    if (!is_fraction) return std::nullopt;
-  }
+  static const std::regex number("[+-]?[0-9]+(\\.[0-9]+)?");
+  if (text.size() > 16 || !std::regex_match(text, number)) return std::nullopt;
   return std::stod(text);
 }
 

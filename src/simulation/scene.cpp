@@ -1,6 +1,7 @@
 #include "arfm_vo/simulation/scene.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
 
 #include "arfm_vo/simulation/hash_noise.h"
@@ -35,10 +36,8 @@ const std::vector<std::string>& Scene::PathNames() {
 
 void SceneOptions::Check() const {
   const std::vector<std::string>& names = Scene::PathNames();
-  std::string all;
-  for (const std::string& name : names) all += " " + name;
   Require(std::count(names.begin(), names.end(), path) == 1,
-          "path '" + path + "' is none of:" + all);
+          "path '" + path + "' is none of: " + boost::join(names, " "));
   Require(num_pairs >= 1 && num_pairs <= 100000, "pairs must be in 1..100000");
   Require(step_m > 0 && step_m <= 5, "step must be in (0, 5] m");
   Require(turn_step_deg > 0 && turn_step_deg <= 90, "turn-step must be in (0, 90] deg");
