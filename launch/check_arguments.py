@@ -44,8 +44,6 @@ def find_fault(words, folder):
 
 
 def main():
-    if {"-h", "--help"} & set(sys.argv):
-        sys.exit(print(__doc__))
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     with open(f"/proc/{os.getppid()}/cmdline") as file:

@@ -39,8 +39,6 @@ def find_fault(path, wanted):
 
 
 def main():
-    if len(sys.argv) == 2 and sys.argv[1] in ("-h", "--help"):
-        sys.exit(print(__doc__))
     if len(sys.argv) != 6:
         sys.exit(__doc__)
     fault = find_fault(sys.argv[1], sys.argv[2:])

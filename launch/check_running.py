@@ -23,8 +23,6 @@ def is_running(name):
 
 
 def main():
-    if {"-h", "--help"} & set(sys.argv):
-        sys.exit(print(__doc__))
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     name = rosgraph.names.ns_join(sys.argv[1], sys.argv[2])

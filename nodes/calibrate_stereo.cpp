@@ -39,17 +39,14 @@ int main(int argc, char** argv) {
       "takes\n"
       "left.yaml and right.yaml for camera_info, report.md and pictures.";
   program.inputs = {{"IMAGE_DIR", &image_dir}};
-  using boost::program_options::value;
-  program.options.add_options()                                                    //
-      ("board", value(&size)->value_name("COLUMNSxROWS"),                          //
-       "inner corners of the board (where four squares meet), such as 20x10")      //
-      ("square", value(&square_m)->value_name("METRES"), "side of a square")       //
-      ("output", value(&output)->value_name("DIR"), "made where it is not there")  //
-      ("model", value(&model)->value_name("NAME"),
-       "plumb_bob (default) or rational_polynomial for wide lenses")  //
-      ("alpha", value(&alpha)->value_name("A"),
-       "0 (default): only valid pixels in the rectified image; 1: all pixels")  //
-      ("min-pairs", value(&options.min_pairs)->value_name("N"), "fewer are an error (default 5)");
+  program.Add("board", size, "COLUMNSxROWS",
+              "inner corners of the board (where four squares meet), such as 20x10");
+  program.Add("square", square_m, "METRES", "side of a square");
+  program.Add("output", output, "DIR", "made where it is not there");
+  program.Add("model", model, "NAME", "plumb_bob (default) or rational_polynomial for wide lenses");
+  program.Add("alpha", alpha, "A",
+              "0 (default): only valid pixels in the rectified image; 1: all pixels");
+  program.Add("min-pairs", options.min_pairs, "N", "fewer are an error (default 5)");
   program.run = [&] {
     Require(!size.empty() && square_m != 0 && !output.empty(),
             "--board, --square and --output must be given (see --help)");

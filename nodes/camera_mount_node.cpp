@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/ros/input/stereo_input.h"
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/messages/transforms.h"
@@ -41,14 +42,7 @@ struct CameraMountNodeOptions {
                                         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
     return {rotation, {x, y, z}};
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("base_frame", base_frame);
-    visit("camera_frame", camera_frame);
-    visit("base_from_camera", base_from_camera);
-    visit("is_default", is_default);
-    visit("wait_s", wait_s);
-  }
+  ARFM_FIELDS(base_frame, camera_frame, base_from_camera, is_default, wait_s)
 };
 
 class CameraMountNode {

@@ -30,8 +30,7 @@ FileDescriptor OpenStopSocket(const std::string& host, uint16_t port) {
           "stop-address '" + host + "' is no IPv4 address");
   FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (::bind(socket.Get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-    throw std::system_error(errno, std::generic_category(),
-                            "stop-port " + std::to_string(port) + " at " + host);
+    ThrowSystemError("stop-port " + std::to_string(port) + " at " + host);
   return socket;
 }
 
@@ -78,7 +77,6 @@ void Run(const std::string& bus, const std::string& stop_address, uint16_t stop_
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   std::string bus, stop_address = "127.0.0.1";
   uint16_t stop_port = 4700;
   Program program;
@@ -90,10 +88,8 @@ int main(int argc, char** argv) {
       "driver commands the chassis, and after a UDP packet until the operator starts anew; brakes\n"
       "where the rover moves otherwise than commanded. BUS: can0, or udp:LOCAL:PEER.";
   program.inputs = {{"BUS", &bus}};
-  program.options.add_options()("stop-port", po::value(&stop_port)->value_name("PORT"),
-                                "UDP, 4700 if not given: any packet stops the rover")(
-      "stop-address", po::value(&stop_address)->value_name("ADDRESS"),
-      "where it comes in, 127.0.0.1 if not given");
+  program.Add("stop-port", stop_port, "PORT", "UDP, 4700 if not given: any packet stops the rover");
+  program.Add("stop-address", stop_address, "ADDRESS", "where it comes in, 127.0.0.1 if not given");
   program.run = [&] { Run(bus, stop_address, stop_port); };
   std::vector<const char*> words;  // without those that roslaunch adds
   for (int i = 0; i < argc; ++i)

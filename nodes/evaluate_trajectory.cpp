@@ -89,8 +89,7 @@ int main(int argc, char** argv) {
       "files. Of KITTI files the frames that both have are compared, of TUM files those of the\n"
       "same stamp (to 0.01 s).";
   program.inputs = {{"ESTIMATE", &estimate}, {"TRUTH", &truth}};
-  program.options.add_options()("plot", boost::program_options::value(&plot)->value_name("PNG"),
-                                "draw both paths and the error");
+  program.Add("plot", plot, "PNG", "draw both paths and the error");
   program.run = [&] { Evaluate(estimate, truth, plot); };
   return RunProgram(argc, argv, program);
 }

@@ -3,16 +3,14 @@
 
 int main(int argc, char** argv) {
   using namespace arfm_vo;
-  OdometryProgram program;
+  Program program;
   program.name = "kitti_odometry";
-  program.input_name = "SEQUENCE_DIR";
   program.description =
-      "Stereo visual odometry on a KITTI folder (image_0, image_1, calib.txt, "
-      "optionally "
+      "Stereo visual odometry on a KITTI folder (image_0, image_1, calib.txt, optionally "
       "times.txt\n"
       "and poses.txt; or raw data), in process and repeatable.";
-  program.open = [](const std::string& folder, const PairSelection& selection) {
-    return std::make_unique<KittiSequence>(folder, selection, KittiSequence::Loading::kOnDemand);
+  const auto open = [](const std::string& folder, const PairSelection& selection) {
+    return std::make_unique<KittiSequence>(folder, selection);
   };
-  return RunOdometryProgram(argc, argv, program);
+  return RunOdometryProgram(argc, argv, program, "SEQUENCE_DIR", open);
 }

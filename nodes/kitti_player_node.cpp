@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/datasets/kitti_sequence.h"
 #include "arfm_vo/ros/node/node_main.h"
 #include "arfm_vo/ros/node/parameters.h"
@@ -28,16 +29,7 @@ struct PlayerOptions {
     Require(!sequence.empty(), "sequence must name a KITTI folder");
     Require(rate_hz >= 0, "rate_hz must not be negative");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("sequence", sequence);
-    visit("stride", stride);
-    visit("pairs", pairs);
-    visit("rate_hz", rate_hz);
-    visit("wait_for_subscribers", wait_for_subscribers);
-    visit("end_delay_s", end_delay_s);
-    visit("frame_id", frame_id);
-  }
+  ARFM_FIELDS(sequence, stride, pairs, rate_hz, wait_for_subscribers, end_delay_s, frame_id)
 };
 
 /// Publishes a KITTI folder below its namespace, with the recording's time on /clock.

@@ -24,7 +24,6 @@ void WriteBag(const std::string& folder, const PairSelection& selection,
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   std::string folder, bag, frame_id = "left_camera_optical";
   PairSelection selection;
   Program program;
@@ -33,10 +32,9 @@ int main(int argc, char** argv) {
       "Writes a KITTI folder as an lz4 bag with /stereo/left|right/image_rect, camera_info and\n"
       "/stereo/ground_truth. Stamps are those of times.txt + 1000 s.";
   program.inputs = {{"SEQUENCE_DIR", &folder}, {"BAG", &bag}};
-  program.options.add_options()("pairs", po::value(&selection.max_pairs)->value_name("N"),
-                                "stop after N pairs (counted after --stride)")(
-      "stride", po::value(&selection.stride)->value_name("K"), "take every K-th pair")(
-      "frame-id", po::value(&frame_id)->value_name("NAME"), "frame_id of the messages");
+  program.Add("pairs", selection.max_pairs, "N", "stop after N pairs (counted after --stride)");
+  program.Add("stride", selection.stride, "K", "take every K-th pair");
+  program.Add("frame-id", frame_id, "NAME", "frame_id of the messages");
   program.run = [&] { WriteBag(folder, selection, frame_id, bag); };
   return RunProgram(argc, argv, program);
 }

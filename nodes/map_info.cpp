@@ -66,9 +66,7 @@ int main(int argc, char** argv) {
       "and\n"
       "path.";
   program.inputs = {{"FILE", &path}};
-  program.options.add_options()("picture",
-                                boost::program_options::value(&picture)->value_name("PNG"),
-                                "draw the path of the oldest frame from above");
+  program.Add("picture", picture, "PNG", "draw the path of the oldest frame from above");
   program.run = [&] { Tell(path, picture); };
   return RunProgram(argc, argv, program);
 }

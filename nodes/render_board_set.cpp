@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/evaluation/progress_bar.h"
@@ -19,11 +20,8 @@ struct BoardSet {
 };
 
 void WriteImage(const std::string& folder, const char* eye, int pair, const cv::Mat& image) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "/%s%03d.png", eye, pair);
-  if (!cv::imwrite(folder + name, image)) {
-    throw std::runtime_error(folder + name + ": cannot be written");
-  }
+  const std::string path = folder + Format("/%s%03d.png", eye, pair);
+  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
 void RenderBoardSet(const std::string& folder, const BoardSet& set) {
@@ -52,7 +50,6 @@ void RenderBoardSet(const std::string& folder, const BoardSet& set) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   std::string folder;
   BoardSet set;
   set.sensor.blur_px = 0.8;
@@ -63,18 +60,17 @@ int main(int argc, char** argv) {
       "Renders stereo pairs of a chessboard with known truth: left000.png.., right000.png..,\n"
       "truth.yaml. The same options give the same bytes.";
   program.inputs = {{"OUTPUT_DIR", &folder}};
-  program.options.add_options()("pairs", po::value(&set.num_pairs)->value_name("N"),
-                                "number of pairs, 63 if not given")(
-      "columns", po::value(&set.pattern.columns)->value_name("N"), "of inner corners")(
-      "rows", po::value(&set.pattern.rows)->value_name("N"), "of inner corners")(
-      "square", po::value(&set.pattern.square_m)->value_name("M"), "side of a square")(
-      "width", po::value(&set.width)->value_name("PX"), "of the images, with the same view")(
-      "max-tilt", po::value(&set.max_tilt_deg)->value_name("DEG"), "of the board")(
-      "blur", po::value(&set.sensor.blur_px)->value_name("PX"), "of the lens, standard deviation")(
-      "noise", po::value(&set.sensor.noise_grey_levels)->value_name("LEVELS"),
-      "standard deviation of the grey values")("seed", po::value(&set.seed)->value_name("S"),
-                                               "of the poses")(
-      "threads", po::value(&set.num_threads)->value_name("N"), "does not change the result");
+  program.Add("pairs", set.num_pairs, "N", "number of pairs, 63 if not given");
+  program.Add("columns", set.pattern.columns, "N", "of inner corners");
+  program.Add("rows", set.pattern.rows, "N", "of inner corners");
+  program.Add("square", set.pattern.square_m, "M", "side of a square");
+  program.Add("width", set.width, "PX", "of the images, with the same view");
+  program.Add("max-tilt", set.max_tilt_deg, "DEG", "of the board");
+  program.Add("blur", set.sensor.blur_px, "PX", "of the lens, standard deviation");
+  program.Add("noise", set.sensor.noise_grey_levels, "LEVELS",
+              "standard deviation of the grey values");
+  program.Add("seed", set.seed, "S", "of the poses");
+  program.Add("threads", set.num_threads, "N", "does not change the result");
   program.run = [&] { RenderBoardSet(folder, set); };
   return RunProgram(argc, argv, program);
 }

@@ -1,3 +1,5 @@
+#include <boost/algorithm/string/join.hpp>
+
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/evaluation/progress_bar.h"
 #include "arfm_vo/simulation/kitti_folder_writer.h"
@@ -18,16 +20,9 @@ void RenderSequence(const std::string& folder, const SceneOptions& options) {
   writer.Close();
 }
 
-std::string FormatPaths() {
-  std::string names;
-  for (const std::string& name : Scene::PathNames()) names += (names.empty() ? "" : "|") + name;
-  return names;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   std::string folder;
   SceneOptions scene;
   Program program;
@@ -37,27 +32,24 @@ int main(int argc, char** argv) {
       "times.txt, poses.txt) with exact calibration and ground truth. The same options give the\n"
       "same bytes.";
   program.inputs = {{"OUTPUT_DIR", &folder}};
-  const std::string paths = FormatPaths();
-  program.options.add_options()("path", po::value(&scene.path)->value_name(paths.c_str()),
-                                "kind of drive, curve if not given")(
-      "pairs", po::value(&scene.num_pairs)->value_name("N"), "number of pairs")(
-      "step", po::value(&scene.step_m)->value_name("M"), "metres from pair to pair")(
-      "turn-step", po::value(&scene.turn_step_deg)->value_name("DEG"),
-      "degrees from pair to pair where the rover turns in place")(
-      "seed", po::value(&scene.seed)->value_name("S"), "another seed, another terrain")(
-      "width", po::value(&scene.width)->value_name("PX"), "of the images, with the same view")(
-      "height", po::value(&scene.height)->value_name("PX"), "of the images")(
-      "noise", po::value(&scene.noise_grey_levels)->value_name("LEVELS"),
-      "standard deviation of the grey values")(
-      "right-x", po::value(&scene.right_x_mrad)->value_name("MRAD"),
-      "fault of rectification: the right camera's rotation about x (moves its rows)")(
-      "right-y", po::value(&scene.right_y_mrad)->value_name("MRAD"),
-      "about y (moves all disparities)")(
-      "right-z", po::value(&scene.right_z_mrad)->value_name("MRAD"), "about z")(
-      "sweep-pan", po::value(&scene.sweep_pan_deg)->value_name("DEG"),
-      "the head sweeps through so much, once to both sides")(
-      "sweep-tilt", po::value(&scene.sweep_tilt_deg)->value_name("DEG"), "twice up and down")(
-      "threads", po::value(&scene.num_threads)->value_name("N"), "does not change the result");
+  const std::string paths = boost::join(Scene::PathNames(), "|");
+  program.Add("path", scene.path, paths.c_str(), "kind of drive, curve if not given");
+  program.Add("pairs", scene.num_pairs, "N", "number of pairs");
+  program.Add("step", scene.step_m, "M", "metres from pair to pair");
+  program.Add("turn-step", scene.turn_step_deg, "DEG",
+              "degrees from pair to pair where the rover turns in place");
+  program.Add("seed", scene.seed, "S", "another seed, another terrain");
+  program.Add("width", scene.width, "PX", "of the images, with the same view");
+  program.Add("height", scene.height, "PX", "of the images");
+  program.Add("noise", scene.noise_grey_levels, "LEVELS", "standard deviation of the grey values");
+  program.Add("right-x", scene.right_x_mrad, "MRAD",
+              "fault of rectification: the right camera's rotation about x (moves its rows)");
+  program.Add("right-y", scene.right_y_mrad, "MRAD", "about y (moves all disparities)");
+  program.Add("right-z", scene.right_z_mrad, "MRAD", "about z");
+  program.Add("sweep-pan", scene.sweep_pan_deg, "DEG",
+              "the head sweeps through so much, once to both sides");
+  program.Add("sweep-tilt", scene.sweep_tilt_deg, "DEG", "twice up and down");
+  program.Add("threads", scene.num_threads, "N", "does not change the result");
   program.run = [&] { RenderSequence(folder, scene); };
   return RunProgram(argc, argv, program);
 }

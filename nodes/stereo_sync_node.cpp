@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/datasets/stamp_pairing.h"
 #include "arfm_vo/ros/input/stereo_input.h"
 #include "arfm_vo/ros/node/node_main.h"
@@ -25,11 +26,7 @@ struct StereoSyncOptions {
     Require(max_skew_s > 0, "max_skew_s must be positive");
     Require(every_nth_pair >= 1, "every_nth_pair must be positive");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_skew_s", max_skew_s);
-    visit("every_nth_pair", every_nth_pair);
-  }
+  ARFM_FIELDS(max_skew_s, every_nth_pair)
 };
 
 class StereoSyncNode {

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/ros/input/stereo_input.h"
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/messages/conversions.h"
@@ -25,13 +26,7 @@ struct TruthPathOptions {
   BoundedPathOptions path;
 
   void Check() const { path.Check(); }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("reference_frame", reference_frame);
-    visit("base_frame", base_frame);
-    visit("camera_frame", camera_frame);
-    visit("path", path);
-  }
+  ARFM_FIELDS(reference_frame, base_frame, camera_frame, path)
 };
 
 class TruthPathNode {

@@ -21,9 +21,6 @@ def replace_section(path, name, text):
 
 
 if __name__ == "__main__":
-    if {"-h", "--help"} & set(sys.argv):
-        print(__doc__)
-        sys.exit()
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     replace_section(sys.argv[1], sys.argv[2], sys.stdin.read())

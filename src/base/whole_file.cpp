@@ -5,19 +5,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
-#include <system_error>
 #include <vector>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
-namespace {
-
-[[noreturn]] void ThrowWriteError(const std::string& path) {
-  throw std::system_error(errno, std::generic_category(), path + ": cannot be written");
-}
-
-}  // namespace
 
 std::string ReadWholeFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -33,20 +25,20 @@ std::string ReadWholeFile(const std::string& path) {
 void WriteWholeFile(const std::string& path, const std::string& content) {
   const std::string partial = path + ".partial." + std::to_string(getpid());
   FILE* file = std::fopen(partial.c_str(), "wb");
-  if (!file) ThrowWriteError(path);
+  const std::string complaint = path + ": cannot be written";
+  if (!file) ThrowSystemError(complaint);
+  int error = 0;  // the first
+  const auto note = [&error](bool is_done) {
+    if (!is_done && error == 0) error = errno;
+  };
   // On the disk before it has the name: else a power cut may leave the name to an empty file.
-  bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
-                    std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-  int error = errno;
-  if (std::fclose(file) != 0 && is_written) {
-    error = errno;
-    is_written = false;
-  }
-  if (is_written && std::rename(partial.c_str(), path.c_str()) == 0) return;
-  if (is_written) error = errno;
+  note(std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+       std::fflush(file) == 0 && fsync(fileno(file)) == 0);
+  note(std::fclose(file) == 0);
+  if (error == 0) note(std::rename(partial.c_str(), path.c_str()) == 0);
+  if (error == 0) return;
   std::remove(partial.c_str());
-  errno = error;
-  ThrowWriteError(path);
+  ThrowSystemError(complaint, error);
 }
 
 }  // namespace arfm_vo

@@ -1,7 +1,6 @@
 #include "arfm_vo/base/worker.h"
 
 #include <algorithm>
-#include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -58,11 +57,11 @@ void Worker::Release() {
   is_held_ = false;
 }
 
-void Worker::RunAndWait(const Job& job) {
-  auto task = std::make_shared<std::packaged_task<void()>>(job);
-  std::future<void> result = task->get_future();
-  Post([task = std::move(task)] { (*task)(); });  // forgotten, it breaks its promise
-  result.get();
+std::future<void> Worker::Start(Job job) {
+  const auto task = std::make_shared<std::packaged_task<void()>>(std::move(job));
+  std::future<void> end = task->get_future();
+  Post([task] { (*task)(); });  // forgotten, it breaks its promise
+  return end;
 }
 
 void Worker::RunJobs() {

@@ -2,93 +2,157 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <tuple>
 
+#include "arfm_vo/base/format.h"
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/base/whole_file.h"
-#include "arfm_vo/calibration/calibration_pictures.h"
-#include "arfm_vo/calibration/camera_info_file.h"
-#include "arfm_vo/calibration/coverage.h"
 #include "arfm_vo/calibration/pair_detection.h"
 
 namespace arfm_vo {
 namespace {
 
+constexpr int kMaxWidth = 2000;  ///< of a picture, px
 /// Below this share of seen cells the report warns.
 constexpr double kGoodCoverage = 0.6;
 
+cv::Mat ToColour(const cv::Mat& grey) {
+  cv::Mat colour;
+  cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
+  return colour;
+}
+
+cv::Mat SideBySide(const cv::Mat& left, const cv::Mat& right) {
+  cv::Mat both;
+  cv::hconcat(left, right, both);
+  return both;
+}
+
+cv::Mat Shrink(const cv::Mat& picture) {
+  if (picture.cols <= kMaxWidth) return picture;
+  const double scale = kMaxWidth / static_cast<double>(picture.cols);
+  cv::Mat small;
+  cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
+  return small;
+}
+
+/// Both images of a pair side by side with their corners and the board's order (the paper's
+/// Fig. 12).
+cv::Mat DrawCorners(const cv::Mat& left, const cv::Mat& right, const CornerPair& pair,
+                    const Chessboard& board) {
+  cv::Mat left_colour = ToColour(left), right_colour = ToColour(right);
+  cv::drawChessboardCorners(left_colour, board.Size(), pair.left, true);
+  cv::drawChessboardCorners(right_colour, board.Size(), pair.right, true);
+  return Shrink(SideBySide(left_colour, right_colour));
+}
+
+/// The pair rectified, side by side, with level lines across both (Fig. 13).
+cv::Mat DrawRectified(const cv::Mat& left, const cv::Mat& right,
+                      const StereoCalibration& calibration, const Rectification& rectification) {
+  cv::Mat both =
+      Shrink(SideBySide(ToColour(RectifyImage(left, calibration.left, rectification.left)),
+                        ToColour(RectifyImage(right, calibration.right, rectification.right))));
+  const int step = std::max(both.rows / 20, 1);
+  for (int v = step / 2; v < both.rows; v += step)
+    cv::line(both, {0, v}, {both.cols - 1, v}, {0, 200, 0}, 1);
+  return both;
+}
+
+/// All corners of all used pairs as dots over an empty image of each eye, side by side.
+cv::Mat DrawCoverage(const StereoCalibration& calibration) {
+  const auto draw = [&](const BoardCorners CornerPair::*eye) {
+    cv::Mat picture(calibration.image_size, CV_8UC3, cv::Scalar::all(255));
+    cv::rectangle(picture, {0, 0}, {picture.cols - 1, picture.rows - 1}, {0, 0, 0}, 2);
+    for (const CornerPair& pair : calibration.pairs)
+      for (const cv::Point2f& corner : pair.*eye)
+        cv::circle(picture, corner, std::max(2, picture.cols / 400), {180, 60, 0}, cv::FILLED,
+                   cv::LINE_AA);
+    return picture;
+  };
+  return Shrink(SideBySide(draw(&CornerPair::left), draw(&CornerPair::right)));
+}
+
 double Degrees(double rad) { return rad * 180 / M_PI; }
 
-std::string Fixed(double value, int digits) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
+std::string FormatEye(const char* name, const Eye& eye, const EyePrecision& precision) {
+  const auto& [skew_px, skew_sigma_px, fx_sigma_px, fy_sigma_px, cx_sigma_px, cy_sigma_px] =
+      precision;
+  std::string rows;
+  for (const auto& [key, value, sigma] : {std::tuple("fx", eye.matrix(0, 0), fx_sigma_px),
+                                          {"fy", eye.matrix(1, 1), fy_sigma_px},
+                                          {"cx", eye.matrix(0, 2), cx_sigma_px},
+                                          {"cy", eye.matrix(1, 2), cy_sigma_px},
+                                          {"skew", skew_px, skew_sigma_px}})
+    rows += Format("| %s | %s | %.3f | %.3f |\n", name, key, value, sigma);
+  return rows;
 }
 
-void PrintEye(std::ostream& out, const char* name, const Eye& eye, const EyePrecision& precision) {
-  const auto row = [&](const char* key, double value, double sigma) {
-    out << "| " << name << " | " << key << " | " << Fixed(value, 3) << " | " << Fixed(sigma, 3)
-        << " |\n";
-  };
-  row("fx", eye.matrix(0, 0), precision.fx_sigma_px);
-  row("fy", eye.matrix(1, 1), precision.fy_sigma_px);
-  row("cx", eye.matrix(0, 2), precision.cx_sigma_px);
-  row("cy", eye.matrix(1, 2), precision.cy_sigma_px);
-  row("skew", precision.skew_px, precision.skew_sigma_px);
-}
-
-void PrintDistortion(std::ostream& out, const char* name, const Eye& eye) {
+std::string FormatDistortion(const char* name, const Eye& eye) {
   static const char* const kNames[] = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
-  out << "* " << name << ":";
+  std::string line = std::string("* ") + name + ":";
   for (int i = 0; i < static_cast<int>(eye.distortion.total()); ++i)
-    out << ' ' << kNames[i] << " = " << Fixed(eye.distortion.at<double>(i), 5);
-  out << "\n";
+    line += Format(" %s = %.5f", kNames[i], eye.distortion.at<double>(i));
+  return line + "\n";
 }
 
-void PrintRig(std::ostream& out, const StereoCalibration& calibration,
-              const Rectification& rectification) {
+std::string FormatRig(const StereoCalibration& calibration, const Rectification& rectification) {
   const Eigen::Vector3d right_in_left = calibration.right_from_left.Inverse().translation;
   const Eigen::Vector3d turn = LogSO3(calibration.right_from_left.rotation);
   const StereoCamera camera = rectification.Camera(calibration.image_size);
-  out << "\n## Rig\n\n"
-      << "* baseline " << Fixed(calibration.BaselineM(), 5) << " m; the right eye is at ("
-      << Fixed(right_in_left.x(), 5) << ", " << Fixed(right_in_left.y(), 5) << ", "
-      << Fixed(right_in_left.z(), 5) << ") m of the left eye\n"
-      << "* turn of the right eye about x, y, z: " << Fixed(Degrees(turn.x()), 3) << ", "
-      << Fixed(Degrees(turn.y()), 3) << ", " << Fixed(Degrees(turn.z()), 3) << " deg\n"
-      << "* rectified camera: f = " << Fixed(camera.fx, 3) << " px, c = (" << Fixed(camera.cx, 3)
-      << ", " << Fixed(camera.cy, 3)
-      << ") px, P[3] of the right eye = " << Fixed(rectification.right_projection(0, 3), 4) << "\n";
+  return Format(
+      "\n## Rig\n\n"
+      "* baseline %.5f m; the right eye is at (%.5f, %.5f, %.5f) m of the left eye\n"
+      "* turn of the right eye about x, y, z: %.3f, %.3f, %.3f deg\n"
+      "* rectified camera: f = %.3f px, c = (%.3f, %.3f) px, P[3] of the right eye = %.4f\n",
+      calibration.BaselineM(), right_in_left.x(), right_in_left.y(), right_in_left.z(),
+      Degrees(turn.x()), Degrees(turn.y()), Degrees(turn.z()), camera.fx, camera.cx, camera.cy,
+      rectification.right.projection(0, 3));
 }
 
-void PrintCoverage(std::ostream& out, const StereoCalibration& calibration) {
-  out << "\n## Coverage\n\n";
+/// Share of the cells of an eye's image, 10 x 8, in which a corner was seen: distortion is known
+/// only there.
+double MeasureCoverage(const StereoCalibration& calibration, BoardCorners CornerPair::*eye) {
+  const cv::Size size = calibration.image_size;
+  cv::Mat1b is_seen(8, 10, uint8_t{0});
+  for (const CornerPair& pair : calibration.pairs)
+    for (const cv::Point2f& corner : pair.*eye) {
+      const int column = static_cast<int>((corner.x + 0.5F) * is_seen.cols / size.width);
+      const int row = static_cast<int>((corner.y + 0.5F) * is_seen.rows / size.height);
+      is_seen(std::clamp(row, 0, is_seen.rows - 1), std::clamp(column, 0, is_seen.cols - 1)) = 1;
+    }
+  return cv::mean(is_seen)[0];
+}
+
+std::string FormatCoverage(const StereoCalibration& calibration) {
+  std::string text = "\n## Coverage\n\n";
   for (const auto& [name, eye] :
        {std::pair("left", &CornerPair::left), {"right", &CornerPair::right}}) {
-    std::vector<BoardCorners> views;
-    for (const CornerPair& pair : calibration.pairs) views.push_back(pair.*eye);
-    const Coverage coverage(views, calibration.image_size);
-    out << "* " << name << ": " << Fixed(100 * coverage.share, 0) << " % of the image's cells";
-    if (coverage.share < kGoodCoverage)
-      out << " (little: distortion is known only there; show the board near the edges too)";
-    out << "\n";
+    const double share = MeasureCoverage(calibration, eye);
+    text += Format("* %s: %.0f %% of the image's cells", name, 100 * share);
+    if (share < kGoodCoverage)
+      text += " (little: distortion is known only there; show the board near the edges too)";
+    text += "\n";
   }
-  out << "* largest angle between two views of the board: "
-      << Fixed(Degrees(calibration.tilt_rad), 1) << " deg\n"
-      << "\n![corners of all used pairs](coverage.png)\n";
+  return text +
+         Format("* largest angle between two views of the board: %.1f deg\n",
+                Degrees(calibration.tilt_rad)) +
+         "\n![corners of all used pairs](coverage.png)\n";
 }
 
-void PrintViews(std::ostream& out, const StereoCalibration& calibration) {
-  out << "\n## Views\n\n| pair | left rms px | right rms px |\n|---|---|---|\n";
+std::string FormatViews(const StereoCalibration& calibration) {
+  std::string text = "\n## Views\n\n| pair | left rms px | right rms px |\n|---|---|---|\n";
   for (size_t i = 0; i < calibration.pairs.size(); ++i)
-    out << "| " << calibration.pairs[i].name << " | " << Fixed(calibration.left_px[i], 3) << " | "
-        << Fixed(calibration.right_px[i], 3) << " |\n";
-  out << "\n## Left out\n\n";
-  if (calibration.left_out.empty()) out << "None.\n";
+    text += Format("| %s | %.3f | %.3f |\n", calibration.pairs[i].name.c_str(),
+                   calibration.left_px[i], calibration.right_px[i]);
+  text += "\n## Left out\n\n";
+  if (calibration.left_out.empty()) text += "None.\n";
   for (const LeftOutPair& pair : calibration.left_out)
-    out << "* " << pair.name << ": " << pair.reason << "\n";
+    text += "* " + pair.name + ": " + pair.reason + "\n";
+  return text;
 }
 
 /// Writes a picture whole or not at all.
@@ -112,42 +176,34 @@ const ImagePair& FindFilesOfPair(const std::vector<ImagePair>& files, const std:
 std::string FormatReport(const StereoCalibration& calibration, const Rectification& rectification,
                          const Chessboard& board) {
   const std::vector<double> rows = MeasureRowResiduals(calibration, rectification);
-  std::ostringstream out;
-  out << "# Stereo calibration\n\n"
-      << "Board of " << board.columns << "x" << board.rows << " inner corners, squares of "
-      << board.square_m << " m; images " << calibration.image_size.width << "x"
-      << calibration.image_size.height << " px; " << calibration.pairs.size() << " pairs used, "
-      << calibration.left_out.size() << " left out.\n\n"
-      << "* stereo rms " << Fixed(calibration.stereo_rms_px, 4) << " px\n"
-      << "* rows after rectification: |dv| median " << Fixed(Percentile(rows, 0.5), 4)
-      << " px, 95 % below " << Fixed(Percentile(rows, 0.95), 4) << " px\n"
-      << "\n## Eyes\n\n| eye | value | px | sigma px |\n|---|---|---|---|\n";
-  PrintEye(out, "left", calibration.left, calibration.left_precision);
-  PrintEye(out, "right", calibration.right, calibration.right_precision);
-  out << "\nSkew is estimated beside the model (one Gauss-Newton step from the optimum); the files "
-         "hold the model without skew. Distortion:\n\n";
-  PrintDistortion(out, "left", calibration.left);
-  PrintDistortion(out, "right", calibration.right);
-  PrintRig(out, calibration, rectification);
-  PrintCoverage(out, calibration);
-  PrintViews(out, calibration);
-  out << "\n![a rectified pair with level lines](rectified.jpg)\n";
-  return out.str();
+  return Format(
+             "# Stereo calibration\n\n"
+             "Board of %dx%d inner corners, squares of %g m; images %dx%d px; %zu pairs used, %zu "
+             "left out.\n\n"
+             "* stereo rms %.4f px\n"
+             "* rows after rectification: |dv| median %.4f px, 95 %% below %.4f px\n"
+             "\n## Eyes\n\n| eye | value | px | sigma px |\n|---|---|---|---|\n",
+             board.columns, board.rows, board.square_m, calibration.image_size.width,
+             calibration.image_size.height, calibration.pairs.size(), calibration.left_out.size(),
+             calibration.stereo_rms_px, Quantile(rows, 0.5), Quantile(rows, 0.95)) +
+         FormatEye("left", calibration.left, calibration.left_precision) +
+         FormatEye("right", calibration.right, calibration.right_precision) +
+         "\nSkew is estimated beside the model (one Gauss-Newton step from the optimum); the files "
+         "hold the model without skew. Distortion:\n\n" +
+         FormatDistortion("left", calibration.left) + FormatDistortion("right", calibration.right) +
+         FormatRig(calibration, rectification) + FormatCoverage(calibration) +
+         FormatViews(calibration) + "\n![a rectified pair with level lines](rectified.jpg)\n";
 }
 
 std::string FormatFigures(const StereoCalibration& calibration,
                           const Rectification& rectification) {
   const std::vector<double> rows = MeasureRowResiduals(calibration, rectification);
-  std::ostringstream out;
-  out << "pairs_used: " << calibration.pairs.size()
-      << "\npairs_left_out: " << calibration.left_out.size()
-      << "\nstereo_rms_px: " << Fixed(calibration.stereo_rms_px, 4)
-      << "\nbaseline_m: " << Fixed(calibration.BaselineM(), 6)
-      << "\nfx_left: " << Fixed(calibration.left.matrix(0, 0), 4)
-      << "\nfx_right: " << Fixed(calibration.right.matrix(0, 0), 4)
-      << "\nrow_residual_median_px: " << Fixed(Percentile(rows, 0.5), 4)
-      << "\nrow_residual_p95_px: " << Fixed(Percentile(rows, 0.95), 4) << "\n";
-  return out.str();
+  return Format(
+      "pairs_used: %zu\npairs_left_out: %zu\nstereo_rms_px: %.4f\nbaseline_m: %.6f\n"
+      "fx_left: %.4f\nfx_right: %.4f\nrow_residual_median_px: %.4f\nrow_residual_p95_px: %.4f\n",
+      calibration.pairs.size(), calibration.left_out.size(), calibration.stereo_rms_px,
+      calibration.BaselineM(), calibration.left.matrix(0, 0), calibration.right.matrix(0, 0),
+      Quantile(rows, 0.5), Quantile(rows, 0.95));
 }
 
 void WriteCalibration(const std::filesystem::path& folder, const std::vector<ImagePair>& files,

@@ -1,8 +1,10 @@
 #include "arfm_vo/calibration/image_pairs.h"
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 #include <map>
+#include <set>
 
 #include "arfm_vo/base/check.h"
 
@@ -11,24 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ToLower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool IsImage(const fs::path& path) {
-  static const char* const kExtensions[] = {".png", ".jpg", ".jpeg", ".pgm",
-                                            ".ppm", ".bmp", ".tif",  ".tiff"};
-  const std::string extension = ToLower(path.extension().string());
-  return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
-         std::end(kExtensions);
+  static const std::set<std::string> extensions = {".png", ".jpg", ".jpeg", ".pgm",
+                                                   ".ppm", ".bmp", ".tif",  ".tiff"};
+  return extensions.count(boost::to_lower_copy(path.extension().string())) > 0;
 }
 
 /// The stem without a leading `eye` and what joins it: "left_07" -> "07".
 std::string NameWithoutEye(const fs::path& path, const std::string& eye) {
   std::string name = path.stem().string();
-  if (ToLower(name).rfind(eye, 0) == 0) name.erase(0, eye.size());
+  if (boost::istarts_with(name, eye)) name.erase(0, eye.size());
   const size_t start = name.find_first_not_of("_-. ");
   return start == std::string::npos ? "" : name.substr(start);
 }
@@ -40,10 +34,6 @@ std::string LastNumber(const std::string& name) {
   const size_t before = name.find_last_not_of("0123456789", last);
   const size_t first = before == std::string::npos ? 0 : before + 1;
   return name.substr(first, last + 1 - first);
-}
-
-bool IsOfEye(const fs::path& path, const std::string& eye) {
-  return ToLower(path.filename().string()).rfind(eye, 0) == 0;
 }
 
 /// Numbers in names compare as numbers: 2 before 10, and 07 is 7.
@@ -71,7 +61,8 @@ Files FindFiles(const fs::path& folder, const std::string& eye, bool is_own_fold
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (!entry.is_regular_file() || !IsImage(path)) continue;
-    if (is_own_folder || IsOfEye(path, eye)) Add(files, NameWithoutEye(path, eye), path);
+    if (is_own_folder || boost::istarts_with(path.filename().string(), eye))
+      Add(files, NameWithoutEye(path, eye), path);
   }
   return files;
 }

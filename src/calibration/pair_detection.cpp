@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -30,23 +30,13 @@ View DetectView(const std::filesystem::path& path, const Chessboard& board) {
   return {grey.size(), DetectCorners(grey, board.Size())};
 }
 
-/// f(0) .. f(count - 1) on all cores; the first exception is thrown on.
+/// f(0) .. f(count - 1) on all cores; an exception is thrown on.
 template <class Function>
-void ParallelFor(int count, Function&& f) {
-  std::mutex mutex;
-  std::exception_ptr failure;
-  cv::parallel_for_(
-      {0, count},
-      [&](const cv::Range& range) {
-        try {
-          for (int i = range.start; i < range.end; ++i) f(i);
-        } catch (...) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          if (!failure) failure = std::current_exception();
-        }
-      },
-      count);
-  if (failure) std::rethrow_exception(failure);
+void ParallelFor(int count, const Function& f) {
+  const auto run = [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) f(i);
+  };
+  cv::parallel_for_({0, count}, run, count);
 }
 
 /// The size of board that most of some left images show; nothing where they do not agree.
@@ -77,10 +67,10 @@ void CheckBoardSize(const std::vector<ImagePair>& files, const Chessboard& board
   const std::string asked = ToString(board.Size());
   const std::optional<cv::Size> seen = GuessCommonSize(files);
   if (static_cast<int>(num_found) < min_pairs) {
-    std::string message = "too few views: a board of " + asked +
-                          " inner corners is wholly seen by both eyes in " +
-                          std::to_string(num_found) + " of " + std::to_string(files.size()) +
-                          " pairs, at least " + std::to_string(min_pairs) + " are needed";
+    std::string message = Format(
+        "too few views: a board of %s inner corners is wholly seen by both eyes in %zu of %zu "
+        "pairs, at least %d are needed",
+        asked.c_str(), num_found, files.size(), min_pairs);
     const bool differs = seen && cv::Size(std::max(board.columns, board.rows),
                                           std::min(board.columns, board.rows)) != *seen;
     message += differs ? "; wrong board size? The images seem to show " + ToString(*seen) +

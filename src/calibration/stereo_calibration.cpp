@@ -18,15 +18,12 @@ constexpr double kGrossFactor = 5, kGrossFloorPx = 2;
 /// Above this the eyes have no common relative pose; a good rig is at a few px.
 constexpr double kNoCommonPosePx = 15;
 
-std::vector<BoardCorners> LeftViews(const std::vector<CornerPair>& pairs) {
-  std::vector<BoardCorners> views;
-  for (const CornerPair& pair : pairs) views.push_back(pair.left);
-  return views;
-}
+constexpr auto kLeft = &CornerPair::left, kRight = &CornerPair::right;
 
-std::vector<BoardCorners> RightViews(const std::vector<CornerPair>& pairs) {
+std::vector<BoardCorners> Views(const std::vector<CornerPair>& pairs,
+                                BoardCorners CornerPair::*eye) {
   std::vector<BoardCorners> views;
-  for (const CornerPair& pair : pairs) views.push_back(pair.right);
+  for (const CornerPair& pair : pairs) views.push_back(pair.*eye);
   return views;
 }
 
@@ -88,8 +85,8 @@ struct BothEyes {
 BothEyes CalibrateEyes(PairSelection& selection, const Chessboard& board, cv::Size image_size,
                        const StereoCalibrationOptions& options) {
   while (true) {
-    BothEyes eyes{CalibrateEye(LeftViews(selection.Pairs()), board, image_size, options.model),
-                  CalibrateEye(RightViews(selection.Pairs()), board, image_size, options.model)};
+    BothEyes eyes{CalibrateEye(Views(selection.Pairs(), kLeft), board, image_size, options.model),
+                  CalibrateEye(Views(selection.Pairs(), kRight), board, image_size, options.model)};
     if (selection.LeaveOut(eyes.left.view_rms_px, options.outlier_factor, options.outlier_floor_px,
                            "left corners do not fit the left eye"))
       continue;
@@ -126,7 +123,8 @@ void CheckCommonPose(const BothEyes& eyes, const std::vector<double>& consistenc
   for (CornerPair& pair : mirrored)
     pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, board.Size(), image_size.width),
                             board.Size());
-  const EyeCalibration right = CalibrateEye(RightViews(mirrored), board, image_size, options.model);
+  const EyeCalibration right =
+      CalibrateEye(Views(mirrored, kRight), board, image_size, options.model);
   const double mirrored_error = Median(MeasureConsistency(eyes.left, right, mirrored, board));
   if (mirrored_error < error / 4)
     throw CalibrationError(
@@ -150,7 +148,7 @@ StereoCalibration AdjustTogether(const BothEyes& eyes, const std::vector<CornerP
   cv::Mat rotation = cv::Mat::eye(3, 3, CV_64F), translation = cv::Mat::zeros(3, 1, CV_64F);
   cv::Mat essential, fundamental, errors;
   calibration.stereo_rms_px = cv::stereoCalibrate(
-      board_corners, LeftViews(pairs), RightViews(pairs), calibration.left.matrix,
+      board_corners, Views(pairs, kLeft), Views(pairs, kRight), calibration.left.matrix,
       calibration.left.distortion, calibration.right.matrix, calibration.right.distortion,
       image_size, rotation, translation, essential, fundamental, errors,
       cv::CALIB_USE_INTRINSIC_GUESS | (is_rational ? cv::CALIB_RATIONAL_MODEL : 0),
@@ -201,10 +199,10 @@ StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboar
   options.Check();
   PairSelection selection(std::move(pairs), options);
   BothEyes eyes = CalibrateEyes(selection, board, image_size, options);
-  CheckViews("left", eyes.left, EvaluatePrecision(eyes.left, LeftViews(selection.Pairs()), board),
-             options);
+  CheckViews("left", eyes.left,
+             EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board), options);
   CheckViews("right", eyes.right,
-             EvaluatePrecision(eyes.right, RightViews(selection.Pairs()), board), options);
+             EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board), options);
   std::vector<double> consistency =
       MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
   CheckCommonPose(eyes, consistency, selection.Pairs(), board, image_size, options);
@@ -220,8 +218,9 @@ StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboar
     calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
   }
   CheckRig(calibration.right_from_left);
-  calibration.left_precision = EvaluatePrecision(eyes.left, LeftViews(selection.Pairs()), board);
-  calibration.right_precision = EvaluatePrecision(eyes.right, RightViews(selection.Pairs()), board);
+  calibration.left_precision = EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board);
+  calibration.right_precision =
+      EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board);
   calibration.tilt_rad = LargestTilt(eyes.left.poses);
   calibration.pairs = selection.Pairs();
   calibration.left_out = selection.TakeLeftOut();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
@@ -95,10 +96,8 @@ std::string NameLearnedCorrection(const StereoCamera& camera) {
     std::memcpy(bytes, &value, sizeof(value));
     for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211u;
   }
-  char name[64];
-  std::snprintf(name, sizeof(name), "%dx%d-%016llx.yaml", camera.width, camera.height,
+  return Format("%dx%d-%016llx.yaml", camera.width, camera.height,
                 static_cast<unsigned long long>(hash));
-  return name;
 }
 
 }  // namespace arfm_vo

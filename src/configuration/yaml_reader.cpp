@@ -3,6 +3,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -14,12 +15,6 @@
 
 namespace arfm_vo {
 namespace {
-
-std::string Join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
-  return joined;
-}
 
 /// The text of a scalar; fails with `expected` for anything else.
 std::string GetScalar(const YamlValue& value, const std::string& expected) {
@@ -126,9 +121,10 @@ int64_t ReadYamlInteger(const YamlValue& value, int64_t min, int64_t max) {
 }
 
 size_t ReadYamlName(const YamlValue& value, const std::vector<std::string>& names) {
-  const std::string text = GetScalar(value, "one of " + Join(names));
+  const std::string text = GetScalar(value, "one of " + boost::join(names, ", "));
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) value.Fail("must be one of " + Join(names) + ", is " + text);
+  if (found == names.end())
+    value.Fail("must be one of " + boost::join(names, ", ") + ", is " + text);
   return found - names.begin();
 }
 
@@ -167,7 +163,7 @@ void YamlMapReader::CheckAllKeysKnown() const {
   for (const auto& entry : map_.node) {
     const std::string name = entry.first.Scalar();
     if (std::find(known_.begin(), known_.end(), name) == known_.end())
-      map_.Child(entry.first, name).Fail("unknown key; known here: " + Join(known_));
+      map_.Child(entry.first, name).Fail("unknown key; known here: " + boost::join(known_, ", "));
   }
 }
 

@@ -65,15 +65,13 @@ void FollowRecords(std::string_view bytes, Visitor&& visit) {
   const size_t size = bytes.size();
   while (!bytes.empty()) {
     const size_t offset = size - bytes.size();
-    try {
+    const bool goes_on = Within("the record at byte " + std::to_string(offset), [&] {
       Record record;
       record.header = ReadHeader(Take(bytes));
       record.data = Take(bytes);
-      if (!visit(record, offset)) return;
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("the record at byte " + std::to_string(offset) + ": " +
-                                  error.what());
-    }
+      return visit(record, offset);
+    });
+    if (!goes_on) return;
   }
 }
 
@@ -143,7 +141,7 @@ class RecordCheck {
 
 void CheckBagRecords(const std::string& path) {
   namespace ipc = boost::interprocess;
-  try {
+  Within("the bag is truncated or damaged", [&] {
     Require(std::filesystem::file_size(path) >= kFormat.size(), "it is no bag of format 2.0");
     const ipc::mapped_region file(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
     std::string_view bytes(static_cast<const char*>(file.get_address()), file.get_size());
@@ -152,9 +150,7 @@ void CheckBagRecords(const std::string& path) {
     RecordCheck check;
     FollowRecords(bytes, std::ref(check));
     check.CheckIndexPosition(file.get_size());
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string("the bag is truncated or damaged: ") + error.what());
-  }
+  });
 }
 
 }  // namespace arfm_vo

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/process_usage.h"
-#include "arfm_vo/datasets/kitti_calibration.h"
-#include "arfm_vo/datasets/kitti_times.h"
+#include "arfm_vo/datasets/kitti_files.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/image/png_image.h"
 
@@ -67,9 +67,8 @@ std::vector<std::string> ListImages(const fs::path& folder) {
 
 std::vector<std::string> ListPairs(const Layout& layout) {
   const auto left = ListImages(layout.left), right = ListImages(layout.right);
-  Require(left.size() == right.size(),
-          layout.left.string() + " holds " + std::to_string(left.size()) + " images, " +
-              layout.right.string() + " " + std::to_string(right.size()));
+  Require(left.size() == right.size(), Format("%s holds %zu images, %s %zu", layout.left.c_str(),
+                                              left.size(), layout.right.c_str(), right.size()));
   for (size_t i = 0; i < left.size(); ++i) {
     Require(left[i] == right[i],
             (layout.left / left[i]).string() + ": has no partner in " + layout.right.string());
@@ -85,13 +84,11 @@ void RequireOneEach(const Rows& rows, size_t num_pairs, const fs::path& path) {
 
 }  // namespace
 
-KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection,
-                             Loading loading)
-    : loading_(loading) {
+KittiSequence::KittiSequence(const std::string& folder, const PairSelection& selection) {
   selection.Check();
   const Layout layout = FindLayout(folder);
   const std::vector<std::string> names = ListPairs(layout);
-  const cv::Size size = ReadPngSize((layout.left / names[0]).string());
+  const cv::Size size = ReadGreyPng((layout.left / names[0]).string(), window_).size();
   camera_ = ReadKittiCalibration(layout.calibration.string(), layout.left_camera, size.width,
                                  size.height);
 
@@ -122,29 +119,18 @@ SequencePair KittiSequence::Load(const Frame& frame) {
                  ReadGreyPng(frame.right_path, window_)};
   const cv::Size expected(camera_.width, camera_.height);
   const auto check_size = [&](const cv::Mat& image, const std::string& path) {
-    Require(image.size() == expected, path + ": is " + std::to_string(image.cols) + "x" +
-                                          std::to_string(image.rows) + ", the first image " +
-                                          std::to_string(expected.width) + "x" +
-                                          std::to_string(expected.height));
+    Require(image.size() == expected, path + Format(": is %dx%d, the first image %dx%d", image.cols,
+                                                    image.rows, expected.width, expected.height));
   };
   check_size(pair.images.left, frame.left_path);
   check_size(pair.images.right, frame.right_path);
-  loading_cpu_s_ = loading_cpu_s_ + GetThreadCpuSeconds() - start_s;
+  loading_cpu_s_ += GetThreadCpuSeconds() - start_s;
   return pair;
-}
-
-void KittiSequence::StartLoading() {
-  if (num_started_ == frames_.size()) return;
-  const auto policy = loading_ == Loading::kAhead ? std::launch::async : std::launch::deferred;
-  ahead_ = std::async(policy, [this, frame = frames_[num_started_++]] { return Load(frame); });
 }
 
 std::optional<SequencePair> KittiSequence::Next() {
-  if (!ahead_.valid()) StartLoading();  // the first, or the end
-  if (!ahead_.valid()) return std::nullopt;
-  SequencePair pair = ahead_.get();
-  StartLoading();
-  return pair;
+  if (num_given_ == frames_.size()) return std::nullopt;
+  return Load(frames_[num_given_++]);
 }
 
 }  // namespace arfm_vo

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/base/format.h"
+#include "arfm_vo/base/median.h"
 
 namespace arfm_vo {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 const cv::Scalar kGreen(60, 220, 60), kRed(60, 60, 255), kWhite(255, 255, 255);
 constexpr int kTextHeight_px = 22;
 constexpr int kSubpixelBits = 3;  // coordinates in eighths of a pixel
-
-double Quantile(std::vector<float>& values, double fraction) {
-  const auto wanted = values.begin() + static_cast<int>(fraction * (values.size() - 1));
-  std::nth_element(values.begin(), wanted, values.end());
-  return std::max(*wanted, 1e-3f);
-}
 
 cv::Point ToSubpixels(double u, double v) {
   return {cvRound(u * (1 << kSubpixelBits)), cvRound(v * (1 << kSubpixelBits))};
@@ -57,8 +52,9 @@ std::string Describe(const StereoFrame& frame, const PoseEstimate& pose) {
 
 DepthColors::DepthColors(std::vector<float> depths_m) {
   if (depths_m.empty()) return;
-  log_near_ = std::log(Quantile(depths_m, 0.05));
-  log_far_ = std::max(std::log(Quantile(depths_m, 0.95)), log_near_ + 1e-3);
+  const auto log = [](double depth_m) { return std::log(std::max(depth_m, 1e-3)); };
+  log_near_ = log(Quantile(depths_m, 0.05));
+  log_far_ = std::max(log(Quantile(std::move(depths_m), 0.95)), log_near_ + 1e-3);
 }
 
 cv::Scalar DepthColors::BgrOf(double depth_m) const {

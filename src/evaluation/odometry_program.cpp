@@ -7,7 +7,6 @@
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/evaluation/odometry_run.h"
 #include "arfm_vo/evaluation/progress_bar.h"
-#include "arfm_vo/evaluation/run_files.h"
 #include "arfm_vo/evaluation/run_report.h"
 #include "arfm_vo/odometry/reason.h"
 #include "arfm_vo/odometry/visual_odometry.h"
@@ -15,31 +14,30 @@
 namespace arfm_vo {
 namespace {
 
-namespace po = boost::program_options;
-
 struct Arguments {
   std::string input, config, output, learned_calibration;
   bool print_config = false, print_reasons = false, close_loops = false;
   PairSelection selection;
 };
 
-void AddOptions(Arguments& arguments, po::options_description& options) {
-  options.add_options()("config", po::value(&arguments.config)->value_name("FILE"),
-                        "options of the odometry, YAML")(
-      "print-config", po::bool_switch(&arguments.print_config),
-      "print all options with their values and leave")(
-      "print-reasons", po::bool_switch(&arguments.print_reasons),
-      "print why a pair may have no pose, or one to be wary of, and what follows, and leave")(
-      "loop-closing", po::bool_switch(&arguments.close_loops),
-      "know places again in the global adjustment (global.loops.enabled)")(
-      "learned-calibration", po::value(&arguments.learned_calibration)->value_name("FILE"),
-      "what earlier drives told of the rectification: read where the file is there, written at "
-      "the end")("pairs", po::value(&arguments.selection.max_pairs)->value_name("N"),
-                 "stop after N pairs (counted after --stride)")(
-      "stride", po::value(&arguments.selection.stride)->value_name("K"), "take every K-th pair")(
-      "output", po::value(&arguments.output)->value_name("DIR"),
-      "write poses.txt, poses_online.txt, tracked.txt, trajectory.tum, timing.csv and "
-      "trajectory.png there");
+void AddOptions(Arguments& arguments, Program& program) {
+  program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
+  program.Add("print-config", arguments.print_config,
+              "print all options with their values and leave");
+  program.Add(
+      "print-reasons", arguments.print_reasons,
+      "print why a pair may have no pose, or one to be wary of, and what follows, and leave");
+  program.Add("loop-closing", arguments.close_loops,
+              "know places again in the global adjustment (global.loops.enabled)");
+  program.Add("learned-calibration", arguments.learned_calibration, "FILE",
+              "what earlier drives told of the rectification: read where the file is there, "
+              "written at the end");
+  program.Add("pairs", arguments.selection.max_pairs, "N",
+              "stop after N pairs (counted after --stride)");
+  program.Add("stride", arguments.selection.stride, "K", "take every K-th pair");
+  program.Add("output", arguments.output, "DIR",
+              "write poses.txt, poses_online.txt, tracked.txt, trajectory.tum, timing.csv and "
+              "trajectory.png there");
 }
 
 std::string FormatReasons() {
@@ -56,10 +54,10 @@ OdometryOptions ReadOptions(const Arguments& arguments) {
   return options;
 }
 
-void Run(const OdometryProgram& program, const Arguments& arguments) {
+void Run(const std::string& name, const OpenSequence& open, const Arguments& arguments) {
   const OdometryOptions options = ReadOptions(arguments);
   if (!arguments.output.empty()) CheckCanWriteRun(arguments.output);
-  const auto sequence = program.open(arguments.input, arguments.selection);
+  const auto sequence = open(arguments.input, arguments.selection);
   VisualOdometry odometry(sequence->camera(), options);
   const std::string& learned = arguments.learned_calibration;
   if (!learned.empty()) {
@@ -77,26 +75,23 @@ void Run(const OdometryProgram& program, const Arguments& arguments) {
     WriteLearnedCorrection(learned, sequence->camera(), *odometry.correction());
   }
   const std::string complaint = arguments.output.empty() ? "" : WriteRun(run, arguments.output);
-  if (!complaint.empty()) std::cerr << program.name << ": " << complaint << "\n";
+  if (!complaint.empty()) std::cerr << name << ": " << complaint << "\n";
   std::cout << FormatRun(run) << sequence->FormatSummary();
 }
 
 }  // namespace
 
-int RunOdometryProgram(int argc, const char* const* argv, const OdometryProgram& odometry_program) {
+int RunOdometryProgram(int argc, const char* const* argv, Program program,
+                       const std::string& input_name, const OpenSequence& open) {
   Arguments arguments;
-  Program program;
-  program.name = odometry_program.name;
-  program.description = odometry_program.description;
-  program.inputs = {{odometry_program.input_name, &arguments.input}};
-  AddOptions(arguments, program.options);
-  program.options.add(odometry_program.options);
+  program.inputs = {{input_name, &arguments.input}};
+  AddOptions(arguments, program);
   program.answer = [&] {
     if (arguments.print_config) std::cout << WriteYaml(ReadOptions(arguments));
     if (arguments.print_reasons) std::cout << FormatReasons();
     return arguments.print_config || arguments.print_reasons;
   };
-  program.run = [&] { Run(odometry_program, arguments); };
+  program.run = [&] { Run(program.name, open, arguments); };
   return RunProgram(argc, argv, program);
 }
 

@@ -1,28 +1,42 @@
 #include "arfm_vo/evaluation/run_report.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/base/number_rows.h"
+#include "arfm_vo/base/whole_file.h"
+#include "arfm_vo/evaluation/trajectory_plot.h"
 #include "arfm_vo/odometry/trajectory_error.h"
+#include "arfm_vo/odometry/trajectory_files.h"
 
 namespace arfm_vo {
 namespace {
 
-/// The smallest value that `part` of them are not above; NaN of none.
-double ComputeQuantile(std::vector<double> values, double part) {
-  if (values.empty()) return NAN;
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(part * static_cast<double>(values.size()));
-  return values[static_cast<size_t>(std::max(rank, 1.0)) - 1];
-}
+namespace fs = std::filesystem;
 
-template <class Value>
-std::string FormatLine(const char* format, Value value) {
-  char line[100];
-  std::snprintf(line, sizeof(line), format, value);
-  return line;
+/// Fills `folder`; returns why there is no picture, if so.
+std::string WriteFiles(const OdometryRun& run, const fs::path& folder) {
+  WriteWholeFile(folder / "poses.txt", FormatKitti(run.trajectory));
+  WriteWholeFile(folder / "tracked.txt", FormatTracked(run.trajectory));
+  WriteWholeFile(folder / "poses_online.txt", FormatKitti(run.online));
+  WriteWholeFile(folder / "trajectory.tum", FormatTum(run.trajectory));
+  WriteWholeFile(folder / "timing.csv", FormatTiming(run));
+  const PathComparison comparison = CompareWithTruth(run, run.trajectory);
+  try {
+    PlotTrajectory({comparison.estimate, comparison.is_tracked, comparison.truth},
+                   folder / "trajectory.png");
+  } catch (const std::runtime_error& error) {
+    return std::string("no trajectory.png: ") + error.what();
+  }
+  return "";
 }
 
 double ComputePathLength(const Trajectory& trajectory) {
@@ -48,15 +62,12 @@ PathComparison CompareWithTruth(const OdometryRun& run, const Trajectory& trajec
 
 std::string FormatRun(const OdometryRun& run) {
   const double num_pairs = static_cast<double>(run.pair_ms.size());
-  std::string text = FormatLine("pairs: %zu\n", run.pair_ms.size()) +
-                     FormatLine("lost: %d\n", run.CountLost()) +
-                     FormatLine("degraded: %d\n", run.CountDegraded()) +
-                     FormatLine("path_length_m: %.4f\n", ComputePathLength(run.trajectory)) +
-                     FormatLine("ms_per_pair_median: %.3f\n", ComputeQuantile(run.pair_ms, 0.5)) +
-                     FormatLine("ms_per_pair_p95: %.3f\n", ComputeQuantile(run.pair_ms, 0.95)) +
-                     FormatLine("cpu_ms_per_pair: %.3f\n", 1e3 * run.cpu_s / num_pairs) +
-                     FormatLine("finish_ms: %.3f\n", run.finish_ms) +
-                     FormatLine("peak_rss_mb: %.1f\n", GetPeakMemoryMb());
+  std::string text = Format(
+      "pairs: %zu\nlost: %d\ndegraded: %d\npath_length_m: %.4f\nms_per_pair_median: %.3f\n"
+      "ms_per_pair_p95: %.3f\ncpu_ms_per_pair: %.3f\nfinish_ms: %.3f\npeak_rss_mb: %.1f\n",
+      run.pair_ms.size(), run.CountLost(), run.CountDegraded(), ComputePathLength(run.trajectory),
+      Quantile(run.pair_ms, 0.5), Quantile(run.pair_ms, 0.95), 1e3 * run.cpu_s / num_pairs,
+      run.finish_ms, GetPeakMemoryMb());
   for (const auto& [prefix, trajectory] :
        {std::pair("live_", &run.online), std::pair("", &run.trajectory)}) {
     const PathComparison comparison = CompareWithTruth(run, *trajectory);
@@ -78,18 +89,44 @@ std::string FormatTiming(const OdometryRun& run) {
   for (const std::string& stage : stages) text += "," + stage;
   for (size_t i = 0; i < run.pair_ms.size(); ++i) {
     text += "\n" + std::to_string(i) + "," + FormatNumber(run.online[i].stamp_s, true);
-    text += FormatLine(",%.3f", run.pair_ms[i]) + FormatLine(",%.2f", run.memory_mb[i]);
     const PairState& state = run.states[i];
-    text += std::string(",") + ToString(state.status) + ",\"" + ToString(state.reason) + "\"" +
-            FormatLine(",%.1f", state.log_odds) + FormatLine(",%d", state.num_matches) +
-            FormatLine(",%d", state.num_inliers);
+    text += Format(",%.3f,%.2f,%s,\"%s\",%.1f,%d,%d", run.pair_ms[i], run.memory_mb[i],
+                   ToString(state.status), ToString(state.reason), state.log_odds,
+                   state.num_matches, state.num_inliers);
     for (const std::string& stage : stages) {
       const auto found = std::find_if(run.stage_ms[i].begin(), run.stage_ms[i].end(),
                                       [&](const auto& time) { return time.first == stage; });
-      text += found == run.stage_ms[i].end() ? "," : FormatLine(",%.3f", found->second);
+      text += found == run.stage_ms[i].end() ? "," : Format(",%.3f", found->second);
     }
   }
   return text + "\n";
+}
+
+void CheckCanWriteRun(const std::string& folder) {
+  fs::path existing = fs::absolute(folder);
+  while (!fs::exists(existing)) existing = existing.parent_path();
+  int error = fs::is_directory(existing) ? 0 : ENOTDIR;
+  if (error == 0 && access(existing.c_str(), W_OK) != 0) error = errno;
+  if (error != 0) ThrowSystemError(folder + ": cannot be written", error);
+}
+
+std::string WriteRun(const OdometryRun& run, const std::string& folder) {
+  const bool was_there = fs::exists(folder);
+  const fs::path partial = fs::path(folder) / (".partial." + std::to_string(getpid()));
+  try {
+    fs::create_directories(partial);
+    const std::string complaint = WriteFiles(run, partial);
+    if (!complaint.empty()) fs::remove(fs::path(folder) / "trajectory.png");  // of another run
+    for (const auto& entry : fs::directory_iterator(partial)) {
+      fs::rename(entry.path(), fs::path(folder) / entry.path().filename());
+    }
+    fs::remove(partial);
+    return complaint;
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(was_there ? partial : fs::path(folder), ignored);
+    throw;
+  }
 }
 
 }  // namespace arfm_vo

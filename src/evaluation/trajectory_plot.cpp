@@ -1,10 +1,10 @@
 #include "arfm_vo/evaluation/trajectory_plot.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
-#include <utility>
 
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/odometry/kitti_metric.h"
@@ -37,32 +37,17 @@ std::string FormatSquareRange(const std::vector<Rigid3>& path, const std::vector
   return text;
 }
 
-std::string FormatPoint(const Rigid3& pose) {
-  return FormatNumber(pose.translation.x()) + " " + FormatNumber(pose.translation.z()) + "\n";
-}
-
-/// A gnuplot data block of positions seen from above: x right, z forward.
-std::string FormatBlock(const std::string& name, const std::vector<Rigid3>& path) {
+/// A gnuplot data block of positions seen from above: x right, z forward, and z again but for those
+/// that are interpolated.
+std::string FormatBlock(const std::string& name, const std::vector<Rigid3>& path,
+                        const std::vector<bool>& is_tracked = {}) {
   std::string block = "$" + name + " << END\n";
-  for (const Rigid3& pose : path) block += FormatPoint(pose);
-  return block + "END\n";
-}
-
-/// Data blocks of the tracked parts of the path and of the interpolated ones between them; an empty
-/// line ends a part. The second one is empty where there are none.
-std::pair<std::string, std::string> FormatParts(const PlottedPath& path) {
-  std::string tracked, interpolated;
-  for (size_t i = 0; i < path.estimate.size(); ++i) {
-    const bool is_gap =
-        i > 0 && !path.is_tracked.empty() && !(path.is_tracked[i - 1] && path.is_tracked[i]);
-    if (is_gap) {
-      interpolated += FormatPoint(path.estimate[i - 1]) + FormatPoint(path.estimate[i]) + "\n";
-      tracked += "\n";
-    }
-    tracked += FormatPoint(path.estimate[i]);
+  for (size_t i = 0; i < path.size(); ++i) {
+    const std::string z = FormatNumber(path[i].translation.z());
+    const bool is_solid = is_tracked.empty() || is_tracked[i];
+    block += FormatNumber(path[i].translation.x()) + " " + z + " " + (is_solid ? z : "NaN") + "\n";
   }
-  if (!interpolated.empty()) interpolated = "$interpolated << END\n" + interpolated + "END\n";
-  return {"$estimate << END\n" + tracked + "END\n", interpolated};
+  return block + "END\n";
 }
 
 std::string FormatErrorBlock(const std::vector<Rigid3>& estimate,
@@ -79,22 +64,21 @@ std::string FormatErrorBlock(const std::vector<Rigid3>& estimate,
 }  // namespace
 
 std::string WritePlotScript(const PlottedPath& path, const std::string& png_path) {
-  PlottedPath laid = path;
-  laid.estimate = RebaseToFirst(path.estimate);
-  if (!path.truth.empty()) laid.truth = RebaseToFirst(path.truth);
-  const auto [tracked, interpolated] = FormatParts(laid);
-  std::string script = "set terminal pngcairo size 1400,700 font ',12'\nset output " +
-                       Quote(png_path) + "\nset grid\nset key top left\n" + tracked + interpolated;
-  std::string from_above = FormatSquareRange(laid.estimate, laid.truth) +
+  const std::vector<Rigid3> estimate = RebaseToFirst(path.estimate);
+  const std::vector<Rigid3> truth =
+      path.truth.empty() ? std::vector<Rigid3>() : RebaseToFirst(path.truth);
+  const std::string script = "set terminal pngcairo size 1400,700 font ',12'\nset output " +
+                             Quote(png_path) + "\nset grid\nset key top left\n" +
+                             FormatBlock("estimate", estimate, path.is_tracked);
+  std::string from_above = FormatSquareRange(estimate, truth) +
                            "set size square\nset title 'From above'\nset xlabel 'x right, m'\n"
                            "set ylabel 'z forward, m'\nplot ";
-  if (!laid.truth.empty()) from_above += "$truth with lines lw 5 lc rgb '#f0b0b0' title 'truth', ";
-  from_above += "$estimate with lines lw 2 lc rgb '#1f77b4' title 'estimate'";
-  if (!interpolated.empty())
-    from_above +=
-        ", $interpolated with lines dt 2 lw 2 lc rgb '#1f77b4' title 'lost: interpolated'";
-  if (laid.truth.empty()) return script + from_above + "\n";
-  return script + FormatBlock("truth", laid.truth) + FormatErrorBlock(laid.estimate, laid.truth) +
+  if (!truth.empty()) from_above += "$truth with lines lw 5 lc rgb '#f0b0b0' title 'truth', ";
+  from_above += "$estimate using 1:3 with lines lw 2 lc rgb '#1f77b4' title 'estimate'";
+  if (std::count(path.is_tracked.begin(), path.is_tracked.end(), false) > 0)
+    from_above += ", $estimate with lines dt 2 lw 2 lc rgb '#1f77b4' title 'lost: interpolated'";
+  if (truth.empty()) return script + from_above + "\n";
+  return script + FormatBlock("truth", truth) + FormatErrorBlock(estimate, truth) +
          "set multiplot layout 1,2\n" + from_above +
          "\nset size nosquare\nset autoscale\nset title 'Error of the position'\n"
          "set xlabel 'distance driven, m'\nset ylabel 'error, m'\nset yrange [0:*]\n"

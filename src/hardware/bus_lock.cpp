@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <system_error>
 #include <utility>
+
+#include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
 namespace {
@@ -34,8 +35,7 @@ bool UseName(Call&& call, const FileDescriptor& socket, const std::string& bus) 
 
 BusLock::BusLock(const std::string& bus) : socket_(OpenLocalSocket()) {
   if (!UseName(::bind, socket_, bus) || ::listen(socket_.Get(), 1) != 0)
-    throw std::system_error(errno, std::generic_category(),
-                            "bus '" + bus + "': another driver has it");
+    ThrowSystemError("bus '" + bus + "': another driver has it");
 }
 
 FileDescriptor ConnectToLockHolder(const std::string& bus) {

@@ -1,9 +1,9 @@
 #include "arfm_vo/hardware/can_frame.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 
@@ -22,10 +22,8 @@ CanFrame MakeCanFrame(uint32_t id, std::initializer_list<uint8_t> bytes) {
 }
 
 std::string ToString(const CanFrame& frame) {
-  char text[40];
-  int length = std::snprintf(text, sizeof(text), "%03X#", frame.id);
-  for (int i = 0; i < std::min<int>(frame.dlc, 8); ++i)
-    length += std::snprintf(text + length, sizeof(text) - length, "%02X", frame.bytes[i]);
+  std::string text = Format("%03X#", frame.id);
+  for (int i = 0; i < std::min<int>(frame.dlc, 8); ++i) text += Format("%02X", frame.bytes[i]);
   return text;
 }
 

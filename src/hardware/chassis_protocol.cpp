@@ -28,20 +28,21 @@ Integer Saturate(double value, double step = 1) {
                                                  std::numeric_limits<Integer>::max()));
 }
 
-/// Big-endian fields of 1, 2 or 4 bytes one after another.
+/// The big-endian fields of a frame one after another, for List.
 class FieldWriter {
  public:
   explicit FieldWriter(uint32_t id) { frame_.id = id; }
-  template <class Integer>
-  FieldWriter& Put(Integer value) {
-    const uint32_t bits = static_cast<std::make_unsigned_t<Integer>>(value);
-    for (int shift = 8 * (static_cast<int>(sizeof(Integer)) - 1); shift >= 0; shift -= 8)
+
+  template <class Raw, class Value>
+  void operator()(const Value& value, Raw, double step = 1) {
+    const uint32_t bits =
+        static_cast<std::make_unsigned_t<Raw>>(Saturate<Raw>(static_cast<double>(value), step));
+    for (int shift = 8 * (static_cast<int>(sizeof(Raw)) - 1); shift >= 0; shift -= 8)
       frame_.bytes[frame_.dlc++] = static_cast<uint8_t>(bits >> shift);
-    return *this;
   }
-  /// The frame, filled up with zeros to `dlc` bytes.
-  CanFrame Finish(uint8_t dlc) {
-    frame_.dlc = dlc;
+  /// Filled up with zeros.
+  CanFrame Finish() {
+    frame_.dlc = 8;
     return frame_;
   }
 
@@ -49,14 +50,26 @@ class FieldWriter {
   CanFrame frame_;
 };
 
+VehicleState Known(VehicleState state) {
+  return state <= VehicleState::kEmergencyStop ? state : VehicleState::kFault;
+}
+ControlMode Known(ControlMode mode) {
+  return mode <= ControlMode::kRemote ? mode : ControlMode::kUnknown;
+}
+
 class FieldReader {
  public:
   explicit FieldReader(const CanFrame& frame) : frame_(frame) {}
-  template <class Integer>
-  Integer Get() {
+
+  template <class Raw, class Value>
+  void operator()(Value& value, Raw, double step = 1) {
     uint32_t bits = 0;
-    for (size_t i = 0; i < sizeof(Integer); ++i) bits = bits << 8 | frame_.bytes[next_++];
-    return static_cast<Integer>(bits);
+    for (size_t i = 0; i < sizeof(Raw); ++i) bits = bits << 8 | frame_.bytes[next_++];
+    if constexpr (std::is_enum_v<Value>) {
+      value = Known(static_cast<Value>(bits));
+    } else {
+      value = static_cast<Value>(static_cast<Raw>(bits) * step);
+    }
   }
 
  private:
@@ -64,185 +77,141 @@ class FieldReader {
   int next_ = 0;
 };
 
+// The fields of each frame: the value, the integer that it goes as, and that one's unit.
+
+template <class Fields>
+void List(PlanarMotion& motion, Fields& fields) {
+  fields(motion.forward_mps, int16_t(), 0.001);
+  fields(motion.turn_radps, int16_t(), 0.001);
+}
+template <class Fields>
+void List(SystemState& state, Fields& fields) {
+  uint8_t reserved = 0;
+  fields(state.vehicle, uint8_t());
+  fields(state.mode, uint8_t());
+  fields(state.battery_v, uint16_t(), 0.1);
+  fields(state.error_bits, uint16_t());
+  fields(reserved, uint8_t());
+  fields(state.count, uint8_t());
+}
+template <class Fields>
+void List(MotorState& state, Fields& fields) {
+  fields(state.speed_rpm, int16_t());
+  fields(state.current_a, int16_t(), 0.1);
+  fields(state.pulses, int32_t());
+}
+template <class Fields>
+void List(MotorDriverState& state, Fields& fields) {
+  fields(state.supply_v, uint16_t(), 0.1);
+  fields(state.driver_celsius, int16_t());
+  fields(state.motor_celsius, int8_t());
+  fields(state.status_bits, uint8_t());
+}
+template <class Fields>
+void List(TrackOdometer& odometer, Fields& fields) {
+  fields(odometer.left_mm, int32_t());
+  fields(odometer.right_mm, int32_t());
+}
+template <class Fields>
+void List(BatteryState& battery, Fields& fields) {
+  fields(battery.charge_percent, uint8_t());
+  fields(battery.health_percent, uint8_t());
+  fields(battery.voltage_v, uint16_t(), 0.1);
+  fields(battery.current_a, int16_t(), 0.1);
+  fields(battery.temperature_celsius, int16_t(), 0.1);
+}
+
+template <class State>
+CanFrame Write(uint32_t id, State state) {
+  FieldWriter fields(id);
+  List(state, fields);
+  return fields.Finish();
+}
+
 bool HoldsFields(const CanFrame& frame, uint8_t num_bytes) {
   return frame.dlc >= num_bytes && frame.dlc <= frame.bytes.size();
 }
 
-PlanarMotion ReadMotion(const CanFrame& frame) {
+/// Reads `state` of the frame; false where this is too short for it.
+template <class State>
+bool Read(const CanFrame& frame, uint8_t num_bytes, State& state) {
+  if (!HoldsFields(frame, num_bytes)) return false;
   FieldReader fields(frame);
-  const double forward_mps = fields.Get<int16_t>() * 0.001;
-  return {forward_mps, fields.Get<int16_t>() * 0.001};
+  List(state, fields);
+  return true;
+}
+template <class State>
+ChassisFeedback ReadFeedback(const CanFrame& frame, uint8_t num_bytes, State state = {}) {
+  return Read(frame, num_bytes, state) ? ChassisFeedback(state) : ChassisFeedback();
 }
 
-CanFrame WriteMotion(uint32_t id, const PlanarMotion& motion) {
-  return FieldWriter(id)
-      .Put(Saturate<int16_t>(motion.forward_mps, 0.001))
-      .Put(Saturate<int16_t>(motion.turn_radps, 0.001))
-      .Finish(8);
-}
-
-ControlMode ReadMode(uint8_t value) {
-  return value <= 3 ? static_cast<ControlMode>(value) : ControlMode::kUnknown;
-}
-
-SystemState ReadSystemState(const CanFrame& frame) {
-  FieldReader fields(frame);
-  SystemState state;
-  const auto vehicle = fields.Get<uint8_t>();
-  state.vehicle = vehicle <= 1 ? static_cast<VehicleState>(vehicle) : VehicleState::kFault;
-  state.mode = ReadMode(fields.Get<uint8_t>());
-  state.battery_v = fields.Get<uint16_t>() * 0.1;
-  state.error_bits = fields.Get<uint16_t>();
-  fields.Get<uint8_t>();  // reserved
-  state.count = fields.Get<uint8_t>();
-  return state;
-}
-
-MotorState ReadMotorState(const CanFrame& frame) {
-  FieldReader fields(frame);
-  MotorState state;
-  state.side = static_cast<ChassisSide>(frame.id - kMotorStateId);
-  state.speed_rpm = fields.Get<int16_t>();
-  state.current_a = fields.Get<int16_t>() * 0.1;
-  state.pulses = fields.Get<int32_t>();
-  return state;
-}
-
-MotorDriverState ReadMotorDriverState(const CanFrame& frame) {
-  FieldReader fields(frame);
-  MotorDriverState state;
-  state.side = static_cast<ChassisSide>(frame.id - kMotorDriverStateId);
-  state.supply_v = fields.Get<uint16_t>() * 0.1;
-  state.driver_celsius = fields.Get<int16_t>();
-  // NOLINTNEXTLINE(bugprone-signed-char-misuse): degrees, below zero too
-  state.motor_celsius = fields.Get<int8_t>();
-  state.status_bits = fields.Get<uint8_t>();
-  return state;
-}
-
-TrackOdometer ReadTrackOdometer(const CanFrame& frame) {
-  FieldReader fields(frame);
-  const auto left_mm = fields.Get<int32_t>();
-  return {left_mm, fields.Get<int32_t>()};
-}
-
-BatteryState ReadBattery(const CanFrame& frame) {
-  FieldReader fields(frame);
-  BatteryState battery;
-  battery.charge_percent = fields.Get<uint8_t>();
-  battery.health_percent = fields.Get<uint8_t>();
-  battery.voltage_v = fields.Get<uint16_t>() * 0.1;
-  battery.current_a = fields.Get<int16_t>() * 0.1;
-  battery.temperature_celsius = fields.Get<int16_t>() * 0.1;
-  return battery;
+uint32_t Number(ChassisSide side) { return static_cast<uint32_t>(side); }
+ChassisSide SideOf(const CanFrame& frame, uint32_t left_id) {
+  return static_cast<ChassisSide>(frame.id - left_id);
 }
 
 }  // namespace
 
 CanFrame EncodeFrame(const MotionCommand& command) {
-  return WriteMotion(kMotionCommandId, command.motion);
+  return Write(kMotionCommandId, command.motion);
 }
-
 CanFrame EncodeFrame(const ControlModeCommand& command) {
   return MakeCanFrame(kControlModeId, {static_cast<uint8_t>(command.mode)});
 }
-
 CanFrame EncodeFrame(const ClearErrorsCommand& command) {
   return MakeCanFrame(kClearErrorsId, {command.error});
 }
-
 CanFrame EncodeFrame(const LightCommand& command) {
   constexpr uint8_t kTakesCommands = 1;
   const uint8_t mode = command.is_on ? 1 : 0;
   return MakeCanFrame(kLightCommandId, {kTakesCommands, mode, 0, mode, 0, 0, 0, command.count});
 }
-
-CanFrame EncodeFrame(const SystemState& state) {
-  return FieldWriter(kSystemStateId)
-      .Put(static_cast<uint8_t>(state.vehicle))
-      .Put(static_cast<uint8_t>(state.mode))
-      .Put(Saturate<uint16_t>(state.battery_v, 0.1))
-      .Put(state.error_bits)
-      .Put<uint8_t>(0)
-      .Put(state.count)
-      .Finish(8);
-}
-
-CanFrame EncodeFrame(const MotionState& state) { return WriteMotion(kMotionStateId, state.motion); }
-
+CanFrame EncodeFrame(const SystemState& state) { return Write(kSystemStateId, state); }
+CanFrame EncodeFrame(const MotionState& state) { return Write(kMotionStateId, state.motion); }
 CanFrame EncodeFrame(const MotorState& state) {
-  return FieldWriter(kMotorStateId + static_cast<uint32_t>(state.side))
-      .Put(Saturate<int16_t>(state.speed_rpm))
-      .Put(Saturate<int16_t>(state.current_a, 0.1))
-      .Put(state.pulses)
-      .Finish(8);
+  return Write(kMotorStateId + Number(state.side), state);
 }
-
 CanFrame EncodeFrame(const MotorDriverState& state) {
-  return FieldWriter(kMotorDriverStateId + static_cast<uint32_t>(state.side))
-      .Put(Saturate<uint16_t>(state.supply_v, 0.1))
-      .Put(Saturate<int16_t>(state.driver_celsius))
-      .Put(Saturate<int8_t>(state.motor_celsius))
-      .Put(state.status_bits)
-      .Finish(8);
+  return Write(kMotorDriverStateId + Number(state.side), state);
 }
-
-CanFrame EncodeFrame(const TrackOdometer& odometer) {
-  return FieldWriter(kTrackOdometerId).Put(odometer.left_mm).Put(odometer.right_mm).Finish(8);
-}
-
-CanFrame EncodeFrame(const BatteryState& battery) {
-  return FieldWriter(kBatteryId)
-      .Put(Saturate<uint8_t>(battery.charge_percent))
-      .Put(Saturate<uint8_t>(battery.health_percent))
-      .Put(Saturate<uint16_t>(battery.voltage_v, 0.1))
-      .Put(Saturate<int16_t>(battery.current_a, 0.1))
-      .Put(Saturate<int16_t>(battery.temperature_celsius, 0.1))
-      .Finish(8);
-}
+CanFrame EncodeFrame(const TrackOdometer& odometer) { return Write(kTrackOdometerId, odometer); }
+CanFrame EncodeFrame(const BatteryState& battery) { return Write(kBatteryId, battery); }
 
 ChassisFeedback DecodeFeedback(const CanFrame& frame) {
   if (frame.kind != CanFrameKind::kData) return {};
   switch (frame.id) {
     case kSystemStateId:
-      if (HoldsFields(frame, 8)) return ReadSystemState(frame);
-      break;
+      return ReadFeedback<SystemState>(frame, 8);
     case kMotionStateId:
-      if (HoldsFields(frame, 4)) return MotionState{ReadMotion(frame)};
-      break;
+      if (PlanarMotion motion; Read(frame, 4, motion)) return MotionState{motion};
+      return {};
     case kMotorStateId:
     case kMotorStateId + 1:
-      if (HoldsFields(frame, 8)) return ReadMotorState(frame);
-      break;
+      return ReadFeedback(frame, 8, MotorState{SideOf(frame, kMotorStateId)});
     case kMotorDriverStateId:
     case kMotorDriverStateId + 1:
-      if (HoldsFields(frame, 6)) return ReadMotorDriverState(frame);
-      break;
+      return ReadFeedback(frame, 6, MotorDriverState{SideOf(frame, kMotorDriverStateId)});
     case kTrackOdometerId:
-      if (HoldsFields(frame, 8)) return ReadTrackOdometer(frame);
-      break;
+      return ReadFeedback<TrackOdometer>(frame, 8);
     case kBatteryId:
-      if (HoldsFields(frame, 8)) return ReadBattery(frame);
-      break;
+      return ReadFeedback<BatteryState>(frame, 8);
   }
   return {};
 }
 
 ChassisCommand DecodeCommand(const CanFrame& frame) {
-  if (frame.kind != CanFrameKind::kData) return {};
+  PlanarMotion motion;
+  if (frame.kind != CanFrameKind::kData || !HoldsFields(frame, 1)) return {};
   switch (frame.id) {
     case kMotionCommandId:
-      if (HoldsFields(frame, 4)) return MotionCommand{ReadMotion(frame)};
-      break;
+      if (Read(frame, 4, motion)) return MotionCommand{motion};
+      return {};
     case kControlModeId:
-      if (HoldsFields(frame, 1)) return ControlModeCommand{ReadMode(frame.bytes[0])};
-      break;
+      return ControlModeCommand{Known(static_cast<ControlMode>(frame.bytes[0]))};
     case kClearErrorsId:
-      if (HoldsFields(frame, 1)) return ClearErrorsCommand{frame.bytes[0]};
-      break;
+      return ClearErrorsCommand{frame.bytes[0]};
     case kLightCommandId:
       if (HoldsFields(frame, 8)) return LightCommand{frame.bytes[1] != 0, frame.bytes[7]};
-      break;
   }
   return {};
 }

@@ -1,6 +1,5 @@
 #include "arfm_vo/hardware/image_conversion.h"
 
-#include <functional>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -10,54 +9,37 @@
 namespace arfm_vo {
 namespace {
 
-/// Turns one plane of `bytes` bytes a pixel into grey; a sample has `sample_bytes`.
-struct Conversion {
-  int bytes = 1;
-  int sample_bytes = 1;
-  std::function<void(const cv::Mat& raw, cv::Mat& grey)> apply;
+/// How one plane of a picture becomes grey.
+struct PlaneFormat {
+  int bytes;             ///< a pixel
+  int channel = 0;       ///< of these bytes the one that is grey..
+  int colour_code = -1;  ///< ..unless OpenCV converts it by this code..
+  int bits = 8;          ///< ..or, where more than 8, the top ones of two bytes, little endian, are
 };
 
-Conversion TakeChannel(int channels, int channel) {
-  return {channels, 1,
-          [channel](const cv::Mat& raw, cv::Mat& grey) { cv::extractChannel(raw, grey, channel); }};
-}
-
-Conversion ConvertColour(int channels, int code) {
-  return {channels, 1,
-          [code](const cv::Mat& raw, cv::Mat& grey) { cv::cvtColor(raw, grey, code); }};
-}
-
-/// The top eight of `bits` bits, little endian in two bytes.
-Conversion ScaleDown(int bits) {
-  return {2, 2, [bits](const cv::Mat& raw, cv::Mat& grey) {
-            const cv::Mat wide(raw.size(), CV_16UC1, raw.data, raw.step);
-            wide.convertTo(grey, CV_8U, 1.0 / (1 << (bits - 8)), -0.5 + 0.5 / (1 << (bits - 8)));
-          }};
-}
-
 // OpenCV names a Bayer pattern by its second row's second and third pixel, V4L2 by its first ones.
-const std::map<std::string, Conversion>& Conversions() {
-  static const std::map<std::string, Conversion> conversions = {
-      {"GREY", TakeChannel(1, 0)},
-      {"NV12", TakeChannel(1, 0)},  // luminance comes first, whole
-      {"NV21", TakeChannel(1, 0)},
-      {"YU12", TakeChannel(1, 0)},
-      {"YV12", TakeChannel(1, 0)},
-      {"YUYV", TakeChannel(2, 0)},
-      {"YVYU", TakeChannel(2, 0)},
-      {"UYVY", TakeChannel(2, 1)},
-      {"VYUY", TakeChannel(2, 1)},
-      {"Y10 ", ScaleDown(10)},
-      {"Y12 ", ScaleDown(12)},
-      {"Y16 ", ScaleDown(16)},
-      {"RGGB", ConvertColour(1, cv::COLOR_BayerBG2GRAY)},
-      {"BA81", ConvertColour(1, cv::COLOR_BayerRG2GRAY)},  // BGGR
-      {"GRBG", ConvertColour(1, cv::COLOR_BayerGB2GRAY)},
-      {"GBRG", ConvertColour(1, cv::COLOR_BayerGR2GRAY)},
-      {"BGR3", ConvertColour(3, cv::COLOR_BGR2GRAY)},
-      {"RGB3", ConvertColour(3, cv::COLOR_RGB2GRAY)},
+const std::map<std::string, PlaneFormat>& PlaneFormats() {
+  static const std::map<std::string, PlaneFormat> formats = {
+      {"GREY", {1}},
+      {"NV12", {1}},  // luminance comes first, whole
+      {"NV21", {1}},
+      {"YU12", {1}},
+      {"YV12", {1}},
+      {"YUYV", {2, 0}},
+      {"YVYU", {2, 0}},
+      {"UYVY", {2, 1}},
+      {"VYUY", {2, 1}},
+      {"Y10 ", {2, 0, -1, 10}},
+      {"Y12 ", {2, 0, -1, 12}},
+      {"Y16 ", {2, 0, -1, 16}},
+      {"RGGB", {1, 0, cv::COLOR_BayerBG2GRAY}},
+      {"BA81", {1, 0, cv::COLOR_BayerRG2GRAY}},  // BGGR
+      {"GRBG", {1, 0, cv::COLOR_BayerGB2GRAY}},
+      {"GBRG", {1, 0, cv::COLOR_BayerGR2GRAY}},
+      {"BGR3", {3, 0, cv::COLOR_BGR2GRAY}},
+      {"RGB3", {3, 0, cv::COLOR_RGB2GRAY}},
   };
-  return conversions;
+  return formats;
 }
 
 bool IsJpeg(const std::string& name) { return name == "MJPG" || name == "JPEG"; }
@@ -102,24 +84,32 @@ std::string FormatFourcc(uint32_t fourcc) {
 
 bool IsKnownPixelFormat(uint32_t fourcc) {
   const std::string name = FormatFourcc(fourcc);
-  return IsJpeg(name) || Conversions().count(name) > 0;
+  return IsJpeg(name) || PlaneFormats().count(name) > 0;
 }
 
 std::optional<cv::Mat> ToGrey(const void* data, size_t size, const VideoFormat& format) {
   const std::string name = FormatFourcc(format.fourcc);
   if (IsJpeg(name)) return DecodeJpeg(data, size, format);
-  const auto found = Conversions().find(name);
-  Require(found != Conversions().end(), "pixel format '" + name + "' is not known");
-  const Conversion& conversion = found->second;
-  const size_t line = static_cast<size_t>(format.width) * conversion.bytes;
+  const auto found = PlaneFormats().find(name);
+  Require(found != PlaneFormats().end(), "pixel format '" + name + "' is not known");
+  const PlaneFormat& plane = found->second;
+  const bool is_deep = plane.bits > 8;
+  const size_t line = static_cast<size_t>(format.width) * plane.bytes;
   const size_t step = std::max<size_t>(format.bytes_per_line, line);
   if (format.width <= 0 || format.height <= 0 || format.bytes_per_line < 0 ||
-      step % conversion.sample_bytes != 0 || size < step * (format.height - 1) + line)
+      (is_deep && step % 2 != 0) || size < step * (format.height - 1) + line)
     return std::nullopt;
-  const cv::Mat raw(format.height, format.width, CV_8UC(conversion.bytes), const_cast<void*>(data),
-                    step);
+  const cv::Mat raw(format.height, format.width, is_deep ? CV_16UC1 : CV_8UC(plane.bytes),
+                    const_cast<void*>(data), step);
   cv::Mat grey;
-  conversion.apply(raw, grey);
+  if (is_deep) {
+    const double levels = 1 << (plane.bits - 8);  // of the picture in one of grey
+    raw.convertTo(grey, CV_8U, 1 / levels, 0.5 / levels - 0.5);
+  } else if (plane.colour_code >= 0) {
+    cv::cvtColor(raw, grey, plane.colour_code);
+  } else {
+    cv::extractChannel(raw, grey, plane.channel);
+  }
   return grey;
 }
 

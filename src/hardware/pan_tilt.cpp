@@ -14,14 +14,8 @@ void PanTiltOptions::Check() const {
 }
 
 const char* ToString(PanTiltState state) {
-  switch (state) {
-    case PanTiltState::kClosed:
-      return "closed";
-    case PanTiltState::kHoming:
-      return "homing";
-    default:
-      return "ready";
-  }
+  constexpr const char* kNames[] = {"closed", "homing", "ready"};
+  return kNames[static_cast<size_t>(state)];
 }
 
 PanTilt::PanTilt(const PanTiltOptions& options, std::function<std::unique_ptr<ByteStream>()> open,

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
+
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
@@ -40,11 +41,7 @@ bool Agree(const std::vector<PtuLink::Answer>& answers, int needed, double max_s
   return n > needed && num_steady > needed;
 }
 
-std::string FormatDegrees(double rad) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f", rad * 180 / M_PI);
-  return text;
-}
+double Degrees(double rad) { return rad * 180 / M_PI; }
 
 }  // namespace
 
@@ -122,9 +119,8 @@ std::optional<std::string> PanTiltUnit::CheckAngle(PtuAxis axis, double angle_ra
   const PtuAxisProperties& properties = axes_[Index(axis)].properties;
   const double count = std::round(angle_rad / properties.resolution_rad);
   if (count >= properties.min_position && count <= properties.max_position) return std::nullopt;
-  return std::string(ToString(axis)) + " " + FormatDegrees(angle_rad) +
-         " deg is outside the limits " + FormatDegrees(properties.MinRad()) + " .. " +
-         FormatDegrees(properties.MaxRad()) + " deg";
+  return Format("%s %.2f deg is outside the limits %.2f .. %.2f deg", ToString(axis),
+                Degrees(angle_rad), Degrees(properties.MinRad()), Degrees(properties.MaxRad()));
 }
 
 std::optional<std::string> PanTiltUnit::MoveTo(PtuAxis axis, double angle_rad) {
@@ -144,9 +140,9 @@ std::optional<std::string> PanTiltUnit::SetSpeed(PtuAxis axis, double speed_rad_
   PtuAxisProperties& properties = known.properties;
   const double speed = std::round(speed_rad_s / properties.resolution_rad);
   if (!(speed >= properties.min_speed && speed <= properties.max_speed))
-    return std::string(ToString(axis)) + " speed " + FormatDegrees(speed_rad_s) +
-           " deg/s is outside " + FormatDegrees(properties.min_speed * properties.resolution_rad) +
-           " .. " + FormatDegrees(properties.max_speed * properties.resolution_rad) + " deg/s";
+    return Format("%s speed %.2f deg/s is outside %.2f .. %.2f deg/s", ToString(axis),
+                  Degrees(speed_rad_s), Degrees(properties.min_speed * properties.resolution_rad),
+                  Degrees(properties.max_speed * properties.resolution_rad));
   known.fastest = std::max(known.fastest, static_cast<int>(speed));
   const auto problem = link_.Command(FormatPtuSet(axis, 'S', static_cast<int>(speed)));
   if (problem) return std::string(ToString(axis)) + " speed: " + *problem;

@@ -1,7 +1,9 @@
 #include "arfm_vo/hardware/ptu_protocol.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <cctype>
+#include <regex>
 #include <sstream>
 
 namespace arfm_vo {
@@ -14,23 +16,10 @@ char AxisLetter(PtuAxis axis) { return axis == PtuAxis::kPan ? 'p' : 't'; }
 
 bool IsLineEnd(char c) { return c == '\r' || c == '\n'; }
 
-std::string Trim(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// [+-]DIGITS[.DIGITS], nothing else: no exponent, no hexadecimal, no "nan".
 std::optional<double> ParsePlainNumber(const std::string& text) {
-  const size_t first = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-  const size_t digits = text.find_first_not_of("0123456789", first);
-  const bool has_digits = digits != first && text.size() > first;
-  if (!has_digits || text.size() > 16) return std::nullopt;
-  if (digits != std::string::npos) {
-    const bool is_fraction = text[digits] == '.' && digits + 1 < text.size() &&
-                             text.find_first_not_of("0123456789", digits + 1) == std::string::npos;
-    if (!is_fraction) return std::nullopt;
-  }
+  static const std::regex number("[+-]?[0-9]+(\\.[0-9]+)?");
+  if (text.size() > 16 || !std::regex_match(text, number)) return std::nullopt;
   return std::stod(text);
 }
 
@@ -89,7 +78,7 @@ std::optional<PtuReply> PtuReplyParser::Next() {
   }
   const bool is_error = buffer_[0] == '!';
   PtuReply reply{is_error ? PtuReplyKind::kError : PtuReplyKind::kDone,
-                 Trim(std::string(buffer_.begin() + 1, end))};
+                 boost::trim_copy(std::string(buffer_.begin() + 1, end))};
   if (!is_error && !reply.text.empty()) reply.kind = PtuReplyKind::kValue;
   buffer_.erase(buffer_.begin(), end + 1);
   return reply;

@@ -9,23 +9,19 @@
 #include <cerrno>
 #include <cmath>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/monotonic_clock.h"
 
 namespace arfm_vo {
 namespace {
 
-[[noreturn]] void Fail(int error, const std::string& what) {
-  throw std::system_error(error, std::generic_category(), what);
-}
-
 [[noreturn]] void FailToOpen(int error, const std::string& path) {
   const std::string advice = error == EACCES   ? "is this user in the group dialout?"
                              : error == ENOTTY ? "give port:= the name of a serial line"
                                                : "is it plugged in? port:= names it";
-  Fail(error, "serial port '" + path + "' (" + advice + ")");
+  ThrowSystemError("serial port '" + path + "' (" + advice + ")", error);
 }
 
 speed_t ToSpeed(int baud) {
@@ -51,7 +47,8 @@ SerialPort::SerialPort(const std::string& path, int baud) : path_(path) {
   settings.c_cc[VMIN] = 0;
   settings.c_cc[VTIME] = 0;
   ::cfsetspeed(&settings, speed);
-  if (::tcsetattr(fd_.Get(), TCSANOW, &settings) != 0) Fail(errno, "serial port '" + path + "'");
+  if (::tcsetattr(fd_.Get(), TCSANOW, &settings) != 0)
+    ThrowSystemError("serial port '" + path + "'");
   ::ioctl(fd_.Get(), TIOCEXCL);  // no second driver on the same line
   ::tcflush(fd_.Get(), TCIOFLUSH);
 }
@@ -60,9 +57,9 @@ bool SerialPort::Wait(short events, double timeout_s) const {
   pollfd wait{fd_.Get(), events, 0};
   const int timeout_ms = static_cast<int>(std::ceil(std::max(timeout_s, 0.0) * 1000));
   const int ready = ::poll(&wait, 1, timeout_ms);
-  if (ready < 0 && errno != EINTR) Fail(errno, "serial port '" + path_ + "'");
+  if (ready < 0 && errno != EINTR) ThrowSystemError("serial port '" + path_ + "'");
   if (ready > 0 && (wait.revents & (POLLERR | POLLHUP | POLLNVAL)) && !(wait.revents & events))
-    Fail(EIO, "serial port '" + path_ + "' is gone");
+    ThrowSystemError("serial port '" + path_ + "' is gone", EIO);
   return ready > 0;
 }
 
@@ -71,12 +68,12 @@ void SerialPort::Write(const std::string& bytes, double timeout_s) {
   size_t sent = 0;
   while (sent < bytes.size()) {
     if (!Wait(POLLOUT, deadline - Now()) && Now() >= deadline)
-      Fail(ETIMEDOUT, "serial port '" + path_ + "' takes no bytes");
+      ThrowSystemError("serial port '" + path_ + "' takes no bytes", ETIMEDOUT);
     const ssize_t count = ::write(fd_.Get(), bytes.data() + sent, bytes.size() - sent);
     if (count >= 0) {
       sent += static_cast<size_t>(count);
     } else if (errno != EAGAIN && errno != EINTR) {
-      Fail(errno, "serial port '" + path_ + "'");
+      ThrowSystemError("serial port '" + path_ + "'");
     }
   }
 }
@@ -87,7 +84,7 @@ std::string SerialPort::Read(double timeout_s) {
   const ssize_t count = ::read(fd_.Get(), buffer, sizeof(buffer));
   if (count > 0) return {buffer, static_cast<size_t>(count)};
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return {};
-  Fail(count == 0 ? EIO : errno, "serial port '" + path_ + "' is gone");
+  ThrowSystemError("serial port '" + path_ + "' is gone", count == 0 ? EIO : errno);
 }
 
 double SerialPort::Now() const { return MonotonicNow(); }

@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
+
+#include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr char kEnd[] = "\r\n";
+constexpr char kDone[] = "*\r\n";
 constexpr char kIllegal[] = "! Illegal command entered\r\n";
 
-std::string FormatResolution(double arcsec) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(4) << arcsec;
-  return out.str();
-}
+std::string NameOf(PtuAxis axis) { return axis == PtuAxis::kPan ? "Pan" : "Tilt"; }
 
 /// The number at the end of "pp-2500"; nothing where there is none.
 std::optional<int> ParseArgument(const std::string& command) {
@@ -29,6 +26,37 @@ std::optional<int> ParseArgument(const std::string& command) {
 }
 
 }  // namespace
+
+void PtuAxisMotion::Advance(double now_s) {
+  while (now_s_ < now_s && !IsAtRest()) {
+    const double dt = std::min(kStep_s, now_s - now_s_);
+    Step(dt);
+    now_s_ += dt;
+  }
+  now_s_ = std::max(now_s_, now_s);
+}
+
+void PtuAxisMotion::Step(double dt) {
+  const double error = target - position_;
+  const double direction = error >= 0 ? 1 : -1;
+  const double base = std::min(options.base_speed, speed);
+  // Speed from which the axis can still come to the base speed at the target.
+  const double stopping = std::sqrt(base * base + 2.0 * options.acceleration *
+                                                      std::max(std::abs(error) - base * dt, 0.0));
+  double wanted = direction * std::min<double>(speed, stopping);
+  if (velocity_ * direction < -base) wanted = 0;  // on its way to the other side: brake first
+  double change =
+      std::clamp(wanted - velocity_, -options.acceleration * dt, options.acceleration * dt);
+  if (std::abs(velocity_) <= base && std::abs(wanted) >= base && velocity_ * wanted <= 0)
+    change = direction * base - velocity_;  // starts at the base speed
+  velocity_ += change;
+  if (std::abs(error) <= std::max(std::abs(velocity_), base) * dt) {
+    position_ = target;
+    velocity_ = 0;
+  } else {
+    position_ += velocity_ * dt;
+  }
+}
 
 SimulatedPtuOptions SimulatedPtuOptions::Instant() {
   SimulatedPtuOptions options;
@@ -78,106 +106,70 @@ void SimulatedPtu::Advance(double now_s) {
     tilt_.Advance(now_s_);
     if (has_echo_) Send(std::string(1, c), now_s_);
     if (c == ' ' || c == '\r') {
-      if (!command_.empty()) Execute(command_);
+      const std::string reply = command_.empty() ? "" : Answer(command_);
+      Send(reply, std::max(now_s_, busy_until_s_) + options_.command_time_s);
       command_.clear();
     } else if (c > ' ' && command_.size() < 32) {
       command_ += static_cast<char>(std::tolower(c));
     }
   }
-  while (now_s_ < now_s) {
-    now_s_ = awaits_ ? std::min(now_s_ + PtuAxisMotion::kStep_s, now_s) : now_s;
-    pan_.Advance(now_s_);
-    tilt_.Advance(now_s_);
-    if (!awaits_ || !pan_.IsAtRest() || !tilt_.IsAtRest()) continue;
-    awaits_ = false;
-    Send(std::string("*") + kEnd, now_s_);
-  }
-}
-
-void SimulatedPtu::Execute(const std::string& command) {
-  const std::string reply = Answer(command);
-  if (!reply.empty()) Send(reply, std::max(now_s_, busy_until_s_) + options_.command_time_s);
+  now_s_ = std::max(now_s_, now_s);
+  pan_.Advance(now_s_);
+  tilt_.Advance(now_s_);
 }
 
 std::string SimulatedPtu::Answer(const std::string& command) {
-  const std::string done = std::string("*") + kEnd;
-  if (command == "a") {
-    awaits_ = true;
-    return {};
-  }
   if (command[0] == 'r' && command.size() <= 2) {
     Reset();
     return "!T!T!P!P*\r\n";
   }
   if (command == "ee" || command == "ed") {
     has_echo_ = command == "ee";
-    return done;
+    return kDone;
   }
   if (command == "ft" || command == "fv") {
     is_verbose_ = command == "fv";
-    return done;
+    return kDone;
   }
-  if (command == "le" || command == "ld") {
-    is_limited_ = command == "le";
-    return done;
-  }
-  if (command == "ci" || command == "i") return done;
+  if (command == "ci" || command == "i") return kDone;
   if (command == "ds") ++num_eeprom_writes_;
-  if (command == "h") {
-    pan_.target = static_cast<int>(std::lround(pan_.Position()));
-    tilt_.target = static_cast<int>(std::lround(tilt_.Position()));
-    return done;
-  }
-  if (command == "v") return "* Pan-Tilt Controller v2.14.0(D46), (C)2006 Directed Perception\r\n";
-  if (command == "o") return "* 24.0,86,81\r\n";
   if (command.size() >= 2 && command[0] == 'p') return AnswerAxis(PtuAxis::kPan, command);
   if (command.size() >= 2 && command[0] == 't') return AnswerAxis(PtuAxis::kTilt, command);
   return kIllegal;
 }
 
 std::string SimulatedPtu::AnswerAxis(PtuAxis axis, const std::string& command) {
-  const PtuAxisMotion& motion = Motion(axis);
-  const SimulatedPtuAxisOptions& axis_options = motion.options;
-  const std::string name = axis == PtuAxis::kPan ? "Pan" : "Tilt";
-  const auto argument = ParseArgument(command);
-  if (command.size() > 2 && !argument) return kIllegal;
-  if (argument) {
-    if (command[1] == 'p') return MoveTo(axis, *argument);
-    if (command[1] == 'o')
-      return MoveTo(axis, static_cast<int>(std::lround(motion.Position())) + *argument);
-    if (command[1] == 's') return SetSpeed(axis, *argument);
+  const char letter = command[1];
+  if (command.size() > 2) {
+    const auto argument = ParseArgument(command);
+    if (argument && letter == 'p') return MoveTo(axis, *argument);
+    if (argument && letter == 's') return SetSpeed(axis, *argument);
     return kIllegal;
   }
-  const std::string position = std::to_string(std::lround(motion.Position()));
-  switch (command[1]) {
-    case 'p':
-      return AnswerValue("Current " + name + " position is ", position);
-    case 'o':
-      return AnswerValue("Target " + name + " position is ", std::to_string(motion.target));
-    case 'r':
-      return AnswerValue("", FormatResolution(axis_options.resolution_arcsec),
-                         " seconds arc per " + name + " position");
-    case 'n':
-      return AnswerValue("Minimum " + name + " position is ",
-                         std::to_string(axis_options.min_position));
-    case 'x':
-      return AnswerValue("Maximum " + name + " position is ",
-                         std::to_string(axis_options.max_position));
-    case 's':
-      return AnswerValue("Target " + name + " speed is ", std::to_string(motion.speed),
-                         " positions/sec");
-    case 'l':
-      return AnswerValue("Minimum " + name + " speed is ", std::to_string(axis_options.min_speed),
-                         " positions/sec");
-    case 'u':
-      return AnswerValue("Maximum " + name + " speed is ", std::to_string(axis_options.max_speed),
-                         " positions/sec");
-    case 'b':
-      return AnswerValue("Current " + name + " base speed is ",
-                         std::to_string(axis_options.base_speed), " positions/sec");
-    default:
-      return kIllegal;
-  }
+  const PtuAxisMotion& motion = Motion(axis);
+  const SimulatedPtuAxisOptions& unit = motion.options;
+  const struct {
+    char letter;
+    const char* before;
+    double value;
+    const char* what;
+    const char* after;
+  } replies[] = {
+      {'p', "Current ", std::round(motion.Position()), " position is ", ""},
+      {'n', "Minimum ", 1.0 * unit.min_position, " position is ", ""},
+      {'x', "Maximum ", 1.0 * unit.max_position, " position is ", ""},
+      {'s', "Target ", 1.0 * motion.speed, " speed is ", " positions/sec"},
+      {'l', "Minimum ", 1.0 * unit.min_speed, " speed is ", " positions/sec"},
+      {'u', "Maximum ", 1.0 * unit.max_speed, " speed is ", " positions/sec"},
+  };
+  if (letter == 'r')
+    return AnswerValue("", Format("%.4f", unit.resolution_arcsec),
+                       " seconds arc per " + NameOf(axis) + " position");
+  for (const auto& reply : replies)
+    if (letter == reply.letter)
+      return AnswerValue(reply.before + NameOf(axis) + reply.what, Format("%.0f", reply.value),
+                         reply.after);
+  return kIllegal;
 }
 
 std::string SimulatedPtu::AnswerValue(const std::string& before, const std::string& value,
@@ -187,28 +179,25 @@ std::string SimulatedPtu::AnswerValue(const std::string& before, const std::stri
 
 std::string SimulatedPtu::MoveTo(PtuAxis axis, int target) {
   PtuAxisMotion& motion = Motion(axis);
-  const std::string name = axis == PtuAxis::kPan ? "Pan" : "Tilt";
-  if (is_limited_ && target > motion.options.max_position)
-    return "! Maximum allowable " + name + " position is " +
-           std::to_string(motion.options.max_position) + kEnd;
-  if (is_limited_ && target < motion.options.min_position)
-    return "! Minimum allowable " + name + " position is " +
-           std::to_string(motion.options.min_position) + kEnd;
+  const auto refuse = [&](const char* limit, int position) {
+    return Format("! %s allowable %s position is %d", limit, NameOf(axis).c_str(), position) + kEnd;
+  };
+  if (target > motion.options.max_position) return refuse("Maximum", motion.options.max_position);
+  if (target < motion.options.min_position) return refuse("Minimum", motion.options.min_position);
   motion.target = target;
-  return std::string("*") + kEnd;
+  return kDone;
 }
 
 std::string SimulatedPtu::SetSpeed(PtuAxis axis, int speed) {
   PtuAxisMotion& motion = Motion(axis);
-  const std::string name = axis == PtuAxis::kPan ? "Pan" : "Tilt";
-  if (speed > motion.options.max_speed)
-    return "! " + name + " speed cannot exceed " + std::to_string(motion.options.max_speed) +
-           " positions/sec" + kEnd;
-  if (speed < motion.options.min_speed)
-    return "! " + name + " speed cannot be less than " + std::to_string(motion.options.min_speed) +
-           " positions/sec" + kEnd;
+  const auto refuse = [&](const char* what, int limit) {
+    return Format("! %s speed cannot %s %d positions/sec", NameOf(axis).c_str(), what, limit) +
+           kEnd;
+  };
+  if (speed > motion.options.max_speed) return refuse("exceed", motion.options.max_speed);
+  if (speed < motion.options.min_speed) return refuse("be less than", motion.options.min_speed);
   motion.speed = speed;
-  return std::string("*") + kEnd;
+  return kDone;
 }
 
 void SimulatedPtu::Reset() {

@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <memory>
-#include <system_error>
+
+#include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
 namespace {
@@ -35,7 +36,7 @@ CanFrame ToFrame(const can_frame& raw) {
 
 void SetOption(int socket, int level, int name, const void* value, size_t size) {
   if (::setsockopt(socket, level, name, value, static_cast<socklen_t>(size)) != 0)
-    throw std::system_error(errno, std::generic_category(), "setsockopt of a CAN socket");
+    ThrowSystemError("setsockopt of a CAN socket");
 }
 
 void SetFilters(int socket, const CanFilters& filters) {
@@ -66,8 +67,7 @@ SocketCanBus::SocketCanBus(const std::string& interface, CanFilters filters)
 
 FileDescriptor SocketCanBus::Open() const {
   const auto fail = [this](const char* what) {
-    throw std::system_error(errno, std::generic_category(),
-                            "CAN interface '" + interface_ + "': " + what);
+    ThrowSystemError("CAN interface '" + interface_ + "': " + what);
   };
   FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (!socket.IsOpen())

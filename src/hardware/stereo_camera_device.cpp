@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <system_error>
 
 #include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/hardware/v4l2_device.h"
@@ -161,7 +160,7 @@ std::optional<FramePair> StereoCameraDevice::Take(StereoEye eye, VideoFrame fram
 void StereoCameraDevice::CheckSilence() {
   for (size_t i = 0; i < eyes_.size(); ++i)
     if (environment_.now_s() - eyes_[i].last_frame_s > options_.frame_timeout_s)
-      throw std::system_error(ETIMEDOUT, std::generic_category(), Name(i) + " gives no frames");
+      ThrowSystemError(Name(i) + " gives no frames", ETIMEDOUT);
 }
 
 void StereoCameraDevice::CopyExposure() {

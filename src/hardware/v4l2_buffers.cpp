@@ -4,8 +4,8 @@
 #include <sys/time.h>
 
 #include <cerrno>
-#include <system_error>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/v4l2_call.h"
 
 namespace arfm_vo {
@@ -36,8 +36,7 @@ void V4l2Buffers::Start(int fd, const std::string& path, int count) {
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   request.memory = V4L2_MEMORY_MMAP;
   CallV4l2(fd_, VIDIOC_REQBUFS, &request, path_, "gives no buffers");
-  if (request.count < 2)
-    throw std::system_error(ENOMEM, std::generic_category(), path_ + ": gives too few buffers");
+  if (request.count < 2) ThrowSystemError(path_ + ": gives too few buffers", ENOMEM);
   for (unsigned i = 0; i < request.count; ++i) Map(i);
   for (unsigned i = 0; i < request.count; ++i) {
     v4l2_buffer buffer = MakeBuffer(i);
@@ -52,8 +51,7 @@ void V4l2Buffers::Map(unsigned index) {
   CallV4l2(fd_, VIDIOC_QUERYBUF, &buffer, path_, "does not show its buffers");
   void* start =
       ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, buffer.m.offset);
-  if (start == MAP_FAILED)
-    throw std::system_error(errno, std::generic_category(), path_ + ": does not map its buffers");
+  if (start == MAP_FAILED) ThrowSystemError(path_ + ": does not map its buffers");
   mapped_.push_back({start, buffer.length});
 }
 
@@ -61,10 +59,9 @@ std::optional<v4l2_buffer> V4l2Buffers::Take() {
   v4l2_buffer buffer = MakeBuffer();
   if (!TryV4l2(fd_, VIDIOC_DQBUF, &buffer)) {
     if (errno == EAGAIN) return std::nullopt;
-    throw std::system_error(errno, std::generic_category(), path_ + ": gives no frame");
+    ThrowSystemError(path_ + ": gives no frame");
   }
-  if (buffer.index >= mapped_.size())
-    throw std::system_error(EPROTO, std::generic_category(), path_ + ": gives an unknown buffer");
+  if (buffer.index >= mapped_.size()) ThrowSystemError(path_ + ": gives an unknown buffer", EPROTO);
   if (buffer.bytesused > mapped_[buffer.index].length) buffer.flags |= V4L2_BUF_FLAG_ERROR;
   return buffer;
 }

@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <filesystem>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/file_descriptor.h"
 #include "arfm_vo/hardware/image_conversion.h"
 
@@ -61,13 +61,12 @@ bool TryV4l2(int fd, unsigned long request, void* argument) {
 
 void CallV4l2(int fd, unsigned long request, void* argument, const std::string& path,
               const std::string& what) {
-  if (!TryV4l2(fd, request, argument))
-    throw std::system_error(errno, std::generic_category(), path + ": " + what);
+  if (!TryV4l2(fd, request, argument)) ThrowSystemError(path + ": " + what);
 }
 
 std::string ListV4l2Formats(const std::string& path) {
   const FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
-  if (!fd.IsOpen()) throw std::system_error(errno, std::generic_category(), path);
+  if (!fd.IsOpen()) ThrowSystemError(path);
   std::ostringstream out;
   v4l2_capability capability{};
   CallV4l2(fd.Get(), VIDIOC_QUERYCAP, &capability, path, "is no video device");

@@ -4,8 +4,8 @@
 
 #include <cerrno>
 #include <cmath>
-#include <system_error>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/hardware/v4l2_call.h"
 
@@ -51,20 +51,17 @@ bool SetWhiteBalance(int fd, int kelvin) {
   return SetControl(fd, V4L2_CID_WHITE_BALANCE_TEMPERATURE, kelvin);
 }
 
-[[noreturn]] void FailToOpen(int error, const std::string& path) {
-  const std::string advice = error == EACCES
-                                 ? "is this user in the group video?"
-                                 : "is it plugged in? left_device and right_device name the "
-                                   "cameras, stereo_camera_node --list shows which there are";
-  throw std::system_error(error, std::generic_category(), path + " (" + advice + ")");
-}
-
 }  // namespace
 
 V4l2Device::V4l2Device(const std::string& path, const VideoOptions& options)
     : path_(path), fd_(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)) {
   options.Check();
-  if (!fd_.IsOpen()) FailToOpen(errno, path_);
+  if (!fd_.IsOpen())
+    ThrowSystemError(path_ +
+                     (errno == EACCES
+                          ? " (is this user in the group video?)"
+                          : " (is it plugged in? left_device and right_device name the cameras, "
+                            "stereo_camera_node --list shows which there are)"));
   CheckCapabilities();
   int input = options.input;
   if (input >= 0) CallV4l2(fd_.Get(), VIDIOC_S_INPUT, &input, path_, "has no such input");
@@ -81,8 +78,7 @@ void V4l2Device::CheckCapabilities() const {
   const uint32_t can = capability.capabilities & V4L2_CAP_DEVICE_CAPS ? capability.device_caps
                                                                       : capability.capabilities;
   if (!(can & V4L2_CAP_VIDEO_CAPTURE) || !(can & V4L2_CAP_STREAMING))
-    throw std::system_error(ENOTSUP, std::generic_category(),
-                            path_ + ": does not capture video by streaming");
+    ThrowSystemError(path_ + ": does not capture video by streaming", ENOTSUP);
 }
 
 void V4l2Device::SetFormat(const VideoOptions& options) {
@@ -97,10 +93,10 @@ void V4l2Device::SetFormat(const VideoOptions& options) {
   const v4l2_pix_format& got = format.fmt.pix;
   if (!is_set || got.pixelformat != asked.fmt.pix.pixelformat || got.width != asked.fmt.pix.width ||
       got.height != asked.fmt.pix.height)
-    throw std::system_error(
-        EINVAL, std::generic_category(),
-        path_ + ": has no " + options.pixel_format + " of " + std::to_string(options.width) + "x" +
-            std::to_string(options.height) + ". It has:\n" + ListV4l2Formats(path_));
+    ThrowSystemError(path_ + ": has no " + options.pixel_format + " of " +
+                         std::to_string(options.width) + "x" + std::to_string(options.height) +
+                         ". It has:\n" + ListV4l2Formats(path_),
+                     EINVAL);
   format_ = {got.pixelformat, options.width, options.height, static_cast<int>(got.bytesperline)};
 }
 

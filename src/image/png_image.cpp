@@ -4,7 +4,6 @@
 
 #include <csetjmp>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <vector>
 
@@ -16,9 +15,7 @@
 namespace arfm_vo {
 namespace {
 
-// PNG specification, section 5: a signature of 8 bytes, then the chunk IHDR, then others.
-constexpr size_t kSignatureSize = 8;
-constexpr size_t kHeaderSize = 33;  // signature and the whole IHDR
+constexpr size_t kSignatureSize = 8;  // PNG specification, section 5
 // Deflated data (RFC 1951) hold at most 258 bytes in 2 bits.
 constexpr size_t kMaxDeflation = 1032;
 // Rec. 601, as OpenCV turns colours to grey; blue is the rest.
@@ -107,32 +104,14 @@ class PngReader {
   std::vector<png_bytep> rows_;
 };
 
-void CheckSignature(const std::string& bytes, const std::string& path) {
+}  // namespace
+
+cv::Mat ReadGreyPng(const std::string& path, GreyWindow& window) {
+  const std::string bytes = ReadWholeFile(path);
   Require(!bytes.empty(), path + ": is empty");
   Require(bytes.size() >= kSignatureSize &&
               png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kSignatureSize) == 0,
           path + ": is not a PNG file");
-}
-
-}  // namespace
-
-cv::Size ReadPngSize(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  Require(file.is_open(), path + ": cannot be read");
-  std::string header(kHeaderSize, '\0');
-  file.read(header.data(), header.size());
-  header.resize(file.gcount());
-  CheckSignature(header, path);
-  Require(header.size() == kHeaderSize, path + ": PNG file is truncated");
-  Require(header.compare(kSignatureSize + 4, 4, "IHDR") == 0, path + ": PNG file is corrupted");
-  const auto* ihdr = reinterpret_cast<png_const_bytep>(header.data()) + kSignatureSize + 8;
-  return cv::Size(static_cast<int>(png_get_uint_32(ihdr)),
-                  static_cast<int>(png_get_uint_32(ihdr + 4)));
-}
-
-cv::Mat ReadGreyPng(const std::string& path, GreyWindow& window) {
-  const std::string bytes = ReadWholeFile(path);
-  CheckSignature(bytes, path);
   PngSource source{bytes};
   const cv::Mat image = PngReader(source).Decode();
   Require(!source.is_truncated, path + ": PNG file is truncated");

@@ -11,44 +11,24 @@ namespace {
 
 constexpr double kBlack = 0.06, kWhite = 0.8, kBackground = 0.3;
 
-/// A convex polygon of at most 8 corners (a quadrilateral cut by a rectangle).
-struct Polygon {
-  std::array<Eigen::Vector2d, 8> corners;
-  int size = 0;
+/// The share within [low, high] of what is `width` wide about x.
+double ShareWithin(double low, double high, double x, double width) {
+  const auto share_above = [&](double limit) {
+    return std::clamp((x - limit) / width + 0.5, 0.0, 1.0);
+  };
+  return share_above(low) - share_above(high);
+}
 
-  void Add(const Eigen::Vector2d& corner) { corners[size++] = corner; }
-  double Area() const {
-    double twice = 0;
-    for (int i = 0; i < size; ++i) {
-      const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % size];
-      twice += a.x() * b.y() - a.y() * b.x();
-    }
-    return std::abs(twice) / 2;
-  }
-};
-
-/// The part of a polygon with sign * x[axis] <= sign * limit (Sutherland and Hodgman 1974).
-Polygon Clip(const Polygon& polygon, int axis, double sign, double limit) {
-  Polygon kept;
-  for (int i = 0; i < polygon.size; ++i) {
-    const Eigen::Vector2d& a = polygon.corners[i];
-    const Eigen::Vector2d& b = polygon.corners[(i + 1) % polygon.size];
-    const double beyond_a = sign * (a[axis] - limit), beyond_b = sign * (b[axis] - limit);
-    if (beyond_a <= 0) kept.Add(a);
-    if ((beyond_a < 0 && beyond_b > 0) || (beyond_a > 0 && beyond_b < 0)) {
-      kept.Add(a + (b - a) * (beyond_a / (beyond_a - beyond_b)));
-    }
-  }
-  return kept;
+/// The square wave, +1 in [0, 1) and -1 in [1, 2), averaged over `width` about x.
+double SquareWave(double x, double width) {
+  const auto integral = [](double end) {
+    const double phase = end - 2 * std::floor(end / 2);
+    return std::min(phase, 2 - phase);
+  };
+  return (integral(x + width / 2) - integral(x - width / 2)) / width;
 }
 
 }  // namespace
-
-/// Where the corners of a pixel lie on the board, in squares; the board's own squares are those
-/// with indices -1 .. columns - 1 and -1 .. rows - 1.
-struct BoardRenderer::PixelOnBoard {
-  std::array<Eigen::Vector2d, 4> corners;
-};
 
 void DistortedCamera::Check() const {
   Require(fx > 0 && fy > 0, "distorted camera: focal lengths must be positive");
@@ -91,45 +71,19 @@ BoardRenderer::BoardRenderer(const DistortedCamera& camera, const BoardPattern& 
   rays_.reserve(static_cast<size_t>(camera.width + 1) * (camera.height + 1));
   for (int v = 0; v <= camera.height; ++v) {
     for (int u = 0; u <= camera.width; ++u) {
-      rays_.push_back(camera.Unproject({u - 0.5, v - 0.5}));
+      rays_.push_back(camera.Unproject({u, v}));
     }
   }
 }
 
-double BoardRenderer::Tone(int column, int row) const {
-  if (column < -2 || row < -2 || column > pattern_.columns || row > pattern_.rows) {
-    return kBackground;
-  }
-  const bool is_border =
-      column == -2 || row == -2 || column == pattern_.columns || row == pattern_.rows;
-  return is_border || (column + row) % 2 != 0 ? kWhite : kBlack;
-}
-
-double BoardRenderer::MeanOverPixel(const PixelOnBoard& pixel) const {
-  Eigen::Vector2d low = pixel.corners[0], high = low;
-  Polygon whole;
-  for (const Eigen::Vector2d& corner : pixel.corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-    whole.Add(corner);
-  }
-  const auto cell = [](double x) { return static_cast<int>(std::floor(std::clamp(x, -9.0, 1e4))); };
-  const int low_i = cell(low.x()), high_i = cell(high.x());
-  const int low_j = cell(low.y()), high_j = cell(high.y());
-  if ((low_i == high_i && low_j == high_j) || high_i < -2 || high_j < -2 ||
-      low_i > pattern_.columns || low_j > pattern_.rows || high_i - low_i > 50 ||
-      high_j - low_j > 50) {
-    return Tone(low_i, low_j);
-  }
-  const double area = whole.Area();
-  double sum = 0;
-  for (int i = low_i; i <= high_i; ++i) {
-    const Polygon column = Clip(Clip(whole, 0, 1, i + 1), 0, -1, i);
-    for (int j = low_j; j <= high_j; ++j) {
-      sum += Tone(i, j) * Clip(Clip(column, 1, 1, j + 1), 1, -1, j).Area();
-    }
-  }
-  return sum / area;
+double BoardRenderer::Tone(const Eigen::Vector2d& at, const Eigen::Vector2d& width) const {
+  const auto share_within = [&](double margin) {
+    return ShareWithin(-margin, pattern_.columns - 1 + margin, at.x(), width.x()) *
+           ShareWithin(-margin, pattern_.rows - 1 + margin, at.y(), width.y());
+  };
+  const double black = (1 + SquareWave(at.x(), width.x()) * SquareWave(at.y(), width.y())) / 2;
+  return kBackground + (kWhite - kBackground) * share_within(2) -
+         (kWhite - kBlack) * share_within(1) * black;
 }
 
 cv::Mat BoardRenderer::Trace(const Rigid3& camera_from_board, int num_threads) const {
@@ -143,19 +97,20 @@ cv::Mat BoardRenderer::Trace(const Rigid3& camera_from_board, int num_threads) c
   cv::Mat radiance(camera_.height, camera_.width, CV_32FC1);
   ForEachRow(camera_.height, num_threads, [&](int v) {
     for (int u = 0; u < camera_.width; ++u) {
-      PixelOnBoard pixel;
       double nearest = 1e9;  // 1 / depth in units of the scale; not positive behind the camera
-      constexpr int kAround[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-      for (int k = 0; k < 4; ++k) {
-        const size_t at = static_cast<size_t>(v + kAround[k][1]) * (camera_.width + 1) + u;
-        const Eigen::Vector2d& ray = rays_[at + kAround[k][0]];
-        const Eigen::Vector3d q = board_from_ray * Eigen::Vector3d(ray.x(), ray.y(), 1);
-        pixel.corners[k] = q.head<2>() / q.z();
+      const auto meet = [&](int right, int down) -> Eigen::Vector2d {
+        const size_t at = static_cast<size_t>(v + down) * (camera_.width + 1) + u + right;
+        const Eigen::Vector3d q = board_from_ray * rays_[at].homogeneous();
         nearest = std::min(nearest, q.z());
-      }
+        return q.head<2>() / q.z();
+      };
+      const Eigen::Vector2d here = meet(0, 0);
+      const Eigen::Vector2d along_u = meet(1, 0) - here, along_v = meet(0, 1) - here;
+      const Eigen::Vector2d width(std::hypot(along_u.x(), along_v.x()),
+                                  std::hypot(along_u.y(), along_v.y()));
       // The board is lit from the camera's side, a little unevenly; the room behind is even.
       const double light = (0.75 + 0.25 * facing) * (0.9 + 0.1 * u / camera_.width);
-      radiance.at<float>(v, u) = light * (nearest > 1e-9 ? MeanOverPixel(pixel) : kBackground);
+      radiance.at<float>(v, u) = light * (nearest > 1e-9 ? Tone(here, width) : kBackground);
     }
   });
   return radiance;

@@ -48,17 +48,11 @@ Rigid3 DrawPose(const DistortedCamera& camera, const BoardPattern& pattern, doub
 
 std::string FormatEye(const std::string& eye, const DistortedCamera& camera) {
   std::string lines;
-  for (const auto& [key, value] : {std::pair("fx", camera.fx),
-                                   {"fy", camera.fy},
-                                   {"cx", camera.cx},
-                                   {"cy", camera.cy},
-                                   {"k1", camera.k1},
-                                   {"k2", camera.k2},
-                                   {"p1", camera.p1},
-                                   {"p2", camera.p2},
-                                   {"k3", camera.k3}}) {
-    lines += std::string(key) + "_" + eye + ": " + FormatNumber(value) + "\n";
-  }
+  const auto& [fx, fy, cx, cy, k1, k2, p1, p2, k3, width, height] = camera;
+  const double values[] = {fx, fy, cx, cy, k1, k2, p1, p2, k3};
+  const char* const kKeys[] = {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
+  for (size_t i = 0; i < std::size(values); ++i)
+    lines += std::string(kKeys[i]) + "_" + eye + ": " + FormatNumber(values[i]) + "\n";
   return lines;
 }
 

@@ -1,6 +1,7 @@
 #include "arfm_vo/simulation/drive_path.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace arfm_vo {
@@ -9,18 +10,13 @@ namespace {
 constexpr double kDone = 1e-9;
 
 /// The pose a share in [0, 1] of the way along a segment that begins at `start`.
-PlanarPose Along(const PlanarPose& start, const PathSegment& segment, double share) {
-  const double turn = share * segment.turn_rad, length = share * segment.length_m;
-  const double half = turn / 2;
-  const double chord = std::abs(half) < 1e-9 ? length : length * std::sin(half) / half;
-  const double direction = start.heading_rad + half;
-  return {start.position + chord * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
-          start.heading_rad + turn};
+RoverPose Along(const RoverPose& start, const PathSegment& segment, double share) {
+  return Advance(start, share * segment.length_m, share * segment.turn_rad);
 }
 
 }  // namespace
 
-PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& segments,
+PlanarPath SamplePath(const RoverPose& start, const std::vector<PathSegment>& segments,
                       double step_m, double turn_step_rad, int num_poses) {
   Require(num_poses >= 1, "path: the number of poses must be at least 1");
   Require(step_m > 0 && turn_step_rad > 0, "path: steps must be positive");
@@ -32,7 +28,7 @@ PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& s
   for (const PathSegment& segment : segments) steps_in_all += num_steps(segment);
   Require(steps_in_all > kDone, "path: it has no length and no turn");
   PlanarPath path{start};
-  PlanarPose segment_start = start;
+  RoverPose segment_start = start;
   double until_next = 1;  // in steps
   for (size_t i = 0; static_cast<int>(path.size()) < num_poses; i = (i + 1) % segments.size()) {
     const double steps = num_steps(segments[i]);
@@ -46,13 +42,32 @@ PlanarPath SamplePath(const PlanarPose& start, const std::vector<PathSegment>& s
   return path;
 }
 
+double CenterPath(PlanarPath& path) {
+  Eigen::AlignedBox2d box;
+  for (const RoverPose& pose : path) box.extend(PositionOf(pose));
+  for (RoverPose& pose : path) {
+    pose.x_m -= box.center().x();
+    pose.y_m -= box.center().y();
+  }
+  return box.sizes().maxCoeff() / 2;
+}
+
+std::vector<Eigen::Vector2d> FollowPath(const PlanarPath& path, double beyond_m) {
+  std::vector<Eigen::Vector2d> points;
+  for (const RoverPose& pose : path)
+    if (points.empty() || (PositionOf(pose) - points.back()).norm() >= 1)
+      points.push_back(PositionOf(pose));
+  points.push_back(PositionOf(Advance(path.back(), beyond_m, 0)));
+  return points;
+}
+
 void RoverShape::Check() const {
   Require(track_length_m > 0 && track_gauge_m > 0, "rover: the tracks' sizes must be positive");
   Require(camera_height_m > 0, "rover.camera_height_m must be positive");
   Require(std::abs(camera_tilt_deg) <= 90, "rover.camera_tilt_deg must be in [-90, 90]");
 }
 
-Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverShape& shape) {
+Rigid3 PlaceRover(const Terrain& terrain, const RoverPose& pose, const RoverShape& shape) {
   const Eigen::Vector2d ahead(std::cos(pose.heading_rad), std::sin(pose.heading_rad));
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
   constexpr int kSide = 5;  // samples along each side of the footprint
@@ -62,7 +77,7 @@ Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverSha
     for (int j = 0; j < kSide; ++j) {
       const double x = shape.track_length_m * (i / (kSide - 1.0) - 0.5);
       const double y = shape.track_gauge_m * (j / (kSide - 1.0) - 0.5);
-      const Eigen::Vector2d p = pose.position + x * ahead + y * left;
+      const Eigen::Vector2d p = PositionOf(pose) + x * ahead + y * left;
       const Eigen::Vector3d row(x, y, 1);
       normal_matrix += row * row.transpose();
       right_side += row * terrain.Height(p.x(), p.y());
@@ -75,7 +90,16 @@ Rigid3 PlaceRover(const Terrain& terrain, const PlanarPose& pose, const RoverSha
                                .cross(Eigen::Vector3d(left.x(), left.y(), plane.y()))
                                .normalized();
   world_from_base.col(1) = world_from_base.col(2).cross(world_from_base.col(0));
-  return {world_from_base, Eigen::Vector3d(pose.position.x(), pose.position.y(), plane.z())};
+  return {world_from_base, Eigen::Vector3d(pose.x_m, pose.y_m, plane.z())};
+}
+
+PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
+  return [&terrain, shape](const RoverPose& pose) { return PlaceRover(terrain, pose, shape); };
+}
+
+double SlopeOf(const Rigid3& world_from_base) {
+  const Eigen::Vector3d up = world_from_base.rotation * Eigen::Vector3d::UnitZ();
+  return std::acos(std::min(1.0, up.z())) * 180 / M_PI;
 }
 
 Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad, double tilt_rad) {

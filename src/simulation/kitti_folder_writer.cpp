@@ -1,11 +1,11 @@
 #include "arfm_vo/simulation/kitti_folder_writer.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/whole_file.h"
 
@@ -54,8 +54,7 @@ KittiFolderWriter::~KittiFolderWriter() {
 
 void KittiFolderWriter::Write(const StereoImages& images, const Rigid3& world_from_left) {
   images.Check();
-  char name[32];
-  std::snprintf(name, sizeof(name), "/%06d.png", num_pairs_++);
+  const std::string name = Format("/%06d.png", num_pairs_++);
   WriteImage(unfinished_ + "/image_0" + name, images.left);
   WriteImage(unfinished_ + "/image_1" + name, images.right);
   times_ += FormatNumber(images.stamp_s, true) + "\n";

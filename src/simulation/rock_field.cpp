@@ -72,7 +72,9 @@ RockField::RockField(const RockOptions& options, const RockBed& bed, double side
   for (int j = 0; j < num_cells; ++j) {
     for (int i = 0; i < num_cells; ++i) FillCell(options, bed, i, j, seed);
   }
-  IndexShadows();
+  shadow_side_ = std::max(1, static_cast<int>(std::ceil(side_m / kShadowCell)));
+  shadow_rocks_.resize(static_cast<size_t>(shadow_side_) * shadow_side_);
+  for (size_t i = 0; i < rocks_.size(); ++i) IndexShadow(static_cast<int>(i));
 }
 
 void RockField::FillCell(const RockOptions& options, const RockBed& bed, int i, int j,
@@ -98,8 +100,8 @@ void RockField::FillCell(const RockOptions& options, const RockBed& bed, int i, 
                     std::hypot(kCell * M_SQRT1_2, (highest - lowest) / 2) + reach});
 }
 
-template <class Visit>
-void RockField::VisitShadowCells(const Solid& rock, const Visit& visit) const {
+void RockField::IndexShadow(int index) {
+  const Solid& rock = rocks_[index];
   const Eigen::Vector2d away = -to_sun_.head<2>();
   const double length =
       kShadowReach * 2 * rock.bounding_radius_m / std::max(to_sun_.z(), 0.05) * away.norm();
@@ -119,23 +121,9 @@ void RockField::VisitShadowCells(const Solid& rock, const Visit& visit) const {
       const Eigen::Vector2d offset = kShadowCell * Eigen::Vector2d(i + 0.5, j + 0.5) -
                                      Eigen::Vector2d::Constant(side_m_ / 2) - start;
       const double along = std::clamp(offset.dot(direction), 0.0, length);
-      if ((offset - along * direction).norm() <= wide) visit(j * shadow_side_ + i);
+      if ((offset - along * direction).norm() <= wide)
+        shadow_rocks_[j * shadow_side_ + i].push_back(index);
     }
-  }
-}
-
-void RockField::IndexShadows() {
-  shadow_side_ = std::max(1, static_cast<int>(std::ceil(side_m_ / kShadowCell)));
-  shadow_begin_.assign(static_cast<size_t>(shadow_side_) * shadow_side_ + 1, 0);
-  for (const Solid& rock : rocks_) {
-    VisitShadowCells(rock, [&](int cell) { ++shadow_begin_[cell + 1]; });
-  }
-  for (size_t i = 1; i < shadow_begin_.size(); ++i) shadow_begin_[i] += shadow_begin_[i - 1];
-  shadow_rocks_.resize(shadow_begin_.back());
-  std::vector<int> next(shadow_begin_.begin(), shadow_begin_.end() - 1);
-  for (size_t rock = 0; rock < rocks_.size(); ++rock) {
-    VisitShadowCells(rocks_[rock],
-                     [&](int cell) { shadow_rocks_[next[cell]++] = static_cast<int>(rock); });
   }
 }
 
@@ -143,12 +131,10 @@ bool RockField::IsShadowed(const Eigen::Vector3d& point) const {
   const int i = static_cast<int>(std::floor((point.x() + side_m_ / 2) / kShadowCell));
   const int j = static_cast<int>(std::floor((point.y() + side_m_ / 2) / kShadowCell));
   if (i < 0 || j < 0 || i >= shadow_side_ || j >= shadow_side_) return false;
-  const int cell = j * shadow_side_ + i;
-  const Ray ray{point, to_sun_};
-  for (int k = shadow_begin_[cell]; k < shadow_begin_[cell + 1]; ++k) {
-    if (rocks_[shadow_rocks_[k]].Blocks(ray)) return true;
-  }
-  return false;
+  const std::vector<int>& rocks = shadow_rocks_[j * shadow_side_ + i];
+  return std::any_of(rocks.begin(), rocks.end(), [&](int rock) {
+    return rocks_[rock].Blocks({point, to_sun_});
+  });
 }
 
 }  // namespace arfm_vo

@@ -1,6 +1,7 @@
 #include "arfm_vo/simulation/scene.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
 
 #include "arfm_vo/simulation/hash_noise.h"
@@ -25,17 +26,6 @@ std::vector<PathSegment> Segments(const std::string& path, double length_m) {
   return {{std::max(length_m, 1.0), 0}};
 }
 
-/// Moves the path so that the middle of its bounding box is the origin; its longer half side.
-double CenterPath(PlanarPath& path) {
-  Eigen::Vector2d low = path.front().position, high = low;
-  for (const PlanarPose& pose : path) {
-    low = low.cwiseMin(pose.position);
-    high = high.cwiseMax(pose.position);
-  }
-  for (PlanarPose& pose : path) pose.position -= (low + high) / 2;
-  return (high - low).maxCoeff() / 2;
-}
-
 }  // namespace
 
 const std::vector<std::string>& Scene::PathNames() {
@@ -46,10 +36,8 @@ const std::vector<std::string>& Scene::PathNames() {
 
 void SceneOptions::Check() const {
   const std::vector<std::string>& names = Scene::PathNames();
-  std::string all;
-  for (const std::string& name : names) all += " " + name;
   Require(std::count(names.begin(), names.end(), path) == 1,
-          "path '" + path + "' is none of:" + all);
+          "path '" + path + "' is none of: " + boost::join(names, " "));
   Require(num_pairs >= 1 && num_pairs <= 100000, "pairs must be in 1..100000");
   Require(step_m > 0 && step_m <= 5, "step must be in (0, 5] m");
   Require(turn_step_deg > 0 && turn_step_deg <= 90, "turn-step must be in (0, 90] deg");
@@ -113,7 +101,7 @@ void Scene::ChooseCamera() {
 }
 
 PlanarPath Scene::ChoosePath() const {
-  PlanarPose start;
+  RoverPose start;
   start.heading_rad = 2 * M_PI * HashUnit(HashWord(options_.seed) + 5);
   if (options_.path == "rest" || options_.path == "shadow") {
     return PlanarPath(options_.num_pairs, start);
@@ -149,14 +137,7 @@ TerrainOptions Scene::ChooseTerrain(const PlanarPath& path) const {
 
 Corridor Scene::ChooseCorridor(const PlanarPath& path) const {
   Corridor corridor;
-  for (const PlanarPose& pose : path) {
-    if (corridor.points.empty() || (pose.position - corridor.points.back()).norm() >= 1) {
-      corridor.points.push_back(pose.position);
-    }
-  }
-  const PlanarPose& last = path.back();
-  corridor.points.push_back(
-      last.position + 10 * Eigen::Vector2d(std::cos(last.heading_rad), std::sin(last.heading_rad)));
+  corridor.points = FollowPath(path, 10);
   if (options_.path == "wide_turn") {
     corridor.half_width_m = 9;
     corridor.max_rock_radius_m = 0;

@@ -37,7 +37,11 @@ ViewSolids::ViewSolids(const StereoCamera& camera, const Rigid3& world_from_came
   for (const Solid& body : bodies) {
     if (body.is_visible) Add(body, camera, camera_from_world);
   }
-  IndexTiles();
+  tiles_.resize(num_tiles_u_ * num_tiles_v_);
+  for (size_t i = 0; i < entries_.size(); ++i)
+    for (int tv = entries_[i].low_v; tv <= entries_[i].high_v; ++tv)
+      for (int tu = entries_[i].low_u; tu <= entries_[i].high_u; ++tu)
+        tiles_[tv * num_tiles_u_ + tu].push_back(static_cast<int>(i));
 }
 
 bool ViewSolids::Bound(const Solid& solid, const Eigen::Vector3d& c, const StereoCamera& camera,
@@ -77,32 +81,13 @@ void ViewSolids::Add(const Solid& solid, const StereoCamera& camera,
   entries_.push_back(entry);
 }
 
-void ViewSolids::IndexTiles() {
-  tile_begin_.assign(num_tiles_u_ * num_tiles_v_ + 1, 0);
-  const auto visit_tiles = [&](const Entry& entry, const auto& visit) {
-    for (int tv = entry.low_v; tv <= entry.high_v; ++tv) {
-      for (int tu = entry.low_u; tu <= entry.high_u; ++tu) visit(tv * num_tiles_u_ + tu);
-    }
-  };
-  for (const Entry& entry : entries_) {
-    visit_tiles(entry, [&](int tile) { ++tile_begin_[tile + 1]; });
-  }
-  for (size_t i = 1; i < tile_begin_.size(); ++i) tile_begin_[i] += tile_begin_[i - 1];
-  tile_entries_.resize(tile_begin_.back());
-  std::vector<int> next(tile_begin_.begin(), tile_begin_.end() - 1);
-  for (size_t i = 0; i < entries_.size(); ++i) {
-    visit_tiles(entries_[i], [&](int tile) { tile_entries_[next[tile]++] = static_cast<int>(i); });
-  }
-}
-
 ViewSolids::Hit ViewSolids::Intersect(const Ray& ray, double u, double v, double end) const {
   const int tile_u = std::clamp(static_cast<int>(u / kTile), 0, num_tiles_u_ - 1);
   const int tile_v = std::clamp(static_cast<int>(v / kTile), 0, num_tiles_v_ - 1);
-  const int tile = tile_v * num_tiles_u_ + tile_u;
   const double direction_squared = ray.direction.squaredNorm();
   Hit best;
-  for (int k = tile_begin_[tile]; k < tile_begin_[tile + 1]; ++k) {
-    const Solid& solid = *entries_[tile_entries_[k]].solid;
+  for (const int entry : tiles_[tile_v * num_tiles_u_ + tile_u]) {
+    const Solid& solid = *entries_[entry].solid;
     const Eigen::Vector3d offset = solid.center - ray.origin;
     const double along = offset.dot(ray.direction);
     const double miss_squared = offset.squaredNorm() - along * along / direction_squared;
@@ -110,7 +95,7 @@ ViewSolids::Hit ViewSolids::Intersect(const Ray& ray, double u, double v, double
     const SolidHit hit = solid.Intersect(ray, kNearest, end);
     if (hit.parameter >= end) continue;
     end = hit.parameter;
-    best = {hit, &solid, tile_entries_[k]};
+    best = {hit, &solid, entry};
   }
   return best;
 }

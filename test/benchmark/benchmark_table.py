@@ -72,9 +72,6 @@ def list_pair(lines_path, timing_path):
 
 
 def main():
-    if {"--help", "-h"} & set(sys.argv):
-        print(__doc__)
-        return
     features, lines, timing, sequence = sys.argv[1:5]
     all_of = read_medians(features)
     dlib = all_of["DlibSurf"]["cpu_time"] / all_of[SURF.format(1000, 1, 100)]["cpu_time"]

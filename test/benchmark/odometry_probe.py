@@ -86,9 +86,6 @@ class Probe:
 
 
 def main():
-    if {"--help", "-h"} & set(sys.argv):
-        print(__doc__)
-        return
     # In wall time whatever /use_sim_time says: nothing here waits for ROS time.
     rospy.init_node("odometry_probe", anonymous=True, disable_signals=False)
     probe = Probe(float(sys.argv[1]))

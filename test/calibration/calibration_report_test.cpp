@@ -23,7 +23,7 @@ class CalibrationFolder : public testing::Test {
   /// Renders `count` pairs of the board into the folder.
   void Render(const TrueRig& rig, const Chessboard& board, int count, uint32_t seed) {
     RandomEngine engine(seed);
-    const BoardRenderer left(rig.left, board), right(rig.right, board);
+    const BoardCamera left(rig.left, board), right(rig.right, board);
     int i = 10;
     for (const Rigid3& pose : RandomBoardPoses(rig, board, count, 0.7, engine)) {
       const std::string name = std::to_string(i++) + ".png";
@@ -128,7 +128,7 @@ TEST(Calibration, RecoversTheTruthFromThePapersBoard) {
   const Chessboard board;
   const TrueRig rig = MakeRig();
   RandomEngine engine(63);
-  const BoardRenderer left(rig.left, board), right(rig.right, board);
+  const BoardCamera left(rig.left, board), right(rig.right, board);
   const int count = std::getenv("ARFM_VO_LONG") ? 63 : 12;
   std::vector<CornerPair> pairs;
   for (const Rigid3& pose : RandomBoardPoses(rig, board, count, 0.7, engine)) {

@@ -18,7 +18,7 @@ double Rms(const BoardCorners& a, const BoardCorners& b) {
 TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(11);
-  const BoardRenderer renderer(rig.left, kCornerBoard);
+  const BoardCamera renderer(rig.left, kCornerBoard);
   for (const Rigid3& pose : RandomBoardPoses(rig, kCornerBoard, 4, 0.7, engine)) {
     const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kCornerBoard.Size());
     ASSERT_TRUE(corners);
@@ -32,7 +32,7 @@ TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
   const TrueRig rig = MakeRig(1);  // wider than the search's image
   RandomEngine engine(12);
   const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, 0.3, engine)[0];
-  const cv::Mat image = BoardRenderer(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
+  const cv::Mat image = BoardCamera(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
   const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
   const BoardCorners truth =
@@ -49,7 +49,7 @@ TEST(CornerDetection, NothingInAnImageWithoutTheWholeBoard) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(13);
   cv::Mat image =
-      BoardRenderer(rig.left, kCornerBoard)
+      BoardCamera(rig.left, kCornerBoard)
           .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
   const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
@@ -62,7 +62,7 @@ TEST(CornerDetection, ABoardWithAHiddenCornerIsNotSeenWhole) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(15);
   const cv::Mat image =
-      BoardRenderer(rig.left, kCornerBoard)
+      BoardCamera(rig.left, kCornerBoard)
           .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
   const auto corners = DetectCorners(image, kCornerBoard.Size());
   ASSERT_TRUE(corners);
@@ -79,7 +79,7 @@ TEST(CornerDetection, GuessesTheSizeOfTheBoard) {
   const TrueRig rig = MakeRig(0.5);
   RandomEngine engine(14);
   const cv::Mat image =
-      BoardRenderer(rig.left, kCornerBoard)
+      BoardCamera(rig.left, kCornerBoard)
           .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
   const auto size = GuessBoardSize(image);
   ASSERT_TRUE(size);

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/calibration/chessboard.h"
 #include "arfm_vo/geometry/rigid3.h"
+#include "arfm_vo/simulation/board_renderer.h"
 
 namespace arfm_vo {
 
@@ -87,82 +87,29 @@ inline std::vector<cv::Point2f> ProjectBoard(const TrueCamera& camera, const Che
   return corners;
 }
 
-/// Renders boards by casting a ray a pixel through the distorted camera, each edge averaged over
-/// the pixel so that it lies where it should to a small part of one; then blur and noise.
-class BoardRenderer {
+/// Takes pictures of a board with a camera.
+class BoardCamera {
  public:
-  BoardRenderer(const TrueCamera& camera, const Chessboard& board)
-      : camera_(camera), board_(board) {
-    cv::Mat pixels(camera.size, CV_64FC2);
-    for (int v = 0; v < pixels.rows; ++v)
-      for (int u = 0; u < pixels.cols; ++u) pixels.at<cv::Vec2d>(v, u) = {double(u), double(v)};
-    cv::undistortPoints(pixels.reshape(2, pixels.rows * pixels.cols), rays_, camera.matrix,
-                        camera.distortion, cv::noArray(), cv::noArray(),
-                        {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-10});
-    rays_ = rays_.reshape(2, camera.size.height);
-  }
+  BoardCamera(const TrueCamera& camera, const Chessboard& board)
+      : renderer_(ToDistorted(camera), {board.columns, board.rows, board.square_m}) {}
 
   cv::Mat Render(const Rigid3& camera_from_board, double blur_px, double noise_levels,
                  RandomEngine& engine) const {
-    const Rigid3 board_from_camera = camera_from_board.Inverse();
-    const Eigen::Matrix3d rotation = board_from_camera.RotationMatrix();
-    const Eigen::Vector3d& eye = board_from_camera.translation;
-    cv::Mat image(camera_.size, CV_32F);
-    cv::parallel_for_({0, image.rows}, [&](const cv::Range& range) {
-      for (int v = range.start; v < range.end; ++v)
-        for (int u = 0; u < image.cols; ++u) image.at<float>(v, u) = Shade(rotation, eye, u, v);
-    });
-    cv::GaussianBlur(image, image, {}, blur_px);
-    cv::Mat noise(camera_.size, CV_32F), grey;
-    cv::RNG random(engine());
-    random.fill(noise, cv::RNG::NORMAL, 0, noise_levels);
-    image += noise;
-    image.convertTo(grey, CV_8U);
-    return grey;
+    SensorOptions sensor;
+    sensor.blur_px = blur_px;
+    sensor.noise_grey_levels = noise_levels;
+    return renderer_.Render(camera_from_board, sensor, engine(), 2);
   }
 
  private:
-  /// The board's point, in squares from the first inner corner, that a ray (x, y, 1) meets.
-  cv::Vec2d Meet(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& eye,
-                 const cv::Vec2d& ray) const {
-    const Eigen::Vector3d direction = rotation * Eigen::Vector3d(ray[0], ray[1], 1);
-    const double depth = -eye.z() / direction.z();
-    return {(eye.x() + depth * direction.x()) / board_.square_m,
-            (eye.y() + depth * direction.y()) / board_.square_m};
+  static DistortedCamera ToDistorted(const TrueCamera& camera) {
+    const cv::Matx33d& k = camera.matrix;
+    const auto* d = camera.distortion.ptr<double>();
+    return {k(0, 0), k(1, 1), k(0, 2),           k(1, 2),           d[0], d[1], d[2],
+            d[3],    d[4],    camera.size.width, camera.size.height};
   }
 
-  float Shade(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& eye, int u, int v) const {
-    const double light = 0.9 + 0.1 * u / rays_.cols;  // from one side
-    const cv::Vec2d ray = rays_.at<cv::Vec2d>(v, u);
-    const cv::Vec2d at = Meet(rotation, eye, ray);
-    if (!IsWithin(at, 1.6)) return static_cast<float>(105 * light);
-    if (!IsWithin(at, 1)) return static_cast<float>(215 * light);  // white margin
-    const int u_next = u + (u + 1 < rays_.cols ? 1 : -1),
-              v_next = v + (v + 1 < rays_.rows ? 1 : -1);
-    const cv::Vec2d by_u = Meet(rotation, eye, rays_.at<cv::Vec2d>(v, u_next)) - at;
-    const cv::Vec2d by_v = Meet(rotation, eye, rays_.at<cv::Vec2d>(v_next, u)) - at;
-    const double black =
-        Wave(at[0], std::hypot(by_u[0], by_v[0])) * Wave(at[1], std::hypot(by_u[1], by_v[1]));
-    return static_cast<float>((122.5 - 92.5 * black) * light);
-  }
-
-  bool IsWithin(const cv::Vec2d& at, double margin) const {
-    return at[0] > -margin && at[1] > -margin && at[0] < board_.columns - 1 + margin &&
-           at[1] < board_.rows - 1 + margin;
-  }
-
-  /// The square wave (+1 in [0, 1), -1 in [1, 2)) averaged over `width` about x.
-  static double Wave(double x, double width) {
-    const auto integral = [](double at) {
-      const double phase = at - 2 * std::floor(at / 2);
-      return phase < 1 ? phase : 2 - phase;
-    };
-    return (integral(x + width / 2) - integral(x - width / 2)) / width;
-  }
-
-  TrueCamera camera_;
-  Chessboard board_;
-  cv::Mat rays_;  ///< [height x width] undistorted (x, y) at z = 1 of each pixel
+  BoardRenderer renderer_;
 };
 
 }  // namespace arfm_vo

@@ -204,17 +204,11 @@ TEST(Rectification, RowsOfExactCornersAgreeAndP3IsMinusFxTimesBaseline) {
   const auto calibration = Calibrate(synthetic.See(synthetic.Poses(10), 0), synthetic.rig);
   const Rectification rectification = Rectify(calibration);
   EXPECT_LT(MeasureRowResiduals(calibration, rectification).back(), 2e-3);
-  const cv::Matx34d& p = rectification.right_projection;
+  const cv::Matx34d& p = rectification.right.projection;
   EXPECT_NEAR(p(0, 3), -p(0, 0) * synthetic.rig.right_from_left.translation.norm(), 0.02);
   const StereoCamera camera = rectification.Camera(calibration.image_size);
   EXPECT_NO_THROW(camera.Check());
   EXPECT_NEAR(camera.baseline_m, 0.24, 1e-4);
-}
-
-TEST(Percentile, TakesTheNearestOfTheSorted) {
-  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 0.5), 3);
-  EXPECT_EQ(Percentile({1, 2, 3, 4, 5}, 1), 5);
-  EXPECT_EQ(Percentile({}, 0.5), 0);
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 namespace arfm_vo {
 namespace {
 
-namespace po = boost::program_options;
-
 class ProgramTest : public testing::Test {
  protected:
   /// The exit status of `copy ARGUMENTS`; fills out_ and error_.
@@ -19,8 +17,8 @@ class ProgramTest : public testing::Test {
     program.name = "copy";
     program.description = "Copies.";
     program.inputs = {{"FROM", &from_}, {"TO", &to_}};
-    program.options.add_options()("count", po::value(&count_)->value_name("N"), "how often")(
-        "version", po::bool_switch(&version_), "show the version");
+    program.Add("count", count_, "N", "how often");
+    program.Add("version", version_, "show the version");
     program.answer = [this] { return version_; };
     program.run = [this] {
       if (from_ == "bad") throw std::invalid_argument("bad: cannot be read");

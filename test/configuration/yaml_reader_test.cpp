@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/ransac.h"
 #include "arfm_vo/configuration/yaml_writer.h"
 
@@ -21,11 +22,7 @@ std::vector<std::pair<std::string, Solver>> ListNames(Solver) {
 struct LayerOptions {
   double scale = 1.2;
   RansacOptions ransac;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("scale", scale);
-    visit("ransac", ransac);
-  }
+  ARFM_FIELDS(scale, ransac)
 };
 
 struct WholeOptions {
@@ -41,19 +38,7 @@ struct WholeOptions {
   LayerOptions pose;
 
   void Check() const { Require(count > 0, "count must be positive"); }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("enabled", enabled);
-    visit("count", count);
-    visit("level", level);
-    visit("ratio", ratio);
-    visit("name", name);
-    visit("solver", solver);
-    visit("lengths_m", lengths_m);
-    visit("size", size);
-    visit("layers", layers);
-    visit("pose", pose);
-  }
+  ARFM_FIELDS(enabled, count, level, ratio, name, solver, lengths_m, size, layers, pose)
 };
 
 WholeOptions Read(const std::string& text) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "arfm_vo/datasets/kitti_times.h"
+#include "arfm_vo/datasets/kitti_files.h"
 #include "datasets/sequence_folder.h"
 
 namespace arfm_vo {
@@ -48,15 +48,6 @@ TEST(KittiSequence, GivesPairsStampsTruthAndCamera) {
   EXPECT_FALSE(sequence.Next());
   EXPECT_FALSE(sequence.Next());
   EXPECT_GT(sequence.loading_cpu_s(), 0);
-}
-
-TEST(KittiSequence, LoadsOnDemandTheSame) {
-  const SequenceFolder folder(3);
-  KittiSequence sequence(folder.Path(), {}, KittiSequence::Loading::kOnDemand);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(sequence.Next()->images.left.at<uint8_t>(3, 4), 10 * i);
-  }
-  EXPECT_FALSE(sequence.Next());
 }
 
 TEST(KittiSequence, WithoutTimesAndPosesItIsTenHertzAndWithoutTruth) {

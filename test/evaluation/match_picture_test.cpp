@@ -11,7 +11,9 @@ bool IsGreen(const cv::Scalar& bgr) { return bgr[1] > 150 && bgr[0] < 120 && bgr
 bool IsGrey(const cv::Scalar& bgr) { return bgr[0] == bgr[1] && bgr[1] == bgr[2]; }
 
 TEST(DepthColors, NearIsBlueAndFarIsRed) {
-  const DepthColors colors({2, 4, 8, 16, 32, 64});
+  std::vector<float> depths_m(21, 8);  // of which the nearest and the farthest do not count
+  depths_m[0] = 0.1f, depths_m[1] = 2, depths_m[19] = 32, depths_m[20] = 1000;
+  const DepthColors colors(depths_m);
   EXPECT_TRUE(IsBlue(colors.BgrOf(2)));
   EXPECT_TRUE(IsRed(colors.BgrOf(64)));
   EXPECT_LT(colors.BgrOf(6)[2], colors.BgrOf(20)[2]);

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
-#include "arfm_vo/evaluation/run_files.h"
 #include "arfm_vo/evaluation/run_report.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 

@@ -16,9 +16,7 @@ if [ $# -eq 0 ]; then
   done
 fi
 [ ${#folders[@]} -gt 0 ] || { echo "experiments: no KITTI folder given or found" >&2; exit 1; }
-targets=(matching_experiment kitti_odometry render_sequence calibrate_stereo)
-if [ -f nodes/render_board_set.cpp ]; then targets+=(render_board_set); fi
-scripts/build.sh "${targets[@]}" > /dev/null
+scripts/build.sh matching_experiment kitti_odometry render_sequence calibrate_stereo render_board_set > /dev/null
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -67,11 +65,9 @@ calibrate() {  # NAME IMAGES BOARD SQUARE
 }
 mkdir -p "$work/calibration"
 if [ -d "$data/calibration/opencv_9x6" ]; then calibrate opencv_9x6 "$data/calibration/opencv_9x6" 9x6 1; fi
-if [ -x "$programs/render_board_set" ]; then
-  "$programs/render_board_set" "$work/board" --threads 2 > /dev/null 2>&1
-  calibrate rendered_20x10 "$work/board" 20x10 0.10
-  cp "$work/board/truth.yaml" "$work/calibration_truth"
-fi
+"$programs/render_board_set" "$work/board" --threads 2 > /dev/null 2>&1
+calibrate rendered_20x10 "$work/board" 20x10 0.10
+cp "$work/board/truth.yaml" "$work/calibration_truth"
 
 say "report"
 test/experiments/experiments_report.py "$work" docs

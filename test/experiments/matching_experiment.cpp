@@ -250,11 +250,11 @@ int main(int argc, char** argv) {
       "img6.png, H1to2p ..) or KITTI folders.";
   std::string first_folder;
   program.inputs = {{"FOLDER", &first_folder}};
-  auto add = program.options.add_options();
-  add("more", po::value(&experiment.folders)->multitoken()->value_name("FOLDER.."), "more folders");
-  add("pictures", po::value(&experiment.pictures)->value_name("DIR"), "pictures of matches there");
-  add("points", po::value(&experiment.num_points)->value_name("N"), "points an image");
-  add("pairs", po::value(&experiment.max_pairs)->value_name("N"), "pairs of a KITTI folder");
+  const auto more = po::value(&experiment.folders)->multitoken()->value_name("FOLDER..");
+  program.options.add_options()("more", more, "more folders");
+  program.Add("pictures", experiment.pictures, "DIR", "pictures of matches there");
+  program.Add("points", experiment.num_points, "N", "points an image");
+  program.Add("pairs", experiment.max_pairs, "N", "pairs of a KITTI folder");
   program.run = [&] {
     experiment.folders.insert(experiment.folders.begin(), first_folder);
     Run(experiment);

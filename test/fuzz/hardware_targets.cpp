@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/hardware/guard/chassis_guard.h"
 #include "arfm_vo/hardware/image_conversion.h"
@@ -9,6 +8,7 @@
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/promise.h"
 #include "hardware/simulated_line.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "arfm_vo/base/random.h"
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
+#include "simulation/can_memory_bus.h"
 
 // A million frames of all kinds, identifiers, lengths and bytes, half of them of the protocol.
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arfm_vo/base/whole_file.h"
-#include "arfm_vo/calibration/camera_info_file.h"
+#include "arfm_vo/calibration/rectification.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/ros/replay/bag_sequence.h"
 #include "hardware/loopback_writer.h"
@@ -30,10 +30,10 @@ void WriteCalibration(const std::string& folder, const StereoCamera& camera) {
     const cv::Matx34d projection(camera.fx, 0, camera.cx, tx, 0, camera.fy, camera.cy, 0, 0, 0, 1,
                                  0);
     const std::string name = is_right ? "right" : "left";
-    WriteWholeFile(
-        folder + "/" + name + ".yaml",
-        FormatCameraInfo(name, {camera.width, camera.height},
-                         {matrix, cv::Mat::zeros(1, 5, CV_64FC1)}, cv::Matx33d::eye(), projection));
+    WriteWholeFile(folder + "/" + name + ".yaml",
+                   FormatCameraInfo(name, {camera.width, camera.height},
+                                    {matrix, cv::Mat::zeros(1, 5, CV_64FC1)},
+                                    {cv::Matx33d::eye(), projection}));
   }
 }
 
@@ -98,7 +98,6 @@ void Play(const Playing& playing) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Playing playing;
   Program program;
   program.name = "loopback_player";
@@ -109,10 +108,9 @@ int main(int argc, char** argv) {
       "the\n"
       "start and truth.txt at the end.";
   program.inputs = {{"BAG", &playing.bag}, {"FOLDER", &playing.folder}};
-  program.options.add_options()("rate", po::value(&playing.rate_hz)->value_name("HZ"),
-                                "how often a pair is shown")(
-      "pairs", po::value(&playing.num_pairs)->value_name("N"), "at most")(
-      "timeout", po::value(&playing.timeout_s)->value_name("S"), "for one pair");
+  program.Add("rate", playing.rate_hz, "HZ", "how often a pair is shown");
+  program.Add("pairs", playing.num_pairs, "N", "at most");
+  program.Add("timeout", playing.timeout_s, "S", "for one pair");
   program.run = [&] { Play(playing); };
   ros::init(argc, argv, "loopback_player");
   return RunProgram(argc, argv, program);

@@ -1,14 +1,12 @@
 #!/usr/bin/python3
 """Runs the command blocks of Markdown pages as they stand there, in order, in one fresh shell in the package's folder.
 
-Usage: readme_blocks.py PAGE ... [--long] [--list]
+Usage: readme_blocks.py PAGE ...
 
 A comment above a block tells what the test does with it:
-  <!-- readme_blocks: skip, REASON -->      it cannot run unattended
-  <!-- readme_blocks: long, REASON -->      it runs with --long only
+  <!-- readme_blocks: skip, REASON -->      nothing: it cannot run unattended, or takes too long
   <!-- readme_blocks: ends after N s -->    its last command does not end by itself: Ctrl-C after so long
 """
-import argparse
 import os
 import re
 import shutil
@@ -84,22 +82,14 @@ def run(script, folder, home):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("pages", nargs="+", metavar="PAGE")
-    parser.add_argument("--long", action="store_true", help="run the long blocks too")
-    parser.add_argument("--list", action="store_true", help="say only what would be done with each block")
-    arguments = parser.parse_args()
-    blocks = [block for page in arguments.pages for block in read_blocks(page)]
-    chosen = [block for block in blocks
-              if block[1] == "run" or find_end(block[1]) or (arguments.long and block[1].startswith("long, "))]
+    blocks = [block for page in sys.argv[1:] for block in read_blocks(page)]
+    chosen = [block for block in blocks if block[1] == "run" or find_end(block[1])]
     for place, todo, _ in blocks:
         print(f"{place}: {todo}")
-        if todo != "run" and not find_end(todo) and not todo.startswith(("skip, ", "long, ")):
+        if todo != "run" and not find_end(todo) and not todo.startswith("skip, "):
             sys.exit(f"{place}: a comment that the test does not know: {todo}")
     if not chosen:
         sys.exit("there is no block to run")
-    if arguments.list:
-        return
     with tempfile.TemporaryDirectory(prefix="arfm_vo_readme_") as home:
         run(write_script(chosen), ROOT, home)
     print(f"{len(chosen)} of {len(blocks)} blocks were run")

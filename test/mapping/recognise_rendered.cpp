@@ -20,7 +20,7 @@ class Site {
         renderer_(terrain_, Rendering()) {}
 
   /// The left eye of a rover that stands there.
-  Rigid3 EyeAt(const PlanarPose& pose) const {
+  Rigid3 EyeAt(const RoverPose& pose) const {
     return PlaceRover(terrain_, pose, {}) * BaseFromLeftEye({});
   }
   StereoImages Render(const Rigid3& world_from_left, int pair) const {
@@ -55,7 +55,7 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
   Drive first(Site::kRover);
   first.map().Keep({}, kMaxPoints);
   std::vector<Rigid3> eyes;
-  for (const PlanarPose& pose : path) {
+  for (const RoverPose& pose : path) {
     eyes.push_back(noon.EyeAt(pose));
     first.Process(noon.Render(eyes.back(), static_cast<int>(eyes.size()) - 1));
   }
@@ -74,10 +74,12 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
     const bool is_near = i < num_restarts;
     Result& result = is_near ? near : far;
     const Site& site = lights[i % 3];
-    PlanarPose start = path[static_cast<size_t>(between(5, 55))];
-    start.position += Eigen::Vector2d(between(-0.7, 0.7), between(-0.7, 0.7));
+    RoverPose start = path[static_cast<size_t>(between(5, 55))];
+    Eigen::Vector2d aside(between(-0.7, 0.7), between(-0.7, 0.7));
     start.heading_rad += between(-20, 20) * M_PI / 180;
-    if (!is_near) start.position += Eigen::Vector2d(30 + between(0, 20), between(-30, 30));
+    if (!is_near) aside += Eigen::Vector2d(30 + between(0, 20), between(-30, 30));
+    start.x_m += aside.x();
+    start.y_m += aside.y();
     Drive drive(Site::kRover);
     drive.map().Keep(map, kMaxPoints);
     ++result.starts;

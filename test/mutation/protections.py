@@ -73,7 +73,7 @@ TABLE = (
         ("the emergency stop button stops", 'if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, ""};', ""),
         ("a motor's fault stops", "if (status_->has_motor_fault) return Fault{StopReason::kMotorFault, status_->detail};", ""),
         ("the remote control takes over", 'if (IsRemote()) return Fault{StopReason::kRemoteControl, ""};', ""),
-        ("a bus that is down stops", 'if (!is_bus_up_) return Fault{StopReason::kBusDown, ""};', ""),
+        ("a bus that is down stops", 'if (!is_bus_up_) return Fault{StopReason::kBusDown, bus_detail_};', ""),
         ("each kind of feedback that falls silent stops", "heard_s && now_s - *heard_s > options_.max_feedback_age_s", "false"),
         ("no start before the chassis has told all", "!heard_s && kind < kNumRequired", "false"))),
     ("src/driving/motion_watch.cpp", BASIC, (
@@ -102,7 +102,7 @@ TABLE = (
         ("the driver says farewell", "link_.SendFarewell();", ""),
         ("error bits are faults", "(state.error_bits & ~kErrorBitsNoFault) != 0", "false"))),
     ("src/hardware/bus_lock.cpp", BASIC, (
-        ("one driver a bus", "::bind(socket_.Get(), reinterpret_cast<const sockaddr*>(&address), size) != 0", "false"),)),
+        ("one driver a bus", "!UseName(::bind, socket_, bus) || ::listen(socket_.Get(), 1) != 0", "false"),)),
     ("src/ros/rover/chassis_node.cpp", ("simulated_graph",), (
         ("simulated time is refused on a real bus", "!ros::Time::isSimTime() || IsSimulatedBus(options.can)", "true"),)),
     ("src/ros/rover/chassis_node.cpp", ("clock_stall",), (

@@ -103,20 +103,15 @@ DrivePlan DrawDrivePlan(int max_pairs, Draw& draw) {
 
 PlanarPath MakePath(const DrivePlan& plan) {
   Draw draw(static_cast<uint32_t>(plan.seed));
-  PlanarPose start;
+  RoverPose start;
   start.heading_rad = draw.Between(0, 2 * M_PI);
   const int driven = plan.num_pairs - plan.pause_pairs;
   PlanarPath path = SamplePath(start, Segments(plan), plan.step_m, plan.turn_step_rad, driven);
   if (plan.pause_pairs > 0) {
-    const PlanarPose here = path.at(plan.pause_begin);
+    const RoverPose here = path.at(plan.pause_begin);
     path.insert(path.begin() + plan.pause_begin, plan.pause_pairs, here);
   }
-  Eigen::Vector2d low = path.front().position, high = low;
-  for (const PlanarPose& pose : path) {
-    low = low.cwiseMin(pose.position);
-    high = high.cwiseMax(pose.position);
-  }
-  for (PlanarPose& pose : path) pose.position -= (low + high) / 2;
+  CenterPath(path);
   return path;
 }
 

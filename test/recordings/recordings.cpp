@@ -147,7 +147,6 @@ void CheckArguments(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Arguments arguments;
   Program program;
   program.name = "recordings";
@@ -157,23 +156,21 @@ int main(int argc, char** argv) {
       "and without faults. Runs the odometry on each and appends a line to OUTPUT_DIR/\n"
       "recordings.csv; seeds that stand there are left out.";
   program.inputs = {{"OUTPUT_DIR", &arguments.output}};
-  program.options.add_options()("from", po::value(&arguments.first_seed)->value_name("SEED"),
-                                "the first seed (1)")(
-      "count", po::value(&arguments.count)->value_name("N"), "so many seeds; else without an end")(
-      "seconds", po::value(&arguments.seconds)->value_name("S"), "stops after so long")(
-      "half", po::value(&arguments.half)->value_name("tune|judge"), "of the seeds")(
-      "only", po::value(&arguments.only)->value_name("real|rendered"), "recordings of this kind")(
-      "pairs", po::value(&arguments.max_pairs)->value_name("N"), "of a recording at most (60)")(
-      "data", po::value(&arguments.data)->value_name("DIR"), "the real clips (../shared/data)")(
-      "config", po::value(&arguments.config)->value_name("FILE"), "options of the odometry, YAML")(
-      "references", po::value(&arguments.references)->value_name("DIR"),
-      "what the odometry makes of the clips as taken, kept there (OUTPUT_DIR/references)")(
-      "seed", po::value(&arguments.seed)->value_name("SEED"), "this recording, not into the file")(
-      "plain", po::bool_switch(&arguments.is_plain),
-      "with seed: without transform, light and fault, forward")(
-      "verbose", po::bool_switch(&arguments.is_verbose), "with seed: each pair")(
-      "dump", po::value(&arguments.dump)->value_name("DIR"),
-      "with seed: writes it as a KITTI folder instead");
+  program.Add("from", arguments.first_seed, "SEED", "the first seed (1)");
+  program.Add("count", arguments.count, "N", "so many seeds; else without an end");
+  program.Add("seconds", arguments.seconds, "S", "stops after so long");
+  program.Add("half", arguments.half, "tune|judge", "of the seeds");
+  program.Add("only", arguments.only, "real|rendered", "recordings of this kind");
+  program.Add("pairs", arguments.max_pairs, "N", "of a recording at most (60)");
+  program.Add("data", arguments.data, "DIR", "the real clips (../shared/data)");
+  program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
+  program.Add("references", arguments.references, "DIR",
+              "what the odometry makes of the clips as taken, kept there (OUTPUT_DIR/references)");
+  program.Add("seed", arguments.seed, "SEED", "this recording, not into the file");
+  program.Add("plain", arguments.is_plain,
+              "with seed: without transform, light and fault, forward");
+  program.Add("verbose", arguments.is_verbose, "with seed: each pair");
+  program.Add("dump", arguments.dump, "DIR", "with seed: writes it as a KITTI folder instead");
   program.run = [&] {
     CheckArguments(arguments);
     std::filesystem::create_directories(arguments.output);

@@ -94,9 +94,8 @@ def print_worst(rows, column):
 
 
 def main():
-    if len(sys.argv) not in (2, 3) or {"--help", "-h"} & set(sys.argv):
-        print(__doc__)
-        sys.exit(0 if {"--help", "-h"} & set(sys.argv) else 2)
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     half = sys.argv[2] if len(sys.argv) > 2 else ""

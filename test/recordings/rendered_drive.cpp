@@ -41,7 +41,7 @@ RenderedDrive::RenderedDrive(const DrivePlan& plan, int num_threads) : plan_(pla
 void RenderedDrive::PlaceCamera(const PlanarPath& path) {
   Draw draw(static_cast<uint32_t>(plan_.seed) + 3);
   const Rigid3 base_from_left = BaseFromLeftEye(plan_.shape);
-  for (const PlanarPose& pose : path) {
+  for (const RoverPose& pose : path) {
     const Eigen::Vector3d turn(draw.Gaussian(), draw.Gaussian(), draw.Gaussian());
     const Eigen::Vector3d shift(0, draw.Gaussian(), 0);
     const double jolt_m = 0.3 * plan_.shake_rad * plan_.shape.camera_height_m;

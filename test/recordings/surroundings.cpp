@@ -14,9 +14,9 @@ struct Bounds {
   Eigen::Vector2d low, high;  ///< along and across the way
 
   explicit Bounds(const PlanarPath& path) : world_from_way(path.front().heading_rad) {
-    low = high = world_from_way.inverse() * path.front().position;
-    for (const PlanarPose& pose : path) {
-      const Eigen::Vector2d position = world_from_way.inverse() * pose.position;
+    low = high = world_from_way.inverse() * PositionOf(path.front());
+    for (const RoverPose& pose : path) {
+      const Eigen::Vector2d position = world_from_way.inverse() * PositionOf(pose);
       low = low.cwiseMin(position);
       high = high.cwiseMax(position);
     }
@@ -127,15 +127,9 @@ Surroundings MakeSurroundings(const DrivePlan& plan, const PlanarPath& path) {
   terrain.sun_azimuth_deg = draw.Between(0, 360);
   SetGround(plan, draw, around);
   double half = kMargin;
-  for (const PlanarPose& pose : path) {
-    half = std::max(half, kMargin + pose.position.lpNorm<Eigen::Infinity>());
-    if (around.way.points.empty() || (pose.position - around.way.points.back()).norm() >= 1) {
-      around.way.points.push_back(pose.position);
-    }
-  }
-  const PlanarPose& last = path.back();
-  around.way.points.push_back(
-      last.position + 5 * Eigen::Vector2d(std::cos(last.heading_rad), std::sin(last.heading_rad)));
+  for (const RoverPose& pose : path)
+    half = std::max({half, kMargin + std::abs(pose.x_m), kMargin + std::abs(pose.y_m)});
+  around.way.points = FollowPath(path, 5);
   around.way.half_width_m = plan.shape.track_gauge_m;
   around.way.max_rock_radius_m = 0.15 * plan.shape.camera_height_m;
   double cells = 128;

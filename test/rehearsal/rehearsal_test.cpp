@@ -1,12 +1,10 @@
-#include "arfm_vo/rehearsal/rehearsal.h"
+#include "rehearsal/rehearsal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <thread>
-
-#include "arfm_vo/rehearsal/drive_picture.h"
 
 namespace arfm_vo {
 namespace {
@@ -40,7 +38,7 @@ class ClosedLoopTest : public ::testing::TestWithParam<int> {};
 TEST_P(ClosedLoopTest, ReachesTheGoalBySightAlone) {
   const ClosedLoop loop(GetParam());
   const GoalScene scene(loop.scene, loop.options.shape);
-  const Drive drive = Rehearse(scene, loop.options);
+  const RehearsedDrive drive = Rehearse(scene, loop.options);
   EXPECT_TRUE(drive.has_arrived) << drive.outcome;
   EXPECT_GE(drive.driven_m, 5);
   EXPECT_LE(drive.final_error_m, 0.01 * drive.driven_m + 0.05);
@@ -56,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Goals, ClosedLoopTest, ::testing::Values(7, 9, 12));
 
 TEST(Rehearsal, TheSameSeedsGiveTheSameDrive) {
   const RehearsalOptions options = ShortDrive().options;
-  const Drive first = Rehearse(NearScene(), options), second = Rehearse(NearScene(), options);
+  const RehearsedDrive first = Rehearse(NearScene(), options),
+                       second = Rehearse(NearScene(), options);
   ASSERT_GT(first.num_pairs, 10);
   EXPECT_EQ(first.final_error_m, second.final_error_m);
   EXPECT_EQ(first.num_frames, second.num_frames);
@@ -68,7 +67,7 @@ TEST(Rehearsal, ABlindRoverStaysWhereItIs) {
   RehearsalOptions options = ShortDrive().options;
   options.sight.render.sensor.gain = 0.01;  // night
   options.pilot.max_pause_s = 3;
-  const Drive drive = Rehearse(NearScene(), options);
+  const RehearsedDrive drive = Rehearse(NearScene(), options);
   EXPECT_FALSE(drive.has_arrived);
   EXPECT_EQ(drive.driven_m, 0);
   EXPECT_EQ(drive.fastest_command_mps, 0);

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

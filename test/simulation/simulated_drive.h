@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 

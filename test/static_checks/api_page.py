@@ -27,12 +27,15 @@ def read_structs():
             text = file.read()
         for match in re.finditer(r"^struct (\w+) \{\n(.*?)^\};", text, re.M | re.S):
             name, body = match.groups()
-            if "VisitFields" in body:
+            if "VisitFields" in body or "ARFM_FIELDS" in body:
                 structs[name] = (read_visits(body), read_members(body))
     return structs
 
 
 def read_visits(body):
+    fields = re.search(r"ARFM_FIELDS\((.*?)\)\n", body, re.S)
+    if fields:
+        return [(None if field[0] == "(" else field, field.strip("()")) for field in re.split(r",\s*", fields.group(1))]
     calls = re.findall(r'visit\("(\w+)",\s*(\w+)\)|^\s*(\w+)\.VisitFields\(visit\)', body, re.M)
     return [(key or None, member or plain) for key, member, plain in calls]
 

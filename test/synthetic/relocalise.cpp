@@ -87,7 +87,6 @@ Outcome Try(const Drive& drive, int last, int shown) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Arguments arguments;
   Program program;
   program.name = "relocalise";
@@ -97,10 +96,9 @@ int main(int argc, char** argv) {
       "many tries find their place at once, and how many say a wrong one: beyond 3 standard\n"
       "deviations of what the undisturbed drive says, and 1 cm.";
   program.inputs = {{"SEQUENCE_DIR", &arguments.sequence}};
-  program.options.add_options()("tries", po::value(&arguments.tries)->value_name("N"),
-                                "seeded tries (200)")(
-      "min-share", po::value(&arguments.min_share)->value_name("PART"),
-      "of the last view that the pair shown shares at least (0.25)");
+  program.Add("tries", arguments.tries, "N", "seeded tries (200)");
+  program.Add("min-share", arguments.min_share, "PART",
+              "of the last view that the pair shown shares at least (0.25)");
   program.run = [&] {
     const Drive drive = Read(arguments.sequence);
     const int num_pairs = static_cast<int>(drive.truth.size());

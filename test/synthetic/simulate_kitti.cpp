@@ -95,7 +95,6 @@ void Simulate(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Arguments arguments;
   ObservationSimulatorOptions& simulator = arguments.run.simulator;
   Program program;
@@ -104,17 +103,16 @@ int main(int argc, char** argv) {
       "Sends simulated observations along KITTI's true paths (POSES_DIR/00.txt ..) through the\n"
       "odometry without its front end, and prints a line of CSV a sequence.";
   program.inputs = {{"POSES_DIR", &arguments.folder}};
-  program.options.add_options()("sequences", po::value(&arguments.sequences)->value_name("00,01"),
-                                "which")("config", po::value(&arguments.config)->value_name("FILE"),
-                                         "options of the odometry, YAML")(
-      "frames", po::value(&arguments.max_frames)->value_name("N"), "of each sequence, at most")(
-      "loop-closing", po::bool_switch(&arguments.close_loops), "switch it on")(
-      "runs", po::value(&arguments.num_runs)->value_name("N"),
-      "of each sequence, each with another seed; means are printed")(
-      "noise", po::value(&simulator.noise_px)->value_name("PX"), "of each coordinate")(
-      "outliers", po::value(&simulator.outlier_fraction)->value_name("SHARE"), "of observations")(
-      "landmarks", po::value(&simulator.landmarks_in_view)->value_name("N"), "in each frame")(
-      "seed", po::value(&simulator.seed)->value_name("S"), "of landmarks and noise");
+  program.Add("sequences", arguments.sequences, "00,01", "which");
+  program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
+  program.Add("frames", arguments.max_frames, "N", "of each sequence, at most");
+  program.Add("loop-closing", arguments.close_loops, "switch it on");
+  program.Add("runs", arguments.num_runs, "N",
+              "of each sequence, each with another seed; means are printed");
+  program.Add("noise", simulator.noise_px, "PX", "of each coordinate");
+  program.Add("outliers", simulator.outlier_fraction, "SHARE", "of observations");
+  program.Add("landmarks", simulator.landmarks_in_view, "N", "in each frame");
+  program.Add("seed", simulator.seed, "S", "of landmarks and noise");
   program.run = [&] { Simulate(arguments); };
   return RunProgram(argc, argv, program);
 }

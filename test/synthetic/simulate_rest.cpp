@@ -91,19 +91,17 @@ void Print(const char* what, const Drift& drift) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Arguments arguments;
   Program program;
   program.name = "simulate_rest";
   program.description =
       "How far the pose of a parked rover walks over noisy pictures of one rendered place: alone,\n"
       "with a vehicle, and with a shadow that move through a third of the picture.";
-  program.options.add_options()("pairs", po::value(&arguments.num_pairs)->value_name("N"),
-                                "of each kind")(
-      "config", po::value(&arguments.config)->value_name("FILE"), "options of the odometry, YAML")(
-      "noise", po::value(&arguments.noise_grey_levels)->value_name("LEVELS"),
-      "standard deviation of the grey values")("seed", po::value(&arguments.seed)->value_name("S"),
-                                               "of place and noise");
+  program.Add("pairs", arguments.num_pairs, "N", "of each kind");
+  program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
+  program.Add("noise", arguments.noise_grey_levels, "LEVELS",
+              "standard deviation of the grey values");
+  program.Add("seed", arguments.seed, "S", "of place and noise");
   program.run = [&] {
     std::printf("what,farthest_m,farthest_deg\n");
     Print("alone", Rest(arguments, false));

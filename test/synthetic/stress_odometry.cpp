@@ -111,7 +111,6 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Arguments arguments;
   Program program;
   program.name = "stress_odometry";
@@ -124,15 +123,12 @@ int main(int argc, char** argv) {
       "called\n"
       "tracked that are more than 3 standard deviations from the undisturbed drive, and the worst.";
   program.inputs = {{"SEQUENCE_DIR", &arguments.sequence}};
-  program.options.add_options()("all", po::bool_switch(&arguments.all), "60 disturbances, not 16")(
-      "config", po::value(&arguments.config)->value_name("FILE"), "options of the odometry, YAML")(
-      "only", po::value(&arguments.only)->value_name("NAME")->composing(),
-      "these disturbances only")("pairs",
-                                 po::value(&arguments.selection.max_pairs)->value_name("N"),
-                                 "the first N pairs (60)")(
-      "stride", po::value(&arguments.selection.stride)->value_name("K"), "every K-th pair")(
-      "states", po::value(&arguments.states)->value_name("DIR"),
-      "write the state of each pair there, NAME.csv");
+  program.Add("all", arguments.all, "60 disturbances, not 16");
+  program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
+  program.Add("only", arguments.only, "NAME", "this disturbance only, and those of further --only");
+  program.Add("pairs", arguments.selection.max_pairs, "N", "the first N pairs (60)");
+  program.Add("stride", arguments.selection.stride, "K", "every K-th pair");
+  program.Add("states", arguments.states, "DIR", "write the state of each pair there, NAME.csv");
   program.run = [&] {
     std::printf(
         "disturbance,live_short_percent,live_ate_m,short_percent,ate_m,tracked,degraded,"

@@ -9,16 +9,6 @@
 
 namespace arfm_vo {
 
-/// What `read` returns. What it refuses, by a field's name, is told with the `message` before it.
-template <class Read>
-auto ReadMessage(const std::string& message, const Read& read) {
-  try {
-    return read();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(message + ": " + error.what());
-  }
-}
-
 /// Throws std::invalid_argument "FIELD holds A values, B expected" unless sizes agree.
 template <class Value>
 void RequireSize(const std::vector<Value>& field, size_t expected, const std::string& name) {

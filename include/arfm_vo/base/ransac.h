@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/random.h"
 
 namespace arfm_vo {
@@ -22,11 +23,7 @@ struct RansacOptions {
     Require(min_iterations >= 1 && min_iterations <= max_iterations,
             "ransac.min_iterations must be in 1..max_iterations");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_iterations", max_iterations);
-    visit("seed", seed);
-  }
+  ARFM_FIELDS(max_iterations, seed)
 };
 
 /// Samples to draw until one holds no outlier with a probability of 0.999.

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <future>
-#include <mutex>
-#include <thread>
+#include <utility>
+
+#include "arfm_vo/base/worker.h"
 
 namespace arfm_vo {
 
@@ -27,21 +27,11 @@ class TaskThread {
     std::future<void> end_;
   };
 
-  TaskThread() : thread_([this] { Run(); }) {}
-  TaskThread(const TaskThread&) = delete;
-  ~TaskThread();
-
   /// Not before the task before has ended.
-  Task Start(std::function<void()> work);
+  Task Start(std::function<void()> work) { return Task(worker_.Start(std::move(work))); }
 
  private:
-  void Run();
-
-  std::mutex mutex_;  // guards the two that follow
-  std::packaged_task<void()> task_;
-  bool is_stopping_ = false;
-  std::condition_variable changed_;
-  std::thread thread_;
+  Worker worker_{1, [](const std::exception&) {}};  // what a task throws is its Task's
 };
 
 }  // namespace arfm_vo

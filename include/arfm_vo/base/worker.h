@@ -6,8 +6,10 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace arfm_vo {
 
@@ -29,9 +31,11 @@ class Worker {
   /// Posts a job that may be dropped: where more than `max_waiting` such jobs wait, the oldest
   /// goes.
   void PostLossy(Job job) { Add(std::move(job), true); }
-  /// Posts a job and waits until it has run; rethrows what it throws, or std::future_error where it
-  /// was dropped. Not from a job.
-  void RunAndWait(const Job& job);
+  /// Posts a job. Its end rethrows what the job throws, and std::future_error where it was dropped.
+  std::future<void> Start(Job job);
+
+  /// Starts a job and waits for its end. Not from a job.
+  void RunAndWait(Job job) { Start(std::move(job)).get(); }
 
   /// Up to `max_held` lossy jobs may wait until Release; then those that wait are still run, and
   /// the limit falls with their number to what it was.

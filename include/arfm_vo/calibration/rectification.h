@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "arfm_vo/calibration/stereo_calibration.h"
@@ -8,10 +10,15 @@
 
 namespace arfm_vo {
 
-/// Turns both eyes so that rows agree: rotations R and projections P as camera_info has them.
+/// How an eye is turned, as camera_info has it.
+struct RectifiedEye {
+  cv::Matx33d rotation;    ///< R, rectified from eye
+  cv::Matx34d projection;  ///< P, of the right eye [0, 3] = -fx * baseline, px m
+};
+
+/// Turns both eyes so that rows agree.
 struct Rectification {
-  cv::Matx33d left_rotation, right_rotation;      ///< rectified from eye
-  cv::Matx34d left_projection, right_projection;  ///< right [0, 3] = -fx * baseline, px m
+  RectifiedEye left, right;
 
   StereoCamera Camera(cv::Size image_size) const;
 };
@@ -23,11 +30,15 @@ Rectification Rectify(const StereoCalibration& calibration, double alpha = 0);
 std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
                                         const Rectification& rectification);
 
-/// The value below which the `share` of the sorted values lies; 0 of nothing.
-double Percentile(const std::vector<double>& sorted, double share);
-
 /// A rectified image of the eye, bilinear.
-cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const cv::Matx33d& rotation,
-                     const cv::Matx34d& projection);
+cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const RectifiedEye& rectified);
+
+/// One eye's calibration as the YAML text that camera_calibration_parsers reads.
+std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size, const Eye& eye,
+                             const RectifiedEye& rectified);
+
+/// Writes left.yaml and right.yaml to `folder`; std::system_error naming the file that fails.
+void WriteCameraInfos(const std::filesystem::path& folder, const StereoCalibration& calibration,
+                      const Rectification& rectification);
 
 }  // namespace arfm_vo

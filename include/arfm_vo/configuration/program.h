@@ -18,6 +18,16 @@ struct Program {
   /// Answers options that need no input; returns whether that was all that was asked.
   std::function<bool()> answer = [] { return false; };
   std::function<void()> run;
+
+  /// The option --NAME VALUE: where its value goes, and what --help calls it.
+  template <class Value>
+  void Add(const char* option, Value& value, const char* word, const char* text) {
+    options.add_options()(option, boost::program_options::value(&value)->value_name(word), text);
+  }
+  /// The option --NAME alone.
+  void Add(const char* option, bool& is_given, const char* text) {
+    options.add_options()(option, boost::program_options::bool_switch(&is_given), text);
+  }
 };
 
 /// The whole of a program's main(). Takes `--key value` and `--key=value`, no abbreviations.

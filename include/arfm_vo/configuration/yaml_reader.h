@@ -84,7 +84,7 @@ void YamlMapReader::operator()(const char* name, Field& field) {
   if (const auto value = Find(name)) ReadYamlField(*value, field);
 }
 
-/// Reads options strictly: each key of the map must be a field (VisitFields) of the right type, or
+/// Reads options strictly: each key of the map must be a field (ARFM_FIELDS) of the right type, or
 /// std::invalid_argument names the key with its full dotted name and where it stands. Keys left out
 /// keep the value that they have. Ends with options.Check(). Where it throws, `options` is as
 /// before. A quoted scalar is a string and nothing else.
@@ -92,11 +92,7 @@ template <class Options>
 void ReadYaml(const YAML::Node& node, const std::string& source, Options& options) {
   Options read = options;
   ReadYamlField(YamlValue{node, source, ""}, read);
-  try {
-    read.Check();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(source + ": " + error.what());
-  }
+  Within(source, [&] { read.Check(); });
   options = read;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <atomic>
-#include <future>
 #include <string>
 #include <vector>
 
@@ -19,16 +17,10 @@ namespace arfm_vo {
 /// Without times the pairs are 0.1 s apart.
 class KittiSequence : public StereoSequence {
  public:
-  enum class Loading {
-    kAhead,     ///< the next pair while the caller works on this one, on a thread of its own
-    kOnDemand,  ///< within Next(), so that the time of the caller's work is its own
-  };
-
-  /// Reads everything but the images. Throws std::invalid_argument naming file or key for: a
-  /// missing folder, images without partner, a wrong calibration, times that do not increase,
-  /// numbers of times or poses other than that of the pairs, anything not finite.
-  explicit KittiSequence(const std::string& folder, const PairSelection& selection = {},
-                         Loading loading = Loading::kAhead);
+  /// Reads everything but the images after the first. Throws std::invalid_argument naming file or
+  /// key for: a missing folder, images without partner, a wrong calibration, times that do not
+  /// increase, numbers of times or poses other than that of the pairs, anything not finite.
+  explicit KittiSequence(const std::string& folder, const PairSelection& selection = {});
 
   const StereoCamera& camera() const override { return camera_; }
   int size() const override { return static_cast<int>(frames_.size()); }
@@ -44,15 +36,12 @@ class KittiSequence : public StereoSequence {
     std::optional<Rigid3> true_world_from_camera;
   };
   SequencePair Load(const Frame& frame);
-  void StartLoading();
 
-  Loading loading_;
   StereoCamera camera_;
-  GreyWindow window_;  ///< of whoever loads; never two at a time
+  GreyWindow window_;
   std::vector<Frame> frames_;
-  size_t num_started_ = 0;
-  std::atomic<double> loading_cpu_s_ = 0;
-  std::future<SequencePair> ahead_;  ///< last: joined before the rest goes
+  size_t num_given_ = 0;
+  double loading_cpu_s_ = 0;
 };
 
 }  // namespace arfm_vo

@@ -9,21 +9,14 @@
 
 namespace arfm_vo {
 
-/// A program NAME INPUT [options] that takes a recording through
-/// VisualOdometry.
-struct OdometryProgram {
-  std::string name;
-  std::string description;                              ///< what --help says under the usage line
-  std::string input_name;                               ///< in the usage line, such as SEQUENCE_DIR
-  boost::program_options::options_description options;  ///< of this program alone
-  std::function<std::unique_ptr<StereoSequence>(const std::string& input, const PairSelection&)>
-      open;
-};
+using OpenSequence =
+    std::function<std::unique_ptr<StereoSequence>(const std::string& input, const PairSelection&)>;
 
-/// The whole of its main(), as RunProgram. Takes --config, --print-config,
-/// --pairs, --stride,
-/// --output and `program.options`; prints the run's lines `key: value` on
-/// stdout.
-int RunOdometryProgram(int argc, const char* const* argv, const OdometryProgram& program);
+/// The whole of the main() of a program NAME INPUT [options] that takes a recording through
+/// VisualOdometry, as RunProgram. `program` has its name, description and own options, to which
+/// --config, --pairs, --output and others come; `input_name` is that of INPUT in the usage line.
+/// Prints the run's lines `key: value`.
+int RunOdometryProgram(int argc, const char* const* argv, Program program,
+                       const std::string& input_name, const OpenSequence& open);
 
 }  // namespace arfm_vo

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/trajectory.h"
 
 namespace arfm_vo {
@@ -11,11 +12,7 @@ struct TrajectoryOutputOptions {
   std::string trajectory_dir;  ///< where poses (ba_node: keyframes) go at the end; empty: nowhere
   bool trajectory_of_camera = false;  ///< poses saved: of the left camera; else of the base
 
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("trajectory_dir", trajectory_dir);
-    visit("trajectory_of_camera", trajectory_of_camera);
-  }
+  ARFM_FIELDS(trajectory_dir, trajectory_of_camera)
 };
 
 /// Where the camera sat on the base from pair to pair. Keeps it only where it has changed, so that

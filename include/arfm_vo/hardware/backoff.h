@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 
 namespace arfm_vo {
 
@@ -14,11 +15,7 @@ struct BackoffOptions {
     Require(first_s > 0, "backoff.first_s must be positive");
     Require(max_s >= first_s && max_s <= 3600, "backoff.max_s must be in backoff.first_s..3600");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("first_s", first_s);
-    visit("max_s", max_s);
-  }
+  ARFM_FIELDS(first_s, max_s)
 };
 
 /// When to try again what has failed.

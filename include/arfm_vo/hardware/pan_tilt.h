@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/hardware/backoff.h"
 #include "arfm_vo/hardware/pan_tilt_unit.h"
 
@@ -20,16 +21,8 @@ struct PanTiltOptions {
   BackoffOptions reopen;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("home_at_start", home_at_start);
-    visit("home_timeout_s", home_timeout_s);
-    visit("reply_timeout_s", reply_timeout_s);
-    visit("max_failed_reads", max_failed_reads);
-    visit("pan_speed_rad_s", pan_speed_rad_s);
-    visit("tilt_speed_rad_s", tilt_speed_rad_s);
-    visit("reopen", reopen);
-  }
+  ARFM_FIELDS(home_at_start, home_timeout_s, reply_timeout_s, max_failed_reads, pan_speed_rad_s,
+              tilt_speed_rad_s, reopen)
 };
 
 enum class PanTiltState { kClosed, kHoming, kReady };

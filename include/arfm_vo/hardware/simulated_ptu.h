@@ -5,9 +5,42 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/hardware/ptu_protocol.h"
-#include "arfm_vo/hardware/simulated_ptu_axis.h"
 
 namespace arfm_vo {
+
+/// One axis of a simulated PTU-D46, counts and seconds.
+struct SimulatedPtuAxisOptions {
+  double resolution_arcsec = 185.1428;
+  int min_position = -3090, max_position = 3090;
+  int speed = 1000, min_speed = 31, max_speed = 2902, base_speed = 57;
+  int acceleration = 2000;
+};
+
+/// Counts of one axis under symmetric trapezoidal acceleration above the base speed; targets and
+/// speeds change on the fly.
+class PtuAxisMotion {
+ public:
+  static constexpr double kStep_s = 0.001;  ///< of the simulation
+
+  explicit PtuAxisMotion(const SimulatedPtuAxisOptions& options)
+      : options(options), speed(options.speed) {}
+
+  void Advance(double now_s);
+  double Position() const { return position_; }
+  bool IsAtRest() const { return velocity_ == 0 && position_ == target; }
+  /// The axis slips by `counts` against its own count, as when it is held or hits a limit.
+  void Slip(double counts) { position_ += counts; }
+  /// Found its limits and went back to 0, at rest.
+  void Home() { position_ = velocity_ = target = 0; }
+
+  SimulatedPtuAxisOptions options;
+  int speed, target = 0;
+
+ private:
+  void Step(double dt);
+
+  double position_ = 0, velocity_ = 0, now_s_ = 0;
+};
 
 struct SimulatedPtuOptions {
   SimulatedPtuAxisOptions pan;
@@ -26,7 +59,8 @@ struct SimulatedPtuOptions {
 };
 
 /// A PTU-D46 as its serial line shows it: bytes in, bytes out, on a clock that the caller gives
-/// (s, must not go back). Starts as after power-up and reset: echo on, verbose, at 0.
+/// (s, must not go back). Starts as after power-up and reset: echo on, verbose, at 0. Of the unit's
+/// commands it knows those that PtuLink and PanTiltUnit send.
 class SimulatedPtu {
  public:
   explicit SimulatedPtu(const SimulatedPtuOptions& options = {});
@@ -44,7 +78,6 @@ class SimulatedPtu {
 
  private:
   void Advance(double now_s);
-  void Execute(const std::string& command);
   std::string Answer(const std::string& command);
   std::string AnswerAxis(PtuAxis axis, const std::string& command);
   std::string AnswerValue(const std::string& before, const std::string& value,
@@ -57,8 +90,7 @@ class SimulatedPtu {
 
   SimulatedPtuOptions options_;
   PtuAxisMotion pan_, tilt_;
-  bool has_echo_ = true, is_verbose_ = true, is_limited_ = true;
-  bool awaits_ = false;      ///< "a": the reply comes when both axes are at rest
+  bool has_echo_ = true, is_verbose_ = true;
   double busy_until_s_ = 0;  ///< resetting
   double now_s_ = 0, line_free_s_ = 0, input_free_s_ = 0;
   std::string command_;  ///< bytes of a command without its delimiter yet

@@ -7,11 +7,32 @@
 #include <string>
 #include <thread>
 
+#include "arfm_vo/hardware/file_descriptor.h"
 #include "arfm_vo/hardware/monotonic_clock.h"
-#include "arfm_vo/hardware/pseudo_terminal.h"
 #include "arfm_vo/hardware/simulated_ptu.h"
 
 namespace arfm_vo {
+
+/// A serial line without hardware: what is written here is read from a device file, and the other
+/// way round. Closing it is unplugging the device.
+class PseudoTerminal {
+ public:
+  /// `link` is the name of a symbolic link to the device file, made in place of one to a pseudo
+  /// terminal that is gone, as an earlier simulation leaves behind. Throws std::system_error, also
+  /// where anything else has that name.
+  explicit PseudoTerminal(const std::string& link);
+  ~PseudoTerminal();
+  PseudoTerminal(const PseudoTerminal&) = delete;
+
+  /// The bytes that the other end wrote; waits for the first. Empty on timeout.
+  std::string Read(double timeout_s);
+  void Write(const std::string& bytes);
+
+ private:
+  std::string link_, device_;
+  FileDescriptor master_;
+  FileDescriptor keeper_;  ///< keeps the line up while no program has it open
+};
 
 /// A simulated PTU behind a device file, on a thread of its own. For several threads.
 class SimulatedPtuPort {

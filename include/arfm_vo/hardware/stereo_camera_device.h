@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/rate_meter.h"
 #include "arfm_vo/hardware/backoff.h"
 #include "arfm_vo/hardware/frame_pairer.h"
 #include "arfm_vo/hardware/video_device.h"
-#include "arfm_vo/hardware/video_options.h"
 
 namespace arfm_vo {
 
@@ -25,16 +25,8 @@ struct StereoCameraOptions {
 
   bool IsSideBySide() const { return right_device.empty(); }
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("left_device", left_device);
-    visit("right_device", right_device);
-    visit("video", video);
-    visit("max_skew_s", max_skew_s);
-    visit("frame_timeout_s", frame_timeout_s);
-    visit("exposure_copy_s", exposure_copy_s);
-    visit("reopen", reopen);
-  }
+  ARFM_FIELDS(left_device, right_device, video, max_skew_s, frame_timeout_s, exposure_copy_s,
+              reopen)
 };
 
 /// How the camera does, for diagnostics. Counts go on over reopenings.

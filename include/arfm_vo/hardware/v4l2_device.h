@@ -7,7 +7,6 @@
 #include "arfm_vo/hardware/image_conversion.h"
 #include "arfm_vo/hardware/v4l2_buffers.h"
 #include "arfm_vo/hardware/video_device.h"
-#include "arfm_vo/hardware/video_options.h"
 
 namespace arfm_vo {
 

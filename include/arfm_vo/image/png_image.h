@@ -7,9 +7,6 @@
 
 namespace arfm_vo {
 
-/// Width and height of a PNG file from its header. Throws std::invalid_argument naming the file.
-cv::Size ReadPngSize(const std::string& path);
-
 /// A PNG file as CV_8UC1; colours are turned to grey, 16 bits a sample by `window`. Throws
 /// std::invalid_argument naming the file where it cannot be read, is no PNG, is truncated (also
 /// where only its end is missing), or is corrupted.

@@ -33,9 +33,9 @@ struct BoardPattern {
   void Check() const;
 };
 
-/// Takes pictures of a chessboard with one camera. Every pixel is the exact area mean over its
-/// footprint on the board (the map within one pixel is taken as linear), so that edges are where
-/// they belong to a thousandth of a pixel.
+/// Takes pictures of a chessboard with one camera. Every pixel is the mean over its footprint on
+/// the board, taken as a rectangle along the board's edges, so that these are where they belong to
+/// a small part of a pixel.
 class BoardRenderer {
  public:
   BoardRenderer(const DistortedCamera& camera, const BoardPattern& pattern);
@@ -47,13 +47,13 @@ class BoardRenderer {
                  int num_threads = 1) const;
 
  private:
-  struct PixelOnBoard;
-  double MeanOverPixel(const PixelOnBoard& pixel) const;
-  double Tone(int column, int row) const;
+  /// The mean tone about a point, over so much along the board's axes; in squares from the first
+  /// inner corner.
+  double Tone(const Eigen::Vector2d& at, const Eigen::Vector2d& width) const;
 
   DistortedCamera camera_;
   BoardPattern pattern_;
-  std::vector<Eigen::Vector2d> rays_;  ///< normalised, of the pixels' corners: [height+1 x width+1]
+  std::vector<Eigen::Vector2d> rays_;  ///< normalised, of the pixels: [height+1 x width+1]
 };
 
 }  // namespace arfm_vo

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/simulation/solid.h"
 
 namespace arfm_vo {
@@ -18,14 +19,7 @@ struct RockOptions {
   double flatness = 0.65;      ///< mean height over width
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("density_per_m2", density_per_m2);
-    visit("min_radius_m", min_radius_m);
-    visit("max_radius_m", max_radius_m);
-    visit("power", power);
-    visit("flatness", flatness);
-  }
+  ARFM_FIELDS(density_per_m2, min_radius_m, max_radius_m, power, flatness)
 };
 
 /// The lie of the land that rocks are strewn on.
@@ -65,17 +59,15 @@ class RockField {
     double radius_m;
   };
   void FillCell(const RockOptions& options, const RockBed& bed, int i, int j, uint32_t seed);
-  void IndexShadows();
-  template <class Visit>
-  void VisitShadowCells(const Solid& rock, const Visit& visit) const;
+  /// Adds a rock to the cells that its shadow may reach.
+  void IndexShadow(int index);
 
   double side_m_ = 0;
   Eigen::Vector3d to_sun_ = Eigen::Vector3d::UnitZ();
   std::vector<Solid> rocks_;  ///< sorted by cell
   std::vector<Cell> cells_;
-  int shadow_side_ = 0;            ///< shadow cells along a side
-  std::vector<int> shadow_begin_;  ///< [cells + 1] into shadow_rocks_
-  std::vector<int> shadow_rocks_;  ///< indices of rocks_
+  int shadow_side_ = 0;                         ///< shadow cells along a side
+  std::vector<std::vector<int>> shadow_rocks_;  ///< [cells] indices of rocks_
 };
 
 }  // namespace arfm_vo

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 
 namespace arfm_vo {
 
@@ -16,14 +17,7 @@ struct SensorOptions {
   int seed = 1;                  ///< of the noise
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("gain", gain);
-    visit("blur_px", blur_px);
-    visit("vignetting", vignetting);
-    visit("noise_grey_levels", noise_grey_levels);
-    visit("seed", seed);
-  }
+  ARFM_FIELDS(gain, blur_px, vignetting, noise_grey_levels, seed)
 };
 
 /// The 8 bit picture (CV_8UC1) of a radiance image (CV_32FC1). `image_id` selects the noise: the

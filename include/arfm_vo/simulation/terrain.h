@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/simulation/height_grid.h"
 #include "arfm_vo/simulation/noise_texture.h"
 #include "arfm_vo/simulation/rock_field.h"
@@ -24,21 +25,8 @@ struct TerrainOptions {
   RockOptions rocks;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("seed", seed);
-    visit("side_m", side_m);
-    visit("cell_m", cell_m);
-    visit("relief_m", relief_m);
-    visit("relief_wavelength_m", relief_wavelength_m);
-    visit("relief_persistence", relief_persistence);
-    visit("hills_m", hills_m);
-    visit("sand_fraction", sand_fraction);
-    visit("texture_contrast", texture_contrast);
-    visit("sun_elevation_deg", sun_elevation_deg);
-    visit("sun_azimuth_deg", sun_azimuth_deg);
-    rocks.VisitFields(visit);
-  }
+  ARFM_FIELDS(seed, side_m, cell_m, relief_m, relief_wavelength_m, relief_persistence, hills_m,
+              sand_fraction, texture_contrast, sun_elevation_deg, sun_azimuth_deg, (rocks))
 };
 
 /// A way that is kept clear of large rocks and may have a surface of its own, like a road.

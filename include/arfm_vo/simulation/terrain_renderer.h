@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
@@ -21,14 +22,7 @@ struct RenderOptions {
   SensorOptions sensor;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("num_threads", num_threads);
-    visit("edge_samples", edge_samples);
-    visit("skylight", skylight);
-    visit("haze_distance_m", haze_distance_m);
-    sensor.VisitFields(visit);
-  }
+  ARFM_FIELDS(num_threads, edge_samples, skylight, haze_distance_m, (sensor))
 };
 
 /// What an ideal camera sees.

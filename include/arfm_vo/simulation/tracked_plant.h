@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/rover_pose.h"
@@ -20,16 +21,8 @@ struct TrackedPlantOptions {
   int seed = 1;                   ///< of the slip's variation
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("gauge_m", gauge_m);
-    visit("turn_slip_factor", turn_slip_factor);
-    visit("forward_slip", forward_slip);
-    visit("slip_variation", slip_variation);
-    visit("sideways_slip", sideways_slip);
-    visit("response_s", response_s);
-    visit("seed", seed);
-  }
+  ARFM_FIELDS(gauge_m, turn_slip_factor, forward_slip, slip_variation, sideways_slip, response_s,
+              seed)
 };
 
 /// The base (x ahead, y left, z up) of a rover standing at a place, in the world.

@@ -32,13 +32,11 @@ class ViewSolids {
   void Add(const Solid& solid, const StereoCamera& camera, const Rigid3& camera_from_world);
   bool Bound(const Solid& solid, const Eigen::Vector3d& center_in_camera,
              const StereoCamera& camera, Entry& entry) const;
-  void IndexTiles();
 
   int num_tiles_u_ = 0, num_tiles_v_ = 0;
   std::vector<Entry> entries_;
-  std::deque<Solid> shrunk_;     ///< stand-ins of solids about as small as a pixel
-  std::vector<int> tile_begin_;  ///< [tiles + 1] into tile_entries_
-  std::vector<int> tile_entries_;
+  std::deque<Solid> shrunk_;             ///< stand-ins of solids about as small as a pixel
+  std::vector<std::vector<int>> tiles_;  ///< indices of entries_
 };
 
 }  // namespace arfm_vo

@@ -19,7 +19,7 @@ std::optional<GuardMessage> ReadGuardMessage(const void* bytes, size_t size) {
   if (size != sizeof(message)) return std::nullopt;
   std::memcpy(&message, bytes, sizeof(message));
   const bool is_known = message.version == GuardMessage().version && message.frame.dlc <= 8 &&
-                        message.stop <= GuardStop::kMotion;
+                        message.bus <= CanBusState::kNoGuard && message.stop <= GuardStop::kMotion;
   return is_known ? std::optional(message) : std::nullopt;
 }
 

@@ -223,7 +223,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
 StereoFrame FromMessage(const StereoFrameStamped& message) {
   StereoFrame frame;
   frame.stamp_s = message.header.stamp.toSec();
-  ReadMessage("StereoFrameStamped", [&] {
+  Within("StereoFrameStamped", [&] {
     RequireSummary(message);
     frame.features = ImportFeatures(message);
     frame.points = ImportPoints(message);

@@ -110,7 +110,7 @@ PlacedKeyframe FromMessage(const KeyframeStamped& message) {
   keyframe.camera = FromMessage(message.camera);
   keyframe.keyframe.id = message.id;
   keyframe.keyframe.stamp_s = message.header.stamp.toSec();
-  ReadMessage("KeyframeStamped", [&] {
+  Within("KeyframeStamped", [&] {
     keyframe.odom_from_world = FromMessage(message.odom_from_world, "odom_from_world");
     keyframe.base_from_camera = FromMessage(message.base_from_camera, "base_from_camera");
     keyframe.keyframe.camera_from_world =
@@ -141,7 +141,7 @@ MapUpdateStamped ToMessage(const MapUpdate& update) {
 }
 
 MapUpdate FromMessage(const MapUpdateStamped& message) {
-  return ReadMessage("MapUpdateStamped", [&] {
+  return Within("MapUpdateStamped", [&] {
     RequireSize(message.camera_from_world, message.keyframe_id.size(), "camera_from_world");
     RequireNumbers(message.landmark_position, 3 * message.landmark_id.size(), "landmark_position");
     RequireAscending(message.keyframe_id, "keyframe_id");

@@ -3,11 +3,11 @@
 #include <ros/param.h>
 
 #include <cmath>
-#include <iomanip>
-#include <limits>
-#include <sstream>
+#include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/number_rows.h"
+#include "arfm_vo/configuration/yaml_writer.h"
 
 namespace arfm_vo {
 namespace {
@@ -15,12 +15,9 @@ namespace {
 /// Read from a node's namespace by image_transport and diagnostic_updater.
 const char* const kForeignKeys[] = {"image_transport", "diagnostic_period"};
 
-YAML::Node NumberScalar(double value) {
-  if (std::isnan(value)) return YAML::Node(".nan");
-  if (std::isinf(value)) return YAML::Node(value > 0 ? ".inf" : "-.inf");
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
-  return YAML::Node(text.str());
+std::string FormatScalar(double value) {
+  if (std::isfinite(value)) return FormatNumber(value);  // as an integer where it is one
+  return std::isnan(value) ? ".nan" : FormatYamlNumber(value);
 }
 
 }  // namespace
@@ -35,7 +32,7 @@ YAML::Node ToYaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
     case XmlRpcValue::TypeInt:
       return YAML::Node(static_cast<int>(copy));
     case XmlRpcValue::TypeDouble:
-      return NumberScalar(copy);
+      return YAML::Node(FormatScalar(copy));
     case XmlRpcValue::TypeString:
       node = static_cast<std::string&>(copy);
       node.SetTag("!");  // what yaml-cpp's parser says of a quoted scalar

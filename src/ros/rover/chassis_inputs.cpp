@@ -26,12 +26,9 @@ Waypoint GoalReader::Read(const geometry_msgs::PoseStamped& goal) const {
   Require(!frame.empty(), "goal refused: it has no frame_id");
   const Rigid3 frame_from_goal = ReadPose(goal.pose, "goal refused: ");
   if (frame == map_frame) return ToWaypoint(frame_from_goal);
-  Rigid3 map_from_frame;
-  try {
-    map_from_frame = LookUpTransform(buffer, map_frame, frame, ros::Time(0)).target_from_source;
-  } catch (const std::invalid_argument& error) {
-    Require(false, "goal refused: frame '" + frame + "': " + error.what());
-  }
+  const Rigid3 map_from_frame = Within("goal refused: frame '" + frame + "'", [&] {
+    return LookUpTransform(buffer, map_frame, frame, ros::Time(0)).target_from_source;
+  });
   const std::string flaw = FindGoalFlaw(map_from_frame * frame_from_goal);
   Require(flaw.empty(), "goal refused: in " + map_frame + " " + flaw);
   return ToWaypoint(map_from_frame * frame_from_goal);
@@ -42,11 +39,8 @@ Route GoalReader::Read(const nav_msgs::Path& path) const {
   Route route;
   for (geometry_msgs::PoseStamped pose : path.poses) {
     if (pose.header.frame_id.empty()) pose.header.frame_id = path.header.frame_id;
-    try {
-      route.push_back(Read(pose));
-    } catch (const std::invalid_argument& error) {
-      Require(false, "pose " + std::to_string(route.size()) + " of the path: " + error.what());
-    }
+    Within("pose " + std::to_string(route.size()) + " of the path",
+           [&] { route.push_back(Read(pose)); });
   }
   return route;
 }

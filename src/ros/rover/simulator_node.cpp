@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "arfm_vo/rehearsal/drive_picture.h"
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/parameters.h"
@@ -26,12 +25,6 @@ constexpr double kClockStep_s = 30;
 /// Of the terrain that is shown.
 constexpr double kHalfSide_m = 30, kCell_m = 0.5;
 constexpr double kSunk_m = 0.05;  // what lies on the ground stays visible
-
-PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
-  return [&terrain, shape](const RoverPose& pose) {
-    return PlaceRover(terrain, PlanarPose{{pose.x_m, pose.y_m}, pose.heading_rad}, shape);
-  };
-}
 
 }  // namespace
 

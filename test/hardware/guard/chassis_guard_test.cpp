@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_link.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

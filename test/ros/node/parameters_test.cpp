@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "ros/expect_throw.h"
 
 namespace arfm_vo {
@@ -48,22 +49,14 @@ TEST(Parameters, BinaryIsRefusedWithItsFullName) {
 struct HeadOptions {
   double max_slew_rate_dps = 5;
   bool is_gated = true;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_slew_rate_dps", max_slew_rate_dps);
-    visit("is_gated", is_gated);
-  }
+  ARFM_FIELDS(max_slew_rate_dps, is_gated)
 };
 
 struct Options {
   HeadOptions head;
   std::string base_frame = "base_link";
   void Check() const { Require(!base_frame.empty(), "base_frame must not be empty"); }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("head", head);
-    visit("base_frame", base_frame);
-  }
+  ARFM_FIELDS(head, base_frame)
 };
 
 Options Read(const XmlRpcValue& value) {

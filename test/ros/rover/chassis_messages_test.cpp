@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/placed_map.h"
 
 namespace arfm_vo {
@@ -20,11 +21,7 @@ struct BoundedPathOptions {
     Require(spacing_m >= 0, "path.spacing_m must not be negative");
     Require(max_poses >= 2, "path.max_poses must be at least 2");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("spacing_m", spacing_m);
-    visit("max_poses", max_poses);
-  }
+  ARFM_FIELDS(spacing_m, max_poses)
 };
 
 /// A path for display that reaches from the start to the end and yet stays small: poses keep a

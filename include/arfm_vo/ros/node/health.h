@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "arfm_vo/base/median.h"
 #include "arfm_vo/base/rate_meter.h"
-#include "arfm_vo/base/running_median.h"
 
 namespace arfm_vo {
 

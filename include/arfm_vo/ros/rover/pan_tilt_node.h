@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
 #include "arfm_vo/ros/node/health.h"
@@ -30,15 +31,7 @@ struct PanTiltNodeOptions {
             "pan_joint and tilt_joint must be two names");
     unit.Check();
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("port", port);
-    visit("baud", baud);
-    visit("max_rate_hz", max_rate_hz);
-    visit("pan_joint", pan_joint);
-    visit("tilt_joint", tilt_joint);
-    unit.VisitFields(visit);
-  }
+  ARFM_FIELDS(port, baud, max_rate_hz, pan_joint, tilt_joint, (unit))
 };
 
 /// The goal in a command, by joint names. Throws std::invalid_argument saying what is wrong: an

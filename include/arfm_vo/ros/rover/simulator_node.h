@@ -12,11 +12,14 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
-#include "arfm_vo/rehearsal/rehearsal.h"
 #include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/simulation/drive_path.h"
+#include "arfm_vo/simulation/drive_picture.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 #include "arfm_vo/simulation/simulated_imu.h"
+#include "arfm_vo/simulation/terrain_renderer.h"
 
 namespace arfm_vo {
 
@@ -39,24 +42,8 @@ struct SimulatorNodeOptions {
   RoverShape shape;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("can", can);
-    visit("head_port", head_port);
-    visit("map_frame", map_frame);
-    visit("base_frame", base_frame);
-    visit("camera_frame", camera_frame);
-    visit("max_speed_up", max_speed_up);
-    visit("max_latency_s", max_latency_s);
-    visit("max_wait_s", max_wait_s);
-    visit("pair_period_s", pair_period_s);
-    visit("picture", picture);
-    visit("terrain", terrain);
-    visit("plant", plant);
-    visit("rig", rig);
-    visit("render", render);
-    visit("shape", shape);
-  }
+  ARFM_FIELDS(can, head_port, map_frame, base_frame, camera_frame, max_speed_up, max_latency_s,
+              max_wait_s, pair_period_s, picture, terrain, plant, rig, render, shape)
 };
 
 /// The ground around the map's origin, without rocks, as lit triangles for rviz, some cm too low so

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
@@ -25,11 +26,7 @@ struct CameraHealthOptions {
     Require(max_unpaired_share >= 0 && max_unpaired_share <= 1,
             "health.max_unpaired_share must be in 0..1");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("min_rate_share", min_rate_share);
-    visit("max_unpaired_share", max_unpaired_share);
-  }
+  ARFM_FIELDS(min_rate_share, max_unpaired_share)
 };
 
 struct StereoCameraNodeOptions {
@@ -39,14 +36,7 @@ struct StereoCameraNodeOptions {
   CameraHealthOptions health;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    camera.VisitFields(visit);
-    visit("left_camera_info_url", left_camera_info_url);
-    visit("right_camera_info_url", right_camera_info_url);
-    visit("frame_id", frame_id);
-    visit("health", health);
-  }
+  ARFM_FIELDS((camera), left_camera_info_url, right_camera_info_url, frame_id, health)
 };
 
 /// The camera in stereo_camera_node's diagnostics: ERROR while no pairs come, WARN where they come

@@ -1,4 +1,5 @@
-#include "arfm_vo/base/running_median.h"
+
+#include "arfm_vo/base/median.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,13 @@ TEST(RunningMedian, IsThatOfTheNewestValues) {
   median.Add(-3);  // the first 5 has left
   EXPECT_EQ(median.Median(), 1);
   EXPECT_EQ(median.size(), 3u);
+}
+
+TEST(Quantile, TakesTheNearestOfTheSorted) {
+  EXPECT_EQ(Quantile(std::vector<int>{5, 2, 3, 4, 1}, 0.5), 3);
+  EXPECT_EQ(Quantile(std::vector<int>{5, 2, 3, 4, 1}, 1), 5);
+  EXPECT_EQ(Quantile(std::vector<int>(), 0.5), 0);
+  EXPECT_EQ(Median({4, 1, 3, 2}), 3);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "arfm_vo/hardware/can_udp_bus.h"
+#include "arfm_vo/hardware/can_bus.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 
 #include <system_error>
 
+#include "arfm_vo/hardware/file_descriptor.h"
 #include "hardware/await_frame.h"
 
 namespace arfm_vo {
@@ -50,22 +51,22 @@ TEST_F(CanUdpBusTest, FramesArriveByteForByteInOrder) {
 }
 
 TEST_F(CanUdpBusTest, WhereNobodyListensFramesAreRefused) {
-  CanUdpBus a(port_a_, port_b_);
-  a.Send(kUdpFrame);
-  EXPECT_EQ(a.Send(kUdpFrame), CanSendStatus::kBusy);
+  const auto a = OpenCanBus(Address(port_a_, port_b_));
+  a->Send(kUdpFrame);
+  EXPECT_EQ(a->Send(kUdpFrame), CanSendStatus::kBusy);
 }
 
 TEST_F(CanUdpBusTest, TheOtherEndMayComeBack) {
-  CanUdpBus a(port_a_, port_b_);
-  for (int i = 0; i < 3; ++i) a.Send(kUdpFrame);
-  CanUdpBus b(port_b_, port_a_);
-  a.Send(kUdpFrame);
-  EXPECT_EQ(a.Send(kUdpFrame), CanSendStatus::kSent);
-  EXPECT_EQ(AwaitFrame(b), kUdpFrame);
+  const auto a = OpenCanBus(Address(port_a_, port_b_));
+  for (int i = 0; i < 3; ++i) a->Send(kUdpFrame);
+  const auto b = OpenCanBus(Address(port_b_, port_a_));
+  a->Send(kUdpFrame);
+  EXPECT_EQ(a->Send(kUdpFrame), CanSendStatus::kSent);
+  EXPECT_EQ(AwaitFrame(*b), kUdpFrame);
 }
 
 TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {
-  CanUdpBus a(port_a_, port_b_);
+  const auto a = OpenCanBus(Address(port_a_, port_b_));
   const LoopbackSocket stranger;
   sockaddr_in to = stranger.address;
   to.sin_port = htons(port_a_);
@@ -73,11 +74,11 @@ TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {
   ASSERT_GT(::sendto(stranger.fd.Get(), garbage, sizeof(garbage), 0,
                      reinterpret_cast<sockaddr*>(&to), sizeof(to)),
             0);
-  EXPECT_FALSE(a.Receive());
+  EXPECT_FALSE(a->Receive());
 }
 
 TEST_F(CanUdpBusTest, DatagramsOfAWrongSizeAreHandedOutAsOther) {
-  CanUdpBus a(port_a_, port_b_);
+  const auto a = OpenCanBus(Address(port_a_, port_b_));
   FileDescriptor peer(::socket(AF_INET, SOCK_DGRAM, 0));
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -89,13 +90,13 @@ TEST_F(CanUdpBusTest, DatagramsOfAWrongSizeAreHandedOutAsOther) {
     const std::vector<char> bytes(size, 'x');
     ::sendto(peer.Get(), bytes.data(), size, 0, reinterpret_cast<sockaddr*>(&address),
              sizeof(address));
-    EXPECT_EQ(AwaitFrame(a).kind, CanFrameKind::kOther) << size;
+    EXPECT_EQ(AwaitFrame(*a).kind, CanFrameKind::kOther) << size;
   }
 }
 
 TEST_F(CanUdpBusTest, ATakenPortIsAnError) {
-  CanUdpBus a(port_a_, port_b_);
-  EXPECT_THROW(CanUdpBus(port_a_, port_b_), std::system_error);
+  const auto a = OpenCanBus(Address(port_a_, port_b_));
+  EXPECT_THROW(OpenCanBus(Address(port_a_, port_b_)), std::system_error);
 }
 
 TEST(CanAddress, IsAnInterfaceOrTwoPorts) {

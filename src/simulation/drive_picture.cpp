@@ -1,4 +1,4 @@
-#include "arfm_vo/rehearsal/drive_picture.h"
+#include "arfm_vo/simulation/drive_picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "arfm_vo/base/stopwatch.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"
-#include "arfm_vo/rehearsal/drive_picture.h"
+#include "rehearsal/rehearsal.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Summary {
   double worst_share = 0, worst_error_m = 0, worst_heading_deg = 0, fastest_mps = 0, driven_m = 0,
          steepest_deg = 0;
 
-  void Add(const Drive& drive) {
+  void Add(const RehearsedDrive& drive) {
     num_good += drive.IsGood();
     num_arrived += drive.has_arrived;
     num_lost += drive.num_lost;
@@ -51,7 +51,7 @@ void PrintHeader() {
               "before", "pairs", "lost", "drive_s", "stops", "outcome");
 }
 
-void PrintRow(int seed, const Drive& drive) {
+void PrintRow(int seed, const RehearsedDrive& drive) {
   std::printf("%4d %7.2f %8.2f %7.3f %7.3f %8.2f %9.1f %6.1f %8.3f %6ld %5d %5d %7.0f %5d  %s\n",
               seed, std::hypot(drive.goal.x_m, drive.goal.y_m), drive.driven_m, drive.final_error_m,
               drive.AllowedError(), drive.final_heading_error_deg, drive.steepest_deg,
@@ -91,7 +91,7 @@ void DriveGoals(Request request) {
     request.scene.seed = options.plant.seed = request.first_seed + i;
     options.sight.render.sensor.seed = request.scene.seed;
     const GoalScene scene(request.scene, options.shape);
-    const Drive drive = Rehearse(scene, options);
+    const RehearsedDrive drive = Rehearse(scene, options);
     summary.Add(drive);
     PrintRow(request.scene.seed, drive);
     if (request.output.empty()) continue;
@@ -109,7 +109,6 @@ void DriveGoals(Request request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace po = boost::program_options;
   Request request;
   Program program;
   program.name = "drive_simulation";
@@ -118,19 +117,15 @@ int main(int argc, char** argv) {
       "process and repeatable: pilot, CAN frames, slipping tracks, stereo pairs. Fails where a "
       "goal\n"
       "is not reached within 1 % of the way and 5 cm.";
-  program.options.add_options()("goals", po::value(&request.num_goals)->value_name("N"),
-                                "how many, 20 if not given")(
-      "seed", po::value(&request.first_seed)->value_name("S"), "of the first goal, then S + 1, ..")(
-      "min-distance", po::value(&request.scene.min_distance_m)->value_name("M"), "of the goals")(
-      "max-distance", po::value(&request.scene.max_distance_m)->value_name("M"), "of the goals")(
-      "max-slope", po::value(&request.scene.max_slope_deg)->value_name("DEG"),
-      "of the straight way to a goal")("width", po::value(&request.width)->value_name("PX"),
-                                       "of the pictures, with the same view")(
-      "threads", po::value(&request.num_threads)->value_name("N"),
-      "of the renderer; do not change the result")("config",
-                                                   po::value(&request.config)->value_name("FILE"),
-                                                   "YAML: pilot, plant, sight, odometry, shape")(
-      "output", po::value(&request.output)->value_name("DIR"), "a picture of each drive goes here");
+  program.Add("goals", request.num_goals, "N", "how many, 20 if not given");
+  program.Add("seed", request.first_seed, "S", "of the first goal, then S + 1, ..");
+  program.Add("min-distance", request.scene.min_distance_m, "M", "of the goals");
+  program.Add("max-distance", request.scene.max_distance_m, "M", "of the goals");
+  program.Add("max-slope", request.scene.max_slope_deg, "DEG", "of the straight way to a goal");
+  program.Add("width", request.width, "PX", "of the pictures, with the same view");
+  program.Add("threads", request.num_threads, "N", "of the renderer; do not change the result");
+  program.Add("config", request.config, "FILE", "YAML: pilot, plant, sight, odometry, shape");
+  program.Add("output", request.output, "DIR", "a picture of each drive goes here");
   program.run = [&] { DriveGoals(request); };
   return RunProgram(argc, argv, program);
 }

@@ -1,4 +1,4 @@
-#include "arfm_vo/rehearsal/simulated_sight.h"
+#include "rehearsal/simulated_sight.h"
 
 #include <cmath>
 #include <limits>

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/rehearsal/stereo_rig.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
 
@@ -20,13 +20,7 @@ struct SimulatedSightOptions {
   RenderOptions render;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("rig", rig);
-    visit("pair_period_s", pair_period_s);
-    visit("latency_s", latency_s);
-    visit("render", render);
-  }
+  ARFM_FIELDS(rig, pair_period_s, latency_s, render)
 };
 
 /// What the rover's eyes tell it at one time.

@@ -1,12 +1,12 @@
-#include "arfm_vo/rehearsal/rehearsal.h"
+#include "rehearsal/rehearsal.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 
-#include "arfm_vo/hardware/can_memory_bus.h"
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {
@@ -31,7 +31,7 @@ class Stage {
     drive_.goal = goal_;
   }
 
-  Drive Run() {
+  RehearsedDrive Run() {
     const double limit_s = kMaxSeconds + kMaxSecondsPerMetre * std::hypot(goal_.x_m, goal_.y_m);
     while (drive_.outcome.empty() && 0.001 * now_ms_ < limit_s) Step();
     if (drive_.outcome.empty()) drive_.outcome = "not there in time";
@@ -124,7 +124,7 @@ class Stage {
     drive_.slip_ratio = track_m > 0 ? 1 - Plant().DrivenDistance() / track_m : 0;
   }
 
-  Drive drive_;
+  RehearsedDrive drive_;
   Waypoint goal_;
   Rigid3 map_from_world_;
   CanMemoryBus bus_;
@@ -147,7 +147,7 @@ void RehearsalOptions::Check() const {
   shape.Check();
 }
 
-Drive Rehearse(const GoalScene& scene, const RehearsalOptions& options) {
+RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options) {
   options.Check();
   return Stage(scene, options).Run();
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/simulation/drive_path.h"
@@ -21,16 +22,8 @@ struct GoalSceneOptions {
   TerrainOptions terrain;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("seed", seed);
-    visit("min_distance_m", min_distance_m);
-    visit("max_distance_m", max_distance_m);
-    visit("min_slope_deg", min_slope_deg);
-    visit("max_slope_deg", max_slope_deg);
-    visit("num_threads", num_threads);
-    visit("terrain", terrain);
-  }
+  ARFM_FIELDS(seed, min_distance_m, max_distance_m, min_slope_deg, max_slope_deg, num_threads,
+              terrain)
 };
 
 /// A piece of terrain with a place to start from and a goal, drawn at random: distance, direction
@@ -45,7 +38,7 @@ class GoalScene {
   /// The goal as the map knows it, whose frame is the rover's base at the start.
   Waypoint GoalInMap() const;
   /// How the rover stands at a place.
-  PlaceOnGround Ground() const;
+  PlaceOnGround Ground() const { return GroundOf(*terrain_, shape_); }
   /// The steepest place of the straight way, degrees.
   double SteepestSlope() const { return steepest_deg_; }
 
@@ -58,8 +51,5 @@ class GoalScene {
   RoverPose start_, goal_;
   double steepest_deg_ = 0;
 };
-
-/// The slope of the ground under a rover that stands so, degrees.
-double SlopeOf(const Rigid3& world_from_base);
 
 }  // namespace arfm_vo

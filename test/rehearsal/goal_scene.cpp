@@ -1,4 +1,4 @@
-#include "arfm_vo/rehearsal/goal_scene.h"
+#include "rehearsal/goal_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr int kMaxDraws = 2000;
 constexpr double kSlopeStep_m = 0.25;
 constexpr double kCorridorStep_m = 1;
@@ -33,11 +32,6 @@ void GoalSceneOptions::Check() const {
   Require(num_threads >= 1, "num_threads must be at least 1");
   terrain.Check();
   Require(2.5 * max_distance_m < terrain.side_m, "max_distance_m is too far for terrain.side_m");
-}
-
-double SlopeOf(const Rigid3& world_from_base) {
-  const Eigen::Vector3d up = world_from_base.rotation * Eigen::Vector3d::UnitZ();
-  return std::acos(std::min(1.0, up.z())) / kDegree;
 }
 
 GoalScene::GoalScene(const GoalSceneOptions& options, const RoverShape& shape) : shape_(shape) {
@@ -81,12 +75,6 @@ double GoalScene::MeasureSlope() const {
     steepest_deg = std::max(steepest_deg, SlopeOf(place(pose)));
   }
   return steepest_deg;
-}
-
-PlaceOnGround GoalScene::Ground() const {
-  return [terrain = terrain_.get(), shape = shape_](const RoverPose& pose) {
-    return PlaceRover(*terrain, PlanarPose{{pose.x_m, pose.y_m}, pose.heading_rad}, shape);
-  };
 }
 
 Waypoint GoalScene::GoalInMap() const {

@@ -1,6 +1,8 @@
-#include "arfm_vo/datasets/kitti_calibration.h"
+#include "arfm_vo/datasets/kitti_files.h"
 
 #include <Eigen/Core>
+#include <cstdio>
+#include <ctime>
 #include <optional>
 #include <sstream>
 
@@ -10,6 +12,41 @@
 
 namespace arfm_vo {
 namespace {
+
+/// Seconds since 1970-01-01 of a line of the raw data, split so that no digit is lost.
+struct RawTime {
+  std::time_t whole_s = 0;
+  double fraction_s = 0;
+};
+
+RawTime ParseRawTime(const std::string& line, const std::string& place) {
+  std::tm date = {};
+  double second = 0;
+  const int num_read = std::sscanf(line.c_str(), "%d-%d-%d %d:%d:%lf", &date.tm_year, &date.tm_mon,
+                                   &date.tm_mday, &date.tm_hour, &date.tm_min, &second);
+  const auto is_within = [](int value, int min, int max) { return value >= min && value <= max; };
+  Require(num_read == 6 && is_within(date.tm_year, 1970, 9999) && is_within(date.tm_mon, 1, 12) &&
+              is_within(date.tm_mday, 1, 31) && is_within(date.tm_hour, 0, 23) &&
+              is_within(date.tm_min, 0, 59) && second >= 0 && second < 61,
+          place + ": '" + line + "' is not a time such as 2011-09-26 13:02:25.964389445");
+  date.tm_year -= 1900;
+  date.tm_mon -= 1;
+  return {timegm(&date), second};
+}
+
+std::vector<double> ReadRawTimes(const std::string& path, const std::string& content) {
+  std::vector<double> stamps;
+  RawTime first;
+  std::istringstream file(content);
+  for (std::string line; std::getline(file, line);) {
+    const std::string place = path + ":" + std::to_string(stamps.size() + 1);
+    const RawTime time = ParseRawTime(line, place);
+    if (stamps.empty()) first = time;
+    stamps.push_back(static_cast<double>(time.whole_s - first.whole_s) +
+                     (time.fraction_s - first.fraction_s));
+  }
+  return stamps;
+}
 
 using Projection = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
@@ -54,12 +91,23 @@ StereoCamera ReadKittiCalibration(const std::string& path, int left_camera, int 
   camera.baseline_m = ((*left)(0, 3) - (*right)(0, 3)) / camera.fx;
   camera.width = width;
   camera.height = height;
-  try {
-    camera.Check();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(path + ": " + left_key + ", " + right_key + ": " + error.what());
-  }
+  Within(path + ": " + left_key + ", " + right_key, [&] { camera.Check(); });
   return camera;
+}
+
+std::vector<double> ReadKittiTimes(const std::string& path) {
+  const std::string content = ReadWholeFile(path);
+  std::vector<double> stamps;
+  if (content.find(':') != std::string::npos) {
+    stamps = ReadRawTimes(path, content);
+  } else {
+    for (const NumberRow& row : ReadNumberRows(path, 1)) stamps.push_back(row.values[0]);
+  }
+  for (size_t i = 1; i < stamps.size(); ++i) {
+    Require(stamps[i] > stamps[i - 1],
+            path + ": time " + std::to_string(i + 1) + " is not later than the one before");
+  }
+  return stamps;
 }
 
 }  // namespace arfm_vo

@@ -1,4 +1,4 @@
-#include "arfm_vo/hardware/can_memory_bus.h"
+#include "simulation/can_memory_bus.h"
 
 #include <gtest/gtest.h>
 
