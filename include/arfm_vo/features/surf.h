@@ -3,6 +3,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/features/surf_descriptor.h"
 #include "arfm_vo/features/surf_detector.h"
@@ -18,13 +19,7 @@ struct SurfOptions {
 
   /// Throws std::invalid_argument naming the key that is out of range.
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("detector", detector);
-    visit("descriptor", descriptor);
-    visit("smooth", smooth);
-    visit("threads", threads);
-  }
+  ARFM_FIELDS(detector, descriptor, smooth, threads)
 };
 
 /// Grey image to SURF features. Memory is kept from call to call, nothing else: the same image

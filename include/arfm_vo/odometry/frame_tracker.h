@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/landmark_aligner.h"
@@ -26,14 +27,7 @@ struct FrameTrackerOptions {
   PoseRefinementOptions refinement;  ///< of the pose on aligned patches
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("guided", guided);
-    matching.VisitFields(visit);
-    visit("pose", pose);
-    visit("align_patches", align_patches);
-    visit("refinement", refinement);
-  }
+  ARFM_FIELDS(guided, (matching), pose, align_patches, refinement)
 };
 
 /// A frame found again in the map.

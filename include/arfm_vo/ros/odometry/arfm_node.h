@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/datasets/pair_order.h"
 #include "arfm_vo/odometry/visual_odometry.h"
@@ -25,12 +26,7 @@ struct ArfmNodeOptions {
     algorithm.Check();
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    algorithm.VisitFields(visit);
-    visit("max_waiting_pairs", max_waiting_pairs);
-    learned.VisitFields(visit);
-  }
+  ARFM_FIELDS((algorithm), max_waiting_pairs, (learned))
 };
 
 /// Rectified stereo pairs in, `features` out: layers image to reconstruction. Subscribes to the
