@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/bundle_adjustment/bundle_problem.h"
 #include "arfm_vo/pose/robust_loss.h"
 
@@ -40,17 +41,8 @@ struct BundleOptions {
   bool with_point_covariance = false;  ///< of the landmarks, as a result
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("solver", solver);
-    visit("strategy", strategy);
-    visit("loss", loss);
-    visit("max_iterations", max_iterations);
-    visit("function_tolerance", function_tolerance);
-    visit("max_time_s", max_time_s);
-    visit("num_threads", num_threads);
-    visit("max_time_share", max_time_share);
-  }
+  ARFM_FIELDS(solver, strategy, loss, max_iterations, function_tolerance, max_time_s, num_threads,
+              max_time_share)
 };
 
 /// How far an adjustment has come. Costs are sums of rho(|r|^2), about one a coordinate.

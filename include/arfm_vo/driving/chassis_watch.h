@@ -5,6 +5,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/drive_state.h"
 
 namespace arfm_vo {
@@ -46,12 +47,7 @@ struct ChassisWatchOptions {
     Require(foreign_command_s >= 0.1 && foreign_command_s <= 60,
             "chassis.foreign_command_s must be in 0.1..60");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_feedback_age_s", max_feedback_age_s);
-    visit("allows_remote_lost", allows_remote_lost);
-    visit("foreign_command_s", foreign_command_s);
-  }
+  ARFM_FIELDS(max_feedback_age_s, allows_remote_lost, foreign_command_s)
 };
 
 /// Judges whether the chassis can be driven.

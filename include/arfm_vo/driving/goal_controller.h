@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/rover_pose.h"
@@ -21,21 +22,9 @@ struct GoalControllerOptions {
   double max_backward_m = 0.8;           ///< farther goals are never driven to backward; 0: none
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("position_tolerance_m", position_tolerance_m);
-    visit("heading_tolerance_rad", heading_tolerance_rad);
-    visit("waypoint_tolerance_m", waypoint_tolerance_m);
-    visit("cruise_speed_mps", cruise_speed_mps);
-    visit("cruise_turn_rate_radps", cruise_turn_rate_radps);
-    visit("min_speed_mps", min_speed_mps);
-    visit("min_turn_rate_radps", min_turn_rate_radps);
-    visit("approach_gain_per_s", approach_gain_per_s);
-    visit("turn_gain_per_s", turn_gain_per_s);
-    visit("align_rad", align_rad);
-    visit("turn_in_place_rad", turn_in_place_rad);
-    visit("max_backward_m", max_backward_m);
-  }
+  ARFM_FIELDS(position_tolerance_m, heading_tolerance_rad, waypoint_tolerance_m, cruise_speed_mps,
+              cruise_turn_rate_radps, min_speed_mps, min_turn_rate_radps, approach_gain_per_s,
+              turn_gain_per_s, align_rad, turn_in_place_rad, max_backward_m)
 };
 
 /// What the controller is at. From the last waypoint's position the order is heading, settle,

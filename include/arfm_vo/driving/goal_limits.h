@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/rover_pose.h"
 
@@ -16,13 +17,7 @@ struct GoalLimitsOptions {
   std::vector<double> fence_m;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_distance_m", max_distance_m);
-    visit("max_waypoints", max_waypoints);
-    visit("max_standby_s", max_standby_s);
-    visit("fence_m", fence_m);
-  }
+  ARFM_FIELDS(max_distance_m, max_waypoints, max_standby_s, fence_m)
 };
 
 /// Which goals are allowed, wherever they come from.

@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/drive_state.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
@@ -22,19 +23,8 @@ struct MotionWatchOptions {
   double max_way_at_rest_m = 0.05;  ///< of a track that is told to stand, from then on
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_excess_mps", max_excess_mps);
-    visit("max_excess_s", max_excess_s);
-    visit("response_s", response_s);
-    visit("jam_s", jam_s);
-    visit("min_moved_ratio", min_moved_ratio);
-    visit("max_frozen_s", max_frozen_s);
-    visit("max_motor_current_a", max_motor_current_a);
-    visit("max_current_s", max_current_s);
-    visit("stop_s", stop_s);
-    visit("max_way_at_rest_m", max_way_at_rest_m);
-  }
+  ARFM_FIELDS(max_excess_mps, max_excess_s, response_s, jam_s, min_moved_ratio, max_frozen_s,
+              max_motor_current_a, max_current_s, stop_s, max_way_at_rest_m)
 };
 
 /// Compares what the chassis says of its motion with what it was told. Motions are those of 0x111

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 
 namespace arfm_vo {
 
@@ -22,13 +23,7 @@ struct OperatorWatchOptions {
     Require(max_round_trip_s >= 0.1 && max_round_trip_s <= timeout_s,
             "operator.max_round_trip_s must be in 0.1..timeout_s");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("is_required", is_required);
-    visit("rover", rover);
-    visit("max_round_trip_s", max_round_trip_s);
-    visit("timeout_s", timeout_s);
-  }
+  ARFM_FIELDS(is_required, rover, max_round_trip_s, timeout_s)
 };
 
 /// What the person's program has to send back as it came: only who hears the rover now knows it.

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
@@ -23,19 +24,8 @@ struct PoseConsistencyOptions {
   double slide_window_s = 3;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_error_m", max_error_m);
-    visit("max_error_rad", max_error_rad);
-    visit("max_slip_ratio", max_slip_ratio);
-    visit("max_sideways_ratio", max_sideways_ratio);
-    visit("num_sigmas", num_sigmas);
-    visit("max_uncertain_m", max_uncertain_m);
-    visit("max_uncertain_rad", max_uncertain_rad);
-    visit("max_map_step_m", max_map_step_m);
-    visit("max_map_turn_rad", max_map_turn_rad);
-    visit("slide_window_s", slide_window_s);
-  }
+  ARFM_FIELDS(max_error_m, max_error_rad, max_slip_ratio, max_sideways_ratio, num_sigmas,
+              max_uncertain_m, max_uncertain_rad, max_map_step_m, max_map_turn_rad, slide_window_s)
 };
 
 /// A pose by sight in the odom frame, its standard deviations, and the ways of the tracks when it

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/drive_state.h"
 #include "arfm_vo/driving/pose_consistency.h"
 #include "arfm_vo/geometry/rigid3.h"
@@ -21,17 +22,8 @@ struct PoseWatchOptions {
   PoseConsistencyOptions consistency;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_pose_age_s", max_pose_age_s);
-    visit("max_position_sigma_m", max_position_sigma_m);
-    visit("max_heading_sigma_rad", max_heading_sigma_rad);
-    visit("max_tilt_deg", max_tilt_deg);
-    visit("warn_tilt_deg", warn_tilt_deg);
-    visit("requires_covariance", requires_covariance);
-    visit("requires_epoch", requires_epoch);
-    visit("consistency", consistency);
-  }
+  ARFM_FIELDS(max_pose_age_s, max_position_sigma_m, max_heading_sigma_rad, max_tilt_deg,
+              warn_tilt_deg, requires_covariance, requires_epoch, consistency)
 };
 
 /// A pose by sight. Times are those of the driving clock, which never jumps.

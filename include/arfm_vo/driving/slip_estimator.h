@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
 #include "arfm_vo/geometry/rigid3.h"
@@ -25,17 +26,8 @@ struct SlipOptions {
   double level_deg = 5;  ///< ground that tilts the rover more is not level
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("window_m", window_m);
-    visit("max_slip_ratio", max_slip_ratio);
-    visit("max_turn_slip_ratio", max_turn_slip_ratio);
-    visit("max_leap_m", max_leap_m);
-    visit("level_window_m", level_window_m);
-    visit("max_level_ratio", max_level_ratio);
-    visit("straight_window_m", straight_window_m);
-    visit("level_deg", level_deg);
-  }
+  ARFM_FIELDS(window_m, max_slip_ratio, max_turn_slip_ratio, max_leap_m, level_window_m,
+              max_level_ratio, straight_window_m, level_deg)
 };
 
 /// Slip over the last window: (track - sight) / max(|track|, |sight|), 0 where they agree, 1 where

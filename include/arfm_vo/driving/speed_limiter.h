@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/track_kinematics.h"
 
 namespace arfm_vo {
@@ -14,13 +15,8 @@ struct SpeedLimiterOptions {
   double max_turn_acceleration_radps2 = 0.4;  ///< of the base
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_speed_mps", max_speed_mps);
-    visit("max_turn_rate_radps", max_turn_rate_radps);
-    visit("max_acceleration_mps2", max_acceleration_mps2);
-    visit("max_turn_acceleration_radps2", max_turn_acceleration_radps2);
-  }
+  ARFM_FIELDS(max_speed_mps, max_turn_rate_radps, max_acceleration_mps2,
+              max_turn_acceleration_radps2)
 };
 
 /// Keeps a motion within the limits of speed and acceleration. Where the faster track would exceed

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/track_history.h"
 
@@ -11,12 +12,7 @@ struct StopLookGoOptions {
   double max_pose_age_s = 60;  ///< takes the place of pose.max_pose_age_s
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("is_on", is_on);
-    visit("step_m", step_m);
-    visit("max_pose_age_s", max_pose_age_s);
-  }
+  ARFM_FIELDS(is_on, step_m, max_pose_age_s)
 };
 
 /// Driving for a slow computer: a step by the track odometer, a stop, a look at the scene at rest,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/planar_motion.h"
 
 namespace arfm_vo {
@@ -16,11 +17,7 @@ struct TrackKinematicsOptions {
     Require(turn_slip_factor >= 0.2 && turn_slip_factor <= 5,
             "kinematics.turn_slip_factor must be in 0.2..5");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("gauge_m", gauge_m);
-    visit("turn_slip_factor", turn_slip_factor);
-  }
+  ARFM_FIELDS(gauge_m, turn_slip_factor)
 };
 
 /// Skid steering: what the tracks must do for the base to move as wanted, and the other way round.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/features/surf_descriptor.h"
 #include "arfm_vo/features/surf_detector.h"
@@ -21,14 +22,7 @@ struct SurfOptions {
 
   /// Throws std::invalid_argument naming the key that is out of range.
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("detector", detector);
-    visit("descriptor", descriptor);
-    visit("smooth", smooth);
-    visit("threads", threads);
-    visit("max_pixels", max_pixels);
-  }
+  ARFM_FIELDS(detector, descriptor, smooth, threads, max_pixels)
 };
 
 /// Grey image to SURF features. Memory is kept from call to call, nothing else: the same image

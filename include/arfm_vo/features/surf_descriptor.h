@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arfm_vo/base/fields.h"
+
 namespace arfm_vo {
 
 struct SurfDescriptorOptions {
@@ -9,11 +11,7 @@ struct SurfDescriptorOptions {
   /// which lie side by side.
   bool overlapping_regions = true;
 
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("upright", upright);
-    visit("overlapping_regions", overlapping_regions);
-  }
+  ARFM_FIELDS(upright, overlapping_regions)
 };
 
 }  // namespace arfm_vo

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/features/scale_space_maximum.h"
 #include "arfm_vo/image/integral_image.h"
@@ -23,16 +24,8 @@ struct SurfDetectorOptions {
 
   /// Throws std::invalid_argument naming the key that is out of range.
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("hessian_threshold", hessian_threshold);
-    visit("octaves", octaves);
-    visit("layers", layers);
-    visit("merge_octaves", merge_octaves);
-    visit("initial_step", initial_step);
-    visit("target_keypoints", target_keypoints);
-    visit("bucket_px", bucket_px);
-  }
+  ARFM_FIELDS(hessian_threshold, octaves, layers, merge_octaves, initial_step, target_keypoints,
+              bucket_px)
 };
 
 /// The keypoints of the maxima that the budget chooses, with position and scale from the quadratic

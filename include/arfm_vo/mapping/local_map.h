@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/keyframe.h"
 #include "arfm_vo/reconstruction/stereo_frame.h"
@@ -18,12 +19,7 @@ struct LocalMapOptions {
   double min_separation_px = 6;     ///< a new point keeps this distance from the known ones
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_keyframes", max_keyframes);
-    visit("max_missed_frames", max_missed_frames);
-    visit("max_landmarks_in_view", max_landmarks_in_view);
-  }
+  ARFM_FIELDS(max_keyframes, max_missed_frames, max_landmarks_in_view)
 };
 
 /// Side by side in memory: all of them are looked at in each frame.

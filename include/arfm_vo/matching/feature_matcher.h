@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/matching/match.h"
 
@@ -30,10 +31,7 @@ struct FeatureMatcherOptions {
   double max_row_difference_px = 0;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("strategy", strategy);
-  }
+  ARFM_FIELDS(strategy)
 };
 
 /// Matches the features of two images over the whole image: nearest neighbours both ways, ratio

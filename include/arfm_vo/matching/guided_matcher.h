@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/matching/neighbours.h"
 
@@ -18,11 +19,7 @@ struct StereoSearchOptions {
   double max_scale_ratio = 1.5;   ///< larger over smaller scale
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("max_row_difference_px", max_row_difference_px);
-    visit("max_disparity_px", max_disparity_px);
-  }
+  ARFM_FIELDS(max_row_difference_px, max_disparity_px)
 };
 
 /// Finds the neighbours of every keypoint of a rectified pair, both ways, among those that may be

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/image/grey_statistics.h"
 
 namespace arfm_vo {
@@ -24,13 +25,7 @@ struct RatioThresholdOptions {
   double min_ratio = 0.3, max_ratio = 0.95;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("rule", rule);
-    visit("fixed_ratio", fixed_ratio);
-    visit("min_ratio", min_ratio);
-    visit("max_ratio", max_ratio);
-  }
+  ARFM_FIELDS(rule, fixed_ratio, min_ratio, max_ratio)
 };
 
 /// The threshold of the ratio test, nearest over second-nearest distance, for an image. The paper

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
@@ -22,7 +23,7 @@ struct GlobalMapOptions {
   /// learnt in an earlier drive, as it is.
   bool learn_correction = true;
 
-  LoopOptions loops;  ///< places known again; off unless enabled
+  LoopOptions loops;              ///< places known again; off unless enabled
   size_t max_settled_points = 0;  ///< of keyframes that move no more, kept for KnownMap; 0: none
 
   static BundleOptions DefaultSolver() {
@@ -34,14 +35,7 @@ struct GlobalMapOptions {
   /// Keyframes that move in an adjustment.
   int NumMoving() const { return loops.enabled ? loops.max_keyframes : max_keyframes; }
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("solver", solver);
-    visit("min_observations", min_observations);
-    visit("max_keyframes", max_keyframes);
-    visit("learn_correction", learn_correction);
-    visit("loops", loops);
-  }
+  ARFM_FIELDS(solver, min_observations, max_keyframes, learn_correction, loops)
 };
 
 /// The number of keyframes at which an adjustment is due after one at `num_keyframes`: 2, 3, 4, 6,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/local_map.h"
 
@@ -19,12 +20,7 @@ struct KeyframePolicyOptions {
             "keyframes.min_shared_fraction must be in [0, 1]");
     Require(min_tracked_points >= 0, "keyframes.min_tracked_points must not be negative");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("min_parallax_px", min_parallax_px);
-    visit("min_shared_fraction", min_shared_fraction);
-    visit("min_tracked_points", min_tracked_points);
-  }
+  ARFM_FIELDS(min_parallax_px, min_shared_fraction, min_tracked_points)
 };
 
 /// Whether a frame becomes a keyframe: by parallax and overlap with the newest one, not by count.

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
 #include "arfm_vo/mapping/local_map.h"
 
@@ -22,12 +23,7 @@ struct LocalBundleOptions {
   BundleOptions solver = WindowSolver();
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("enabled", enabled);
-    visit("num_keyframes", num_keyframes);
-    visit("solver", solver);
-  }
+  ARFM_FIELDS(enabled, num_keyframes, solver)
 };
 
 /// The newest keyframes of a local map and their points as a bundle problem, with the names of its

@@ -3,17 +3,18 @@
 #include <memory>
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
 #include "arfm_vo/mapping/local_map.h"
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/tracking/frame_tracker.h"
 #include "arfm_vo/odometry/keyframe_archive.h"
 #include "arfm_vo/odometry/keyframe_policy.h"
 #include "arfm_vo/odometry/local_bundle.h"
 #include "arfm_vo/odometry/odometry_update.h"
 #include "arfm_vo/odometry/standstill_lock.h"
 #include "arfm_vo/reconstruction/frame_on_request.h"
+#include "arfm_vo/tracking/frame_tracker.h"
 
 namespace arfm_vo {
 
@@ -29,18 +30,8 @@ struct LocalOdometryOptions {
   double restart_after_lost_s = 3;  ///< without a pose: then a new map is begun; 0: never
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("tracker", tracker);
-    visit("keyframes", keyframes);
-    visit("map", map);
-    visit("bundle", bundle);
-    visit("standstill", standstill);
-    visit("predict_motion", predict_motion);
-    visit("min_points_to_start", min_points_to_start);
-    visit("archived_keyframes", archived_keyframes);
-    visit("restart_after_lost_s", restart_after_lost_s);
-  }
+  ARFM_FIELDS(tracker, keyframes, map, bundle, standstill, predict_motion, min_points_to_start,
+              archived_keyframes, restart_after_lost_s)
 };
 
 /// The pose of each frame against the local map, which it keeps up and refines by windowed bundle

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/bundle_adjustment/bundle_problem.h"
 #include "arfm_vo/mapping/place_recogniser.h"
 #include "arfm_vo/odometry/map_store.h"
@@ -18,12 +19,7 @@ struct LoopOptions {
   int place_keyframes = 10;  ///< at each so manyth one a place ends, of three times as many
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("enabled", enabled);
-    visit("max_keyframes", max_keyframes);
-    visit("min_gap_keyframes", min_gap_keyframes);
-  }
+  ARFM_FIELDS(enabled, max_keyframes, min_gap_keyframes)
 };
 
 /// The newest keyframe stands where an old one stood.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/mapping/landmark.h"
 #include "arfm_vo/pose/pose_estimate.h"
 
@@ -16,10 +17,7 @@ struct StandstillOptions {
   double max_rotation_rad = 0.002;    ///< the same of the rotation
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("enabled", enabled);
-  }
+  ARFM_FIELDS(enabled)
 };
 
 /// Keeps the pose of a parked rover from walking: as long as most points stay where they were in

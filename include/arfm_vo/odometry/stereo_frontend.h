@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/task_thread.h"
 #include "arfm_vo/features/keypoint_mask.h"
 #include "arfm_vo/features/surf.h"
@@ -34,12 +35,7 @@ struct FrontendOptions {
     surf.Check();
     stereo.Check();
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("surf", surf);
-    visit("stereo", stereo);
-    visit("left_mask", left_mask);
-  }
+  ARFM_FIELDS(surf, stereo, left_mask)
 };
 
 /// ARFM: from a stereo pair to the left image's features and the points that both eyes see

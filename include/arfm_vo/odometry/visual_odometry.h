@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/odometry/stereo_frontend.h"
@@ -18,13 +19,7 @@ struct OdometryOptions {
   GlobalMapOptions global;
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("frontend", frontend);
-    visit("odometry", odometry);
-    visit("adjust_globally", adjust_globally);
-    visit("global", global);
-  }
+  ARFM_FIELDS(frontend, odometry, adjust_globally, global)
 };
 
 /// The whole chain in process: what arfm_node, pose_node and ba_node run, without ROS, and with the

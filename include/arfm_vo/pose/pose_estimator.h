@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/ransac.h"
 #include "arfm_vo/pose/pose_estimate.h"
 #include "arfm_vo/pose/pose_refinement.h"
@@ -27,14 +28,7 @@ struct PoseEstimatorOptions {
 
   /// Throws std::invalid_argument naming the key.
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("ransac", ransac);
-    visit("sample_size", sample_size);
-    visit("min_inliers", min_inliers);
-    visit("min_inlier_share", min_inlier_share);
-    visit("refinement", refinement);
-  }
+  ARFM_FIELDS(ransac, sample_size, min_inliers, min_inlier_share, refinement)
 };
 
 /// Where the camera may be by its motion before.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/pose/point_observation.h"
@@ -29,11 +30,7 @@ struct PoseRefinementOptions {
                                       ///< customary: Huber 1.3, Cauchy 2.4, Tukey 4.7
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("step", step);
-    visit("loss", loss);
-  }
+  ARFM_FIELDS(step, loss)
 };
 
 enum class RefinementStatus {

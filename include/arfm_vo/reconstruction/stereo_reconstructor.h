@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/features/features.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/image/stereo_images.h"
@@ -32,17 +33,8 @@ struct StereoReconstructionOptions {
   double keypoint_sigma = kKeypointSigma;  ///< where positions are not refined
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("guided", guided);
-    visit("search", search);
-    visit("matcher", matcher);
-    visit("threshold", threshold);
-    visit("refine_subpixel", refine_subpixel);
-    visit("search_rows", search_rows);
-    visit("max_row_deviation", max_row_deviation);
-    visit("keypoint_sigma", keypoint_sigma);
-  }
+  ARFM_FIELDS(guided, search, matcher, threshold, refine_subpixel, search_rows, max_row_deviation,
+              keypoint_sigma)
 };
 
 /// Features of a rectified pair to points in space. Learns from pair to pair how far the rows of

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/tracking/landmark_matcher.h"
 #include "arfm_vo/tracking/patch_tracker.h"
 
@@ -19,14 +20,7 @@ struct FrameTrackerOptions {
   PoseRefinementOptions refinement;  ///< of the pose on aligned patches
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("guided", guided);
-    matching.VisitFields(visit);
-    visit("pose", pose);
-    visit("align_patches", align_patches);
-    visit("refinement", refinement);
-  }
+  ARFM_FIELDS(guided, (matching), pose, align_patches, refinement)
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or

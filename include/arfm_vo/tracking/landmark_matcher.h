@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/mapping/local_map.h"
@@ -20,13 +21,7 @@ struct LandmarkMatcherOptions {
   double keypoint_sigma = kKeypointSigma;  ///< of a keypoint's position, in units of its scale
 
   void Check() const;
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("search_radius_px", search_radius_px);
-    visit("guided_ratio", guided_ratio);
-    visit("unguided_ratio", unguided_ratio);
-    visit("keypoint_sigma", keypoint_sigma);
-  }
+  ARFM_FIELDS(search_radius_px, guided_ratio, unguided_ratio, keypoint_sigma)
 };
 
 /// Finds landmarks of the local map among a frame's keypoints by their descriptors.

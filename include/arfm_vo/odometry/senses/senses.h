@@ -4,6 +4,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/base_covariance.h"
 #include "arfm_vo/odometry/senses/gyro_sense.h"
 #include "arfm_vo/odometry/senses/track_sense.h"
@@ -16,12 +17,7 @@ struct SensesOptions {
   double max_blind_m = 2;   ///< way on which the tracks carry the pose where no picture tells it
 
   void Check() const { Require(max_blind_m >= 0, "senses.max_blind_m must not be negative"); }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("use_tracks", use_tracks);
-    visit("use_imu", use_imu);
-    visit("max_blind_m", max_blind_m);
-  }
+  ARFM_FIELDS(use_tracks, use_imu, max_blind_m)
 };
 
 /// How a base moved between two times.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/datasets/pair_order.h"
 #include "arfm_vo/odometry/visual_odometry.h"
@@ -31,14 +32,7 @@ struct ArfmNodeOptions {
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_kept_pairs >= 1, "max_kept_pairs must be at least 1");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    algorithm.VisitFields(visit);
-    visit("max_waiting_pairs", max_waiting_pairs);
-    visit("features_always", features_always);
-    visit("max_kept_pairs", max_kept_pairs);
-    learned.VisitFields(visit);
-  }
+  ARFM_FIELDS((algorithm), max_waiting_pairs, features_always, max_kept_pairs, (learned))
 };
 
 /// Rectified stereo pairs in, `features` out: layers image to reconstruction. Pairs are announced,

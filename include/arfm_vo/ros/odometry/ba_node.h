@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/evaluation/trajectory_output.h"
 #include "arfm_vo/odometry/visual_odometry.h"
@@ -41,20 +42,8 @@ struct BaNodeOptions {
     Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
     Require(max_path_poses >= 2, "max_path_poses must be at least 2");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    algorithm.VisitFields(visit);
-    visit("map_frame", map_frame);
-    visit("odom_frame", odom_frame);
-    visit("publish_tf", publish_tf);
-    visit("tf_rate_hz", tf_rate_hz);
-    visit("tf_tolerance_s", tf_tolerance_s);
-    visit("max_time_share", max_time_share);
-    visit("max_path_poses", max_path_poses);
-    trajectory.VisitFields(visit);
-    learned.VisitFields(visit);
-    map.VisitFields(visit);
-  }
+  ARFM_FIELDS((algorithm), map_frame, odom_frame, publish_tf, tf_rate_hz, tf_tolerance_s,
+              max_time_share, max_path_poses, (trajectory), (learned), (map))
 };
 
 /// Keyframes in, the globally adjusted map out (Fig. 4): map_update, path_optimized, landmarks.

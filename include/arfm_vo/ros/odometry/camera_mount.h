@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/evaluation/trajectory_output.h"
 #include "arfm_vo/odometry/session.h"
 
@@ -27,14 +28,7 @@ struct CameraMountOptions {
     Require(max_slew_dps >= 0, "max_slew_dps must not be negative");
     Require(slew_window_s > 0, "slew_window_s must be positive");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("base_frame", base_frame);
-    visit("camera_frame", camera_frame);
-    visit("tf_timeout_s", tf_timeout_s);
-    visit("max_slew_dps", max_slew_dps);
-    visit("slew_window_s", slew_window_s);
-  }
+  ARFM_FIELDS(base_frame, camera_frame, tf_timeout_s, max_slew_dps, slew_window_s)
 };
 
 /// base_from_camera at each image's stamp, from tf.

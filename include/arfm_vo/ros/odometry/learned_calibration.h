@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/correction_belief.h"
 
 namespace arfm_vo {
@@ -11,11 +12,7 @@ struct LearnedCalibrationOptions {
   bool remember_calibration = false;    ///< from drive to drive, a file a camera
   std::string learned_calibration_dir;  ///< where; empty: arfm_vo in ROS's own folder (ROS_HOME)
 
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("remember_calibration", remember_calibration);
-    visit("learned_calibration_dir", learned_calibration_dir);
-  }
+  ARFM_FIELDS(remember_calibration, learned_calibration_dir)
 };
 
 /// What drives tell of the rectification, kept in files. A file that cannot be read or written is

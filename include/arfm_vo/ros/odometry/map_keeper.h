@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/odometry/placed_map.h"
 
@@ -24,12 +25,7 @@ struct MapKeeperOptions {
     Require(map_max_mb >= 0.1 && map_max_mb <= 1e5, "map_max_mb must be in [0.1, 100000]");
     Require(map_save_interval_s > 0, "map_save_interval_s must be positive");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("map_file", map_file);
-    visit("map_max_mb", map_max_mb);
-    visit("map_save_interval_s", map_save_interval_s);
-  }
+  ARFM_FIELDS(map_file, map_max_mb, map_save_interval_s)
 };
 
 /// The file of ba_node's map, and what ba_node says of it. A file that is refused, or that another

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/ros/node/health.h"
 
@@ -20,12 +21,7 @@ struct OdometryHealthOptions {
             "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
     Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("row_residual_warn_px", row_residual_warn_px);
-    visit("row_residual_error_px", row_residual_error_px);
-    visit("row_residual_pairs", row_residual_pairs);
-  }
+  ARFM_FIELDS(row_residual_warn_px, row_residual_error_px, row_residual_pairs)
 };
 
 /// A line for the console.

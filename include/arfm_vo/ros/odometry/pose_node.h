@@ -11,6 +11,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/datasets/exact_pairing.h"
 #include "arfm_vo/datasets/pair_order.h"
@@ -47,18 +48,8 @@ struct PoseNodeOptions {
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_held_pairs >= 0, "max_held_pairs must not be negative");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    algorithm.VisitFields(visit);
-    mount.VisitFields(visit);
-    output.VisitFields(visit);
-    learned.VisitFields(visit);
-    visit("health", health);
-    visit("senses", senses);
-    visit("max_waiting_pairs", max_waiting_pairs);
-    visit("max_held_pairs", max_held_pairs);
-    trajectory.VisitFields(visit);
-  }
+  ARFM_FIELDS((algorithm), (mount), (output), (learned), health, senses, max_waiting_pairs,
+              max_held_pairs, (trajectory))
 };
 
 /// `features` and the images they are from in, the rover's pose out: layers pose to odometry.

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/ros/messages/display_messages.h"
 
@@ -21,12 +22,7 @@ struct PoseOutputOptions {
     Require(!odom_frame.empty(), "odom_frame must not be empty");
     path.Check();
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("odom_frame", odom_frame);
-    visit("publish_tf", publish_tf);
-    visit("path", path);
-  }
+  ARFM_FIELDS(odom_frame, publish_tf, path)
 };
 
 /// How many features the newest pair has for which any were computed.

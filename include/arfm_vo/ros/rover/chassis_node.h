@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/pilot_options.h"
 #include "arfm_vo/hardware/bus_lock.h"
 #include "arfm_vo/ros/input/transform_input.h"
@@ -45,18 +46,8 @@ struct ChassisNodeOptions {
     Require(baseline_m >= 0 && baseline_m < 10, "baseline_m must be in 0..10");
     pilot.Check();
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("can", can);
-    visit("map_frame", map_frame);
-    visit("odom_frame", odom_frame);
-    visit("base_frame", base_frame);
-    visit("max_clock_stall_s", max_clock_stall_s);
-    visit("max_map_age_s", max_map_age_s);
-    visit("max_goal_age_s", max_goal_age_s);
-    visit("baseline_m", baseline_m);
-    visit("pilot", pilot);
-  }
+  ARFM_FIELDS(can, map_frame, odom_frame, base_frame, max_clock_stall_s, max_map_age_s,
+              max_goal_age_s, baseline_m, pilot)
 };
 
 /// Drives the chassis to goals by the pose that tf tells: goals and switches in, CAN frames out.

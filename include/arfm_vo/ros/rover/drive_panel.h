@@ -9,6 +9,7 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/fields.h"
 
 namespace arfm_vo {
 
@@ -20,11 +21,7 @@ struct DrivePanelOptions {
     Require(!base_frame.empty(), "base_frame must not be empty");
     Require(height_m >= 0 && height_m <= 100, "height_m must be in 0..100");
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("base_frame", base_frame);
-    visit("height_m", height_m);
-  }
+  ARFM_FIELDS(base_frame, height_m)
 };
 
 /// What the rover does, in words.
