@@ -20,12 +20,14 @@ class Drive {
 
   /// odom_from_camera.
   SessionUpdate Process(const StereoImages& images) {
-    SessionUpdate update = session_.Process(frontend_.Process(images), camera_, images, Rigid3());
+    const StereoFrame frame = frontend_.Process(images);
+    SessionUpdate update = session_.Process(frame, camera_, images, Rigid3());
     if (update.keyframe) {
       map_.Add(*update.keyframe);
       if (map_.IsAdjustmentDue())
         if (auto result = map_.Adjust()) session_.Offer(std::move(*result), map_.epoch());
     }
+    if (update.update.pose.IsMeasured()) map_.Localise(frame, update.odom_from_base);
     return update;
   }
   PlacedMap& map() { return map_; }

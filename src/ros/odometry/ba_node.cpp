@@ -43,12 +43,17 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
       keeper_(options_.map, options_.map_frame),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(1, [this](const std::exception& error) {
-        figures_.refusals.Add(error.what());
-        told_.Set(figures_);
+      worker_(1,
+              [this](const std::exception& error) {
+                figures_.refusals.Add(error.what());
+                told_.Set(figures_);
+              }),
+      pairs_(node, options_.camera_frame, [this](const TrackedPair& pair) {
+        worker_.PostLossy([this, pair] { Localise(pair); });
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("global adjustment", [this](Diagnostics& status) { Report(status); });
+  diagnostics_.add("global adjustment",
+                   [this](Diagnostics& status) { told_.Get().Report(keeper_.told(), status); });
   Subscribe(node);
   save_ = OfferTrigger(private_node, "save_trajectory",
                        [this] { return trajectory_output_.Save(trajectory_.Get()); });
@@ -89,12 +94,10 @@ void BaNode::Subscribe(ros::NodeHandle& node) {
                                                [this](const KeyframeStampedConstPtr& keyframe) {
                                                  worker_.Post([this, keyframe] { Add(*keyframe); });
                                                });
-  odometry_ = node.subscribe<nav_msgs::Odometry>(
-      "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
   stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       "initialpose", 1, [this](const auto& stated) {
         worker_.Post(
-            [this, stated, odometry = newest_odometry_] { PlaceRover(*stated, odometry); });
+            [this, stated, odometry = pairs_.newest_odometry()] { PlaceRover(*stated, odometry); });
       });
 }
 
@@ -153,10 +156,26 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
   Publish();
 }
 
+void BaNode::Localise(const TrackedPair& pair) {
+  if (pair.epoch != map_.epoch()) return;
+  try {
+    Require(FromMessage(pair.frame->camera) == map_.camera(), "features are of another camera");
+    map_.Localise(FromMessage(*pair.frame), pairs_.OdomFromCamera(pair));
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_THROTTLE(10, "the rover is not looked for in the map: %s", error.what());
+  }
+  TellMapState();
+}
+
 void BaNode::Tell() {
+  trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+  TellMapState();
+}
+
+void BaNode::TellMapState() {
   figures_.map_from_odom = map_.map_from_odom();
   told_.Set(figures_);
-  trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+  pairs_.Want(map_.localiser().state() == MapState::kLocalising);
   if (const auto status = keeper_.News(map_, newest_)) {
     map_status_.publish(*status);
     const std::vector<MapPose> poses = map_.BasePoses();
@@ -221,30 +240,6 @@ void BaNode::Publish() const {
   sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
   cloud.header = path.header;
   landmarks_.publish(cloud);
-}
-
-void BaNode::Report(Diagnostics& status) const {
-  const Figures figures = told_.Get();
-  status.add("keyframes", figures.num_keyframes);
-  status.add("landmarks", figures.num_landmarks);
-  status.add("loops closed", figures.num_loops);
-  status.add("map", keeper_.told());
-  status.add("adjustments", figures.num_adjustments);
-  status.add("keyframes refused", figures.refusals.num());
-  status.add("iteration", figures.iteration);
-  status.addf("cost", "%.1f", figures.cost);
-  status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
-  status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
-  status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
-  status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
-              figures.radial_px.mean, figures.radial_px.sigma);
-  status.addf("calibration: focal length of both images off by (%)", "%.2f, sigma %.2f",
-              100 * figures.focal_length_excess.mean, 100 * figures.focal_length_excess.sigma);
-  if (figures.refusals.IsTold(status)) return;
-  if (figures.num_failed > 0)
-    return status.summaryf(Diagnostics::WARN, "%d adjustments found no solution",
-                           figures.num_failed);
-  status.summary(Diagnostics::OK, figures.is_adjusting ? "adjusting" : "waiting");
 }
 
 }  // namespace arfm_vo
