@@ -126,7 +126,7 @@ void BaNode::Add(const KeyframeStamped& message) {
   figures_.num_landmarks = map_.num_landmarks();
   figures_.num_loops = map_.num_loops();
   figures_.refusals.Clear();
-  Tell();
+  Tell(false);
   settles_ = ros::WallTime::now() + kSettled;
   if (!options_.algorithm.adjust_globally || !map_.IsAdjustmentDue()) return;
   if (const std::optional<MapUpdate> update = Adjust()) {
@@ -152,8 +152,7 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
     ROS_WARN("refused: %s", error.what());
     return;
   }
-  Tell();
-  Publish();
+  Tell(true);
 }
 
 void BaNode::Localise(const TrackedPair& pair) {
@@ -167,9 +166,10 @@ void BaNode::Localise(const TrackedPair& pair) {
   TellMapState();
 }
 
-void BaNode::Tell() {
+void BaNode::Tell(bool with_landmarks) {
   trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
   TellMapState();
+  Publish(with_landmarks);
 }
 
 void BaNode::TellMapState() {
@@ -180,7 +180,7 @@ void BaNode::TellMapState() {
     map_status_.publish(*status);
     const std::vector<MapPose> poses = map_.BasePoses();
     map_text_.publish(MakeMapText(*status, poses.empty() ? Rigid3() : poses.back().map_from_base));
-    if (status->state == MapStatus::LOCALISED) Publish();
+    if (status->state == MapStatus::LOCALISED) Publish(true);
   }
 }
 
@@ -204,8 +204,7 @@ std::optional<MapUpdate> BaNode::Adjust() {
     learned_.Write(update->correction);
     WarnOfCalibration(update->correction);
   }
-  Tell();
-  if (update) Publish();
+  Tell(update.has_value());
   return update;
 }
 
@@ -224,19 +223,21 @@ void BaNode::WarnOfCalibration(const CorrectionBelief& learnt) {
       radial_px.mean, radial_px.sigma, 100 * excess.mean, 100 * excess.sigma);
 }
 
-void BaNode::Publish() const {
+void BaNode::Publish(bool with_landmarks) const {
   const std::vector<MapPose> poses = map_.BasePoses();
   nav_msgs::Path path;
   path.header.stamp = newest_;
   path.header.frame_id = options_.map_frame;
   const size_t stride = 1 + poses.size() / options_.max_path_poses;
-  for (size_t i = (poses.size() - 1) % stride; i < poses.size(); i += stride) {
-    path.poses.emplace_back();
-    path.poses.back().header.frame_id = options_.map_frame;
-    path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
-    path.poses.back().pose = ToPoseMessage(poses[i].map_from_base);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (i % stride != 0 && i + 1 != poses.size()) continue;
+    geometry_msgs::PoseStamped& place = path.poses.emplace_back();
+    place.header.frame_id = options_.map_frame;
+    place.header.stamp.fromSec(poses[i].stamp_s);
+    place.pose = ToPoseMessage(poses[i].map_from_base);
   }
   path_.publish(path);
+  if (!with_landmarks) return;
   sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
   cloud.header = path.header;
   landmarks_.publish(cloud);

@@ -73,14 +73,15 @@ class BaNode {
   // On the worker's thread:
   void Add(const KeyframeStamped& message);
   std::optional<MapUpdate> Adjust();
-  void Publish() const;
+  /// The path, and the landmarks where they may have moved.
+  void Publish(bool with_landmarks) const;
   void WarnOfCalibration(const CorrectionBelief& learnt);
   /// Where a person states that the rover stands; `odometry` is the newest, or null.
   void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
                   const nav_msgs::OdometryConstPtr& odometry);
   std::string SaveMap();
   void Localise(const TrackedPair& pair);
-  void Tell();
+  void Tell(bool with_landmarks);
   void TellMapState();
 
   const BaNodeOptions options_;

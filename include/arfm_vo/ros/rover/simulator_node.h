@@ -11,6 +11,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arfm_vo/hardware/simulated_ptu_port.h"
 #include "arfm_vo/rehearsal/rehearsal.h"
@@ -30,7 +31,8 @@ struct SimulatorNodeOptions {
   double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
   double max_wait_s = 10;      ///< ..for so much wall time at most
   double pair_period_s = 0.5;  ///< simulated time between stereo pairs
-  std::string picture;         ///< PNG of the drive, written when a goal has ended; empty: none
+  std::vector<double> start = {0, 0, 0};  ///< of the rover: x, y, m, and heading, rad, in the world
+  std::string picture;  ///< PNG of the drive, written when a goal has ended; empty: none
   TerrainOptions terrain;
   TrackedPlantOptions plant;
   StereoRigOptions rig;
@@ -49,6 +51,7 @@ struct SimulatorNodeOptions {
     visit("max_latency_s", max_latency_s);
     visit("max_wait_s", max_wait_s);
     visit("pair_period_s", pair_period_s);
+    visit("start", start);
     visit("picture", picture);
     visit("terrain", terrain);
     visit("plant", plant);
