@@ -7,7 +7,7 @@
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
-#include "mapping/waking_drive.h"
+#include "mapping/odometry_chain.h"
 
 namespace arfm_vo {
 namespace {
@@ -52,7 +52,7 @@ class Site {
 void RunSimulated(int num_restarts, int num_elsewhere) {
   const PlanarPath path = SamplePath({}, {{8, 0.8}}, 0.1, 1, 80);
   const Site noon(40, 130, 1);
-  Drive first(Site::kRover);
+  OdometryChain first(Site::kRover);
   first.map().Keep({}, kMaxPoints);
   std::vector<Rigid3> eyes;
   for (const PlanarPose& pose : path) {
@@ -78,7 +78,7 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
     start.position += Eigen::Vector2d(between(-0.7, 0.7), between(-0.7, 0.7));
     start.heading_rad += between(-20, 20) * M_PI / 180;
     if (!is_near) start.position += Eigen::Vector2d(30 + between(0, 20), between(-30, 30));
-    Drive drive(Site::kRover);
+    OdometryChain drive(Site::kRover);
     drive.map().Keep(map, kMaxPoints);
     ++result.starts;
     const PlanarPath way = SamplePath(start, {{4, 0}}, 0.1, 1, 30);
