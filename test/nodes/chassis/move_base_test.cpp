@@ -216,8 +216,10 @@ TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) 
   EXPECT_TRUE(world_->RunUntil([&] { return says("LOCALISING"); }));
   status.state = MapStatus::LOCALISED;
   statuses.publish(status);
+  world_->reports_.clear();
   EXPECT_TRUE(world_->RunUntil([&] { return says("drives home"); }));
-  EXPECT_TRUE(world_->RunUntil([] { return world_->reports_.back().text == "arrived"; }));
+  EXPECT_TRUE(world_->RunUntil(
+      [] { return !world_->reports_.empty() && world_->reports_.back().text == "arrived"; }));
   const RoverPose home = Advance(start, 0.6, 0), end = world_->chassis_.plant().Pose();
   EXPECT_LT(std::hypot(end.x_m - home.x_m, end.y_m - home.y_m), 0.06);
 }
