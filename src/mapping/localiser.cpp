@@ -89,25 +89,19 @@ bool Localiser::KnowsOtherFrames() const {
 std::optional<Rigid3> Localiser::Localise(const std::vector<SeenPoint>& view,
                                           const Rigid3& odom_from_camera,
                                           const Rigid3& map_from_odom) {
-  constexpr int kNone = -1;
-  const auto place =
-      finder_->Find(view, odom_from_camera, map_.keyframes, is_localised_ ? kNone : own_frame_);
+  const auto place = finder_->Find(view, odom_from_camera, map_.keyframes, own_frame_);
   if (!place) return std::nullopt;
+  const Rigid3 other_from_own =
+      place->map_from_camera * (map_from_odom * odom_from_camera).Inverse();
   const KnownKeyframe& keyframe = map_.keyframes[place->keyframe];
-  const Rigid3 believed = map_from_odom * odom_from_camera;
-  const bool is_own = keyframe.frame == own_frame_;
-  if (is_own && place->Allows(believed)) return std::nullopt;
-  const Rigid3 map_from_camera = place->camera_from_map.Inverse();
-  const Rigid3 other_from_own = map_from_camera * believed.Inverse();
   const double aside_m =
-      (keyframe.map_from_camera.translation - map_from_camera.translation).norm();
+      (keyframe.map_from_camera.translation - place->map_from_camera.translation).norm();
   found_ = "keyframe " + std::to_string(place->keyframe) + " of the map, " +
            FormatNumber(std::round(100 * aside_m) / 100) + " m from it";
   if (Contradicts(other_from_own * map_from_odom)) {
     found_ += ": not taken, it contradicts where the rover is stated to stand";
     return std::nullopt;
   }
-  if (is_own) return other_from_own;
   const int older = std::min(keyframe.frame, own_frame_);
   const int newer = std::max(keyframe.frame, own_frame_);
   const bool moves = newer == own_frame_;

@@ -28,44 +28,40 @@ void PlaceFinder::Add(const std::vector<KnownKeyframe>& known, size_t first) {
   }
 }
 
-bool FoundPlace::Allows(const Rigid3& map_from_camera) const {
-  const Rigid3 error = camera_from_map * map_from_camera;
-  Eigen::Matrix<double, 6, 1> step;
-  step << LogSO3(error.rotation), error.translation;
-  return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kProbability);
-}
-
 bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest) {
   if (earlier.frame != newest.frame) return false;
   const Rigid3 newest_from_earlier = newest.odom_from_camera.Inverse() * earlier.odom_from_camera;
   // The error is in the newest camera's frame; that of the earlier sighting is carried there.
-  FoundPlace both = newest.place;
-  both.covariance += CarryCovariance(newest_from_earlier, earlier.place.covariance);
+  const Rigid3 error =
+      newest.camera_from_map * (newest_from_earlier * earlier.camera_from_map).Inverse();
+  Eigen::Matrix<double, 6, 1> step;
+  step << LogSO3(error.rotation), error.translation;
+  Matrix6 covariance = newest.covariance + CarryCovariance(newest_from_earlier, earlier.covariance);
   const double sigma_m = kSigma_m + kSigmaShare * newest_from_earlier.translation.norm();
-  both.covariance.diagonal().head<3>().array() += kSigma_rad * kSigma_rad;
-  both.covariance.diagonal().tail<3>().array() += sigma_m * sigma_m;
-  return both.Allows((newest_from_earlier * earlier.place.camera_from_map).Inverse());
+  covariance.diagonal().head<3>().array() += kSigma_rad * kSigma_rad;
+  covariance.diagonal().tail<3>().array() += sigma_m * sigma_m;
+  return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kProbability);
 }
 
 std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,
                                             const Rigid3& odom_from_camera,
-                                            const std::vector<KnownKeyframe>& known, int excluded) {
+                                            const std::vector<KnownKeyframe>& known,
+                                            int own_frame) {
   const auto found = recogniser_.Find(
-      view, [&](int place, PlacePoint&) { return known[places_[place]].frame != excluded; });
+      view, [&](int place, PlacePoint&) { return known[places_[place]].frame != own_frame; });
   if (!found || found->log_false_alarms > kMaxLogFalseAlarms) return std::nullopt;
   const size_t keyframe = places_[found->place];
-  const Sighting newest{
-      odom_from_camera,
-      known[keyframe].frame,
-      {keyframe, found->pose.camera_from_world * known[keyframe].map_from_camera.Inverse(),
-       found->pose.covariance}};
+  const KnownKeyframe& place = known[keyframe];
+  const Sighting newest{odom_from_camera, place.frame,
+                        found->pose.camera_from_world * place.map_from_camera.Inverse(),
+                        found->pose.covariance};
   const bool is_confirmed =
       std::any_of(sightings_.begin(), sightings_.end(),
                   [&](const Sighting& earlier) { return Agree(earlier, newest); });
   sightings_.push_back(newest);
   if (sightings_.size() > kMaxSightings) sightings_.pop_front();
   if (!is_confirmed) return std::nullopt;
-  return newest.place;
+  return FoundPlace{keyframe, newest.camera_from_map.Inverse()};
 }
 
 }  // namespace arfm_vo

@@ -1,7 +1,6 @@
 #include "arfm_vo/odometry/placed_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "corrected_frame.h"
@@ -10,7 +9,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr int kMaxSettledLandmarks = 20000;  ///< for display
-constexpr double kLookInterval_s = 1;        ///< of a drive that is found
+constexpr int kLookInterval = 3;             ///< keyframes, between looking for further frames
 
 }  // namespace
 
@@ -36,6 +35,9 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   for (const Landmark& landmark : keyframe.landmarks)
     first_depths_m_[landmark.id] =
         static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
+  if (localiser_.state() == MapState::kLocalised && num_keyframes() % kLookInterval == 1)
+    Localise(global_->store().NewestView(camera_, global_->correction().mean),
+             keyframe.odom_from_world * seen.camera_from_world.Inverse());
   return !is_restarted;
 }
 
@@ -73,14 +75,15 @@ KnownMap PlacedMap::MakeKnownMap() const {
 }
 
 void PlacedMap::Localise(const StereoFrame& frame, const Rigid3& odom_from_camera) {
-  if (!global_ || !localiser_.MayLocalise(camera_)) return;
-  const bool is_found = localiser_.state() == MapState::kLocalised;
-  if (is_found && std::abs(frame.stamp_s - looked_s_) < kLookInterval_s) return;
-  looked_s_ = frame.stamp_s;
+  if (!global_ || localiser_.state() != MapState::kLocalising) return;
   const StereoCorrection& correction = global_->correction().mean;
-  const auto new_from_old = localiser_.Localise(
-      PointsSeen(camera_, correction, Corrected(frame, camera_, correction, Rigid3())),
-      odom_from_camera, map_from_odom());
+  Localise(PointsSeen(camera_, correction, Corrected(frame, camera_, correction, Rigid3())),
+           odom_from_camera);
+}
+
+void PlacedMap::Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera) {
+  if (!localiser_.MayLocalise(camera_)) return;
+  const auto new_from_old = localiser_.Localise(view, odom_from_camera, map_from_odom());
   if (new_from_old) frame_.Move(*new_from_old);
 }
 

@@ -30,14 +30,13 @@ class Localiser {
 
   /// An epoch is over, and the next begins.
   void Close(std::vector<KnownKeyframe> epoch, const StereoCamera& camera);
-  /// Looks for the newest epoch's next view in older frames and, once it is found in one, in all.
-  /// Returns how the map frame moves, new_from_old, where the epoch came to lie in an older one, or
-  /// lies elsewhere in it than was believed.
+  /// Looks for the newest epoch's next view in older frames. Returns how the map frame moves,
+  /// new_from_old, where the epoch came to lie in an older one.
   std::optional<Rigid3> Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera,
                                  const Rigid3& map_from_odom);
   /// Whether there is what Localise could find with this camera.
   bool MayLocalise(const StereoCamera& camera) const {
-    return camera == map_.camera && (is_localised_ || KnowsOtherFrames());
+    return camera == map_.camera && KnowsOtherFrames();
   }
   /// A person states where the rover stands, which is `new_from_old` from where it was believed to
   /// be. All in the map frame moves; of a map that is kept the newest epoch alone, which is looked

@@ -11,12 +11,8 @@ namespace arfm_vo {
 
 /// Where a drive stands in a known map.
 struct FoundPlace {
-  size_t keyframe = 0;                     ///< of the map, that showed the view
-  Rigid3 camera_from_map;                  ///< in that keyframe's map frame
-  Eigen::Matrix<double, 6, 6> covariance;  ///< of the steps of BoxPlus(camera_from_map, .)
-
-  /// Whether it may be there, at 99 %.
-  bool Allows(const Rigid3& map_from_camera) const;
+  size_t keyframe = 0;     ///< of the map, that showed the view
+  Rigid3 map_from_camera;  ///< in that keyframe's map frame
 };
 
 /// Finds where a drive stands in a known map by what it sees alone. A place is found where a view
@@ -28,18 +24,20 @@ class PlaceFinder {
   /// Knows those from `first` on that have points, too.
   void Add(const std::vector<KnownKeyframe>& known, size_t first);
 
-  /// Looks for a drive's next view among places of all frames but `excluded`; `known` is what was
-  /// added, where it lies by now.
+  /// Looks for a drive's next view among places of other frames than `own_frame`; `known` is what
+  /// was added, where it lies by now.
   std::optional<FoundPlace> Find(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera,
-                                 const std::vector<KnownKeyframe>& known, int excluded);
+                                 const std::vector<KnownKeyframe>& known, int own_frame);
   /// What was recognised before is of another drive, or of other frames.
   void ForgetSightings() { sightings_.clear(); }
 
  private:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
   struct Sighting {
     Rigid3 odom_from_camera;
     int frame = 0;  ///< of the place
-    FoundPlace place;
+    Rigid3 camera_from_map;
+    Matrix6 covariance;  ///< of the steps of BoxPlus(camera_from_map, .)
   };
   static bool Agree(const Sighting& earlier, const Sighting& newest);
 

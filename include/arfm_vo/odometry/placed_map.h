@@ -40,9 +40,8 @@ class PlacedMap {
   /// false where the keyframe is of a restarted odometry (its epoch or stamp is before what came):
   /// then all that was before is forgotten, or what is kept is looked for.
   bool Add(const PlacedKeyframe& keyframe);
-  /// Looks for a pair of the newest epoch in what is kept: for each while the map is kLocalising,
-  /// for one a second afterwards. The map frame moves where the pair is found elsewhere than was
-  /// believed. To be called for each pair, keyframe or not.
+  /// Looks for a pair of the newest epoch in what is kept, while the map is kLocalising; where it
+  /// is found, the map frame moves. To be called for each pair, keyframe or not.
   void Localise(const StereoFrame& frame, const Rigid3& odom_from_camera);
   /// Whether the newest keyframe calls for an adjustment.
   bool IsAdjustmentDue() const { return global_ && global_->IsAdjustmentDue(); }
@@ -87,6 +86,7 @@ class PlacedMap {
   void TakeLandmarks(const MapUpdate& update);
   std::vector<KnownKeyframe> NewestPlaces(bool with_points) const;
   void CloseEpoch();
+  void Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera);
   Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
 
   GlobalMapOptions options_;
@@ -99,7 +99,6 @@ class PlacedMap {
   std::map<LandmarkId, float> first_depths_m_;
   std::map<LandmarkId, Eigen::Vector3d> adjusted_;  // in this epoch
   Localiser localiser_;
-  double looked_s_ = 0;                          ///< stamp of the pair that was looked for last
   std::vector<LandmarkPoint> closed_landmarks_;  ///< where what they show is not kept
 };
 

@@ -175,7 +175,7 @@ void BaNode::Tell(bool with_landmarks) {
 void BaNode::TellMapState() {
   figures_.map_from_odom = map_.map_from_odom();
   told_.Set(figures_);
-  pairs_.Want(map_.localiser().state() != MapState::kNewMap);
+  pairs_.Want(map_.localiser().state() == MapState::kLocalising);
   if (const auto status = keeper_.News(map_, newest_)) {
     map_status_.publish(*status);
     const std::vector<MapPose> poses = map_.BasePoses();
