@@ -11,10 +11,11 @@ int main(int argc, char** argv) {
       argc, argv, "chassis_node", R"(Drives the tracked chassis to goals by the pose that tf tells.
 
 in    goal, move_base_simple/goal (geometry_msgs/PoseStamped), waypoints (nav_msgs/Path), cmd_vel,
-      emergency_stop (std_msgs/Bool), odom, operator_answer, /diagnostics
+      emergency_stop (std_msgs/Bool), odom, operator_answer, path_optimized (nav_msgs/Path), map_status, /diagnostics
 act   move_base (move_base_msgs/MoveBaseAction)
 out   drive_status, goal_report, plan (nav_msgs/Path), track_odom (nav_msgs/Odometry), slip, chassis_state, battery,
       operator_challenge, /diagnostics
 tf    in map_frame and odom_frame -> base_frame
-srv   ~check, ~start, ~stop, ~cancel, ~clear_errors (std_srvs/Trigger))");
+srv   ~check, ~start, ~stop, ~cancel, ~clear_errors, ~set_datum, ~release_emergency_stop
+      (std_srvs/Trigger); ~drive_home: back over driven ground to where path_optimized begins)");
 }

@@ -12,7 +12,6 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kProbability = 0.99;  ///< that a place agrees with a statement that is right
-constexpr int kInterval = 3;           ///< keyframes, between looking for other frames
 
 }  // namespace
 
@@ -87,15 +86,13 @@ bool Localiser::KnowsOtherFrames() const {
   return std::any_of(map_.keyframes.begin(), map_.keyframes.end(), is_other);
 }
 
-std::optional<Rigid3> Localiser::Localise(const std::vector<SeenPoint>& view, int number,
-                                          const std::function<Rigid3(int)>& camera_from_world,
-                                          const Rigid3& map_from_world,
+std::optional<Rigid3> Localiser::Localise(const std::vector<SeenPoint>& view,
+                                          const Rigid3& odom_from_camera,
                                           const Rigid3& map_from_odom) {
-  if (is_localised_ && number % kInterval != 0) return std::nullopt;
-  const auto place = finder_->Find(view, number, camera_from_world, map_.keyframes, own_frame_);
+  const auto place = finder_->Find(view, odom_from_camera, map_.keyframes, own_frame_);
   if (!place) return std::nullopt;
   const Rigid3 other_from_own =
-      place->map_from_camera * camera_from_world(number) * map_from_world.Inverse();
+      place->map_from_camera * (map_from_odom * odom_from_camera).Inverse();
   const KnownKeyframe& keyframe = map_.keyframes[place->keyframe];
   const double aside_m =
       (keyframe.map_from_camera.translation - place->map_from_camera.translation).norm();

@@ -10,10 +10,11 @@ namespace arfm_vo {
 namespace {
 
 constexpr size_t kMaxSightings = 8;
-constexpr int kMinAgreeing = 2;        ///< sightings before the newest
 constexpr double kProbability = 0.99;  ///< that sightings of one map agree
+/// Ground that looks alike everywhere gave down to -45 on maps of other places.
+constexpr double kMaxLogFalseAlarms = -150;
 
-/// How sure the motion between two keyframes is, and that between two places of the map: 1 % of the
+/// How sure the motion between two views is, and that between two places of the map: 1 % of the
 /// way, and the directions of ways in proportion.
 constexpr double kSigma_rad = 2e-3, kSigma_m = 1e-2, kSigmaShare = 1e-2;
 
@@ -27,9 +28,9 @@ void PlaceFinder::Add(const std::vector<KnownKeyframe>& known, size_t first) {
   }
 }
 
-bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest,
-                        const Rigid3& newest_from_earlier) {
+bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest) {
   if (earlier.frame != newest.frame) return false;
+  const Rigid3 newest_from_earlier = newest.odom_from_camera.Inverse() * earlier.odom_from_camera;
   // The error is in the newest camera's frame; that of the earlier sighting is carried there.
   const Rigid3 error =
       newest.camera_from_map * (newest_from_earlier * earlier.camera_from_map).Inverse();
@@ -42,27 +43,24 @@ bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest,
   return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kProbability);
 }
 
-std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view, int number,
-                                            const std::function<Rigid3(int)>& camera_from_world,
+std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,
+                                            const Rigid3& odom_from_camera,
                                             const std::vector<KnownKeyframe>& known,
                                             int own_frame) {
   const auto found = recogniser_.Find(
       view, [&](int place, PlacePoint&) { return known[places_[place]].frame != own_frame; });
-  if (!found) return std::nullopt;
+  if (!found || found->log_false_alarms > kMaxLogFalseAlarms) return std::nullopt;
   const size_t keyframe = places_[found->place];
   const KnownKeyframe& place = known[keyframe];
-  const Sighting newest{number, place.frame,
+  const Sighting newest{odom_from_camera, place.frame,
                         found->pose.camera_from_world * place.map_from_camera.Inverse(),
                         found->pose.covariance};
-  const Rigid3 newest_from_world = camera_from_world(number);
-  const auto num_agreeing =
-      std::count_if(sightings_.begin(), sightings_.end(), [&](const Sighting& earlier) {
-        return Agree(earlier, newest,
-                     newest_from_world * camera_from_world(earlier.number).Inverse());
-      });
+  const bool is_confirmed =
+      std::any_of(sightings_.begin(), sightings_.end(),
+                  [&](const Sighting& earlier) { return Agree(earlier, newest); });
   sightings_.push_back(newest);
   if (sightings_.size() > kMaxSightings) sightings_.pop_front();
-  if (num_agreeing < kMinAgreeing) return std::nullopt;
+  if (!is_confirmed) return std::nullopt;
   return FoundPlace{keyframe, newest.camera_from_map.Inverse()};
 }
 

@@ -1,6 +1,10 @@
 #include "arfm_vo/mapping/place_recogniser.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/pose/reprojection.h"
 
 namespace arfm_vo {
 namespace {
@@ -41,6 +45,29 @@ std::vector<std::pair<int, int>> Match(const Place& place, const std::vector<See
     if (is_unique) matches.emplace_back(found, j);
   }
   return matches;
+}
+
+double LogChoose(int n, int k) {
+  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+}
+
+/// RecognisedPlace::log_false_alarms.
+double LogFalseAlarms(const StereoCamera& camera, const std::vector<PointObservation>& matches,
+                      const PoseEstimate& pose) {
+  const double bounds[] = {ChiSquareQuantile(2, kInlierProbability),
+                           ChiSquareQuantile(3, kInlierProbability)};
+  const int num_matches = static_cast<int>(matches.size()), size = RecognitionPose().sample_size;
+  double num_alike = 1;
+  for (const PointObservation& match : matches) {
+    const Eigen::Vector3d x = pose.camera_from_world * match.x_in_world;
+    if (x.z() <= kMinDepth) continue;
+    for (const PointObservation& other : matches) {
+      const double error = ReprojectionError(camera, other, x).squaredNorm();
+      num_alike += &other != &match && error < bounds[other.has_right] * Square(other.sigma_px);
+    }
+  }
+  return LogChoose(num_matches, pose.num_inliers) + LogChoose(pose.num_inliers, size) +
+         (pose.num_inliers - size) * std::log(num_alike / Square(num_matches));
 }
 
 }  // namespace
@@ -141,9 +168,10 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
     observations.back().x_in_world = known[point].x_in_place;
   }
   std::vector<char> is_inlier;
-  RecognisedPlace found{place, {}, {}};
+  RecognisedPlace found{place, {}, 0, {}};
   found.pose = EstimatePose(camera_, observations, std::nullopt, RecognitionPose(), &is_inlier);
   if (!found.pose.IsTracked()) return std::nullopt;
+  found.log_false_alarms = LogFalseAlarms(camera_, observations, found.pose);
   found.pose.covariance.diagonal().head<3>().array() += Square(kMinSigma_rad);
   found.pose.covariance.diagonal().tail<3>().array() += Square(kMinSigma_m);
   for (size_t i = 0; i < matches.size(); ++i) {

@@ -34,13 +34,16 @@ std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
 
 Place MapStore::PlaceOf(int k) const {
   if (k < static_cast<int>(settled.size())) return settled[k].points;
-  Place place;
+  Place place, seen_once;
   for (const LandmarkObservation& seen : keyframes[k].observations) {
     const auto landmark = Find(seen.landmark);
-    if (landmark == landmarks.end() || landmark->second.num_observations < 2) continue;
-    place.push_back({landmark->first, keyframes[k].camera_from_world * landmark->second.x_in_world,
-                     landmark->second.appearance});
+    if (landmark == landmarks.end()) continue;
+    (landmark->second.num_observations < 2 ? seen_once : place)
+        .push_back({landmark->first, keyframes[k].camera_from_world * landmark->second.x_in_world,
+                    landmark->second.appearance});
   }
+  if (static_cast<int>(place.size()) >= RecognitionPose().min_inliers) return place;
+  place.insert(place.end(), seen_once.begin(), seen_once.end());
   return place;
 }
 

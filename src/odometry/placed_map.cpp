@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
+#include "corrected_frame.h"
+
 namespace arfm_vo {
 namespace {
 
 constexpr int kMaxSettledLandmarks = 20000;  ///< for display
+constexpr int kLookInterval = 3;             ///< keyframes, between looking for further frames
 
 }  // namespace
 
@@ -32,7 +35,9 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   for (const Landmark& landmark : keyframe.landmarks)
     first_depths_m_[landmark.id] =
         static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
-  if (localiser_.MayLocalise(camera_)) Localise();
+  if (localiser_.state() == MapState::kLocalised && num_keyframes() % kLookInterval == 1)
+    Localise(global_->store().NewestView(camera_, global_->correction().mean),
+             keyframe.odom_from_world * seen.camera_from_world.Inverse());
   return !is_restarted;
 }
 
@@ -69,12 +74,16 @@ KnownMap PlacedMap::MakeKnownMap() const {
   return map;
 }
 
-void PlacedMap::Localise() {
-  const MapStore& store = global_->store();
-  const auto new_from_old = localiser_.Localise(
-      store.NewestView(camera_, global_->correction().mean), num_keyframes() - 1,
-      [&](int number) { return store.keyframes[number].camera_from_world; },
-      frame_.map_from_world(), map_from_odom());
+void PlacedMap::Localise(const StereoFrame& frame, const Rigid3& odom_from_camera) {
+  if (!global_ || localiser_.state() != MapState::kLocalising) return;
+  const StereoCorrection& correction = global_->correction().mean;
+  Localise(PointsSeen(camera_, correction, Corrected(frame, camera_, correction, Rigid3())),
+           odom_from_camera);
+}
+
+void PlacedMap::Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera) {
+  if (!localiser_.MayLocalise(camera_)) return;
+  const auto new_from_old = localiser_.Localise(view, odom_from_camera, map_from_odom());
   if (new_from_old) frame_.Move(*new_from_old);
 }
 

@@ -63,13 +63,11 @@ class LocaliserTest : public ::testing::Test {
     return {"map", kCamera, {}, std::move(keyframes)};
   }
 
-  /// Keyframe `number` of a drive that began at `first_m` and says that each metre is `said_m`.
+  /// View `number` of a drive that began at `first_m` and says that each metre is `said_m`.
   std::optional<Rigid3> Drive(Localiser& localiser, double first_m, int number,
                               double said_m = 1) const {
     if (!localiser.MayLocalise(kCamera)) return std::nullopt;
-    return localiser.Localise(
-        See(At(first_m + number)), number, [&](int k) { return At(said_m * k).Inverse(); },
-        Rigid3(), Rigid3());
+    return localiser.Localise(See(At(first_m + number)), At(said_m * number), Rigid3());
   }
 
   std::vector<Point> points_;
@@ -86,20 +84,39 @@ class LocaliserTest : public ::testing::Test {
   }
 };
 
-TEST_F(LocaliserTest, IsFoundByThreeKeyframesAndNotBefore) {
+TEST_F(LocaliserTest, IsFoundByTwoViewsAndNotBefore) {
   Localiser localiser;
   localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
   EXPECT_FALSE(Drive(localiser, 4.3, 0));
-  EXPECT_FALSE(Drive(localiser, 4.3, 1));
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
-  const auto map_from_own = Drive(localiser, 4.3, 2);
+  const auto map_from_own = Drive(localiser, 4.3, 1);
   ASSERT_TRUE(map_from_own);
   EXPECT_EQ(localiser.state(), MapState::kLocalised);
   EXPECT_NEAR(map_from_own->translation.x(), 4.3, 1e-3);
   EXPECT_LT(map_from_own->Angle(), 1e-3);
   EXPECT_EQ(localiser.own_frame(), 0);
   EXPECT_NE(localiser.found().find("of the map"), std::string::npos) << localiser.found();
+}
+
+TEST_F(LocaliserTest, IsFoundAtRest) {
+  Localiser localiser;
+  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  EXPECT_FALSE(Drive(localiser, 4.3, 0));
+  EXPECT_TRUE(Drive(localiser, 4.3, 0));
+}
+
+TEST_F(LocaliserTest, APoseOnWhichAThirdOfTheMatchesAgreeMayBeChance) {
+  std::vector<SeenPoint> view = See(At(4.3));
+  view.resize(90);
+  for (const bool is_exact : {true, false}) {
+    for (size_t i = 30; !is_exact && i + 1 < view.size(); ++i)
+      std::swap(view[i].observation, view[i + 1].observation);
+    Localiser localiser;
+    localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+    for (int i = 0; i < 3; ++i) localiser.Localise(view, Rigid3(), Rigid3());
+    EXPECT_EQ(localiser.state() == MapState::kLocalised, is_exact);
+  }
 }
 
 TEST_F(LocaliserTest, PlacesThatAreNotWhereTheMotionLeadsAreNotTaken) {
@@ -124,8 +141,8 @@ TEST_F(LocaliserTest, WithoutAMapItIsANewOneAndAClosedEpochIsFound) {
   localiser.Close(Epoch(0, 8, localiser.own_frame()), kCamera);
   EXPECT_EQ(localiser.own_frame(), 1);
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
-  for (int k = 0; k < 2; ++k) EXPECT_FALSE(Drive(localiser, 2, k));
-  EXPECT_TRUE(Drive(localiser, 2, 2));
+  EXPECT_FALSE(Drive(localiser, 2, 0));
+  EXPECT_TRUE(Drive(localiser, 2, 1));
   EXPECT_EQ(localiser.own_frame(), 0);
 }
 
@@ -147,15 +164,14 @@ TEST_F(LocaliserTest, FramesThatMeetBecomeTheOlderOneWhicheverIsMetFirst) {
   Rigid3 map_from_own;
   const auto drive_to = [&](int first, int last) {  // from 14 m to the left
     for (int k = first; k <= last; ++k) {
-      const auto moved = localiser.Localise(
-          See(At(14 - k)), k, [&](int i) { return At(-i).Inverse(); }, map_from_own, map_from_own);
+      const auto moved = localiser.Localise(See(At(14 - k)), At(-k), map_from_own);
       if (moved) map_from_own = *moved * map_from_own;
     }
   };
-  drive_to(0, 3);
+  drive_to(0, 1);
   EXPECT_EQ(localiser.own_frame(), 1);
   EXPECT_NEAR(map_from_own.translation.x(), 2, 1e-3);
-  drive_to(4, 14);
+  drive_to(2, 14);
   EXPECT_EQ(localiser.own_frame(), 0);
   EXPECT_NEAR(map_from_own.translation.x(), 14, 1e-3);
   for (const KnownKeyframe& keyframe : localiser.keyframes()) EXPECT_EQ(keyframe.frame, 0);

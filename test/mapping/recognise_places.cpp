@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/mapping/map_file.h"
-#include "mapping/waking_drive.h"
+#include "mapping/odometry_chain.h"
 #include "recordings/clip.h"
 
 namespace arfm_vo {
@@ -54,7 +54,7 @@ StereoImages Changed(const StereoImages& images, int seed) {
 }
 
 KnownMap MakeMap(const Pairs& pairs) {
-  Drive drive(pairs.camera);
+  OdometryChain drive(pairs.camera);
   drive.map().Keep({}, kMaxPoints);
   for (size_t i = 0; i < pairs.images.size(); i += 2) drive.Process(pairs.images[i]);
   drive.map().Adjust();
@@ -64,7 +64,7 @@ KnownMap MakeMap(const Pairs& pairs) {
 /// A drive that begins at pair `start`, on every `step`th, until it is found or its time is over.
 void WakeUp(const KnownMap& map, const Pairs& pairs, int start, int step, double max_wait_s,
             Result& result) {
-  Drive drive(pairs.camera);
+  OdometryChain drive(pairs.camera);
   drive.map().Keep(map, kMaxPoints);
   ++result.starts;
   for (int i = start; i >= 0 && i < static_cast<int>(pairs.images.size()); i += step) {
@@ -73,9 +73,12 @@ void WakeUp(const KnownMap& map, const Pairs& pairs, int start, int step, double
     if (waited_s > max_wait_s) return;
     images.stamp_s = 1 + waited_s;
     const auto update = drive.Process(images);
-    if (drive.map().localiser().state() != MapState::kLocalised) continue;
+    // After a loss it may be found in what it has seen itself.
+    const Localiser& localiser = drive.map().localiser();
+    if (localiser.state() != MapState::kLocalised || localiser.own_frame() != 0) continue;
     ++result.found;
     result.wait_s += waited_s;
+    if (pairs.reference.empty()) std::printf("  %s\n", localiser.found().c_str());
     if (pairs.reference.empty()) return;
     const auto away_s = [&](const KnownKeyframe& keyframe) {
       return std::abs(keyframe.stamp_s - pairs.images[i].stamp_s);
@@ -91,7 +94,7 @@ void WakeUp(const KnownMap& map, const Pairs& pairs, int start, int step, double
     double distance_m = 0;
     for (const KnownKeyframe& keyframe : map.keyframes)
       distance_m = std::max(distance_m, keyframe.distance_m);
-    result.Judge(truth.Inverse() * found, distance_m, drive.map().localiser().found());
+    result.Judge(truth.Inverse() * found, distance_m, localiser.found());
     return;
   }
 }

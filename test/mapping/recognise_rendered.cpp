@@ -7,7 +7,7 @@
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/terrain_renderer.h"
-#include "mapping/waking_drive.h"
+#include "mapping/odometry_chain.h"
 
 namespace arfm_vo {
 namespace {
@@ -52,7 +52,7 @@ class Site {
 void RunSimulated(int num_restarts, int num_elsewhere) {
   const PlanarPath path = SamplePath({}, {{8, 0.8}}, 0.1, 1, 80);
   const Site noon(40, 130, 1);
-  Drive first(Site::kRover);
+  OdometryChain first(Site::kRover);
   first.map().Keep({}, kMaxPoints);
   std::vector<Rigid3> eyes;
   for (const RoverPose& pose : path) {
@@ -80,7 +80,7 @@ void RunSimulated(int num_restarts, int num_elsewhere) {
     if (!is_near) aside += Eigen::Vector2d(30 + between(0, 20), between(-30, 30));
     start.x_m += aside.x();
     start.y_m += aside.y();
-    Drive drive(Site::kRover);
+    OdometryChain drive(Site::kRover);
     drive.map().Keep(map, kMaxPoints);
     ++result.starts;
     const PlanarPath way = SamplePath(start, {{4, 0}}, 0.1, 1, 30);

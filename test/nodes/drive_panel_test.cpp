@@ -27,7 +27,7 @@ class DrivePanelTest : public testing::Test {
                                                          return true;
                                                        });
     };
-    services_ = {serve("start"), serve("stop")};
+    services_ = {serve("start"), serve("stop"), serve("drive_home")};
     WaitUntil([this] { return clicks_.getNumSubscribers() > 0 && panel_.size() > 0; }, "the panel");
   }
 
@@ -80,7 +80,9 @@ TEST_F(DrivePanelTest, TheButtonsStartAndStopAndTheAnswerIsShown) {
   AwaitWords("start: start it is");
   Click("stop", InteractiveMarkerFeedback::BUTTON_CLICK);
   AwaitWords("stop: stop it is");
-  EXPECT_THAT(called_, testing::ElementsAre("start", "stop"));
+  Click("home", InteractiveMarkerFeedback::BUTTON_CLICK);
+  AwaitWords("home: drive_home it is");
+  EXPECT_THAT(called_, testing::ElementsAre("start", "stop", "drive_home"));
 }
 
 }  // namespace

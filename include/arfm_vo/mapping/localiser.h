@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,12 +30,10 @@ class Localiser {
 
   /// An epoch is over, and the next begins.
   void Close(std::vector<KnownKeyframe> epoch, const StereoCamera& camera);
-  /// Looks for the newest keyframe of the newest epoch, `number`, at each until one is found and
-  /// now and then afterwards. `camera_from_world`: of any of its keyframes. Returns how the map
-  /// frame moves, new_from_old, where the epoch came to lie in an older one.
-  std::optional<Rigid3> Localise(const std::vector<SeenPoint>& view, int number,
-                                 const std::function<Rigid3(int)>& camera_from_world,
-                                 const Rigid3& map_from_world, const Rigid3& map_from_odom);
+  /// Looks for the newest epoch's next view in older frames. Returns how the map frame moves,
+  /// new_from_old, where the epoch came to lie in an older one.
+  std::optional<Rigid3> Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera,
+                                 const Rigid3& map_from_odom);
   /// Whether there is what Localise could find with this camera.
   bool MayLocalise(const StereoCamera& camera) const {
     return camera == map_.camera && KnowsOtherFrames();

@@ -40,6 +40,10 @@ struct RecognisedPlace {
   /// World: the place's camera. The covariance is at least that of a place, whose points err
   /// together.
   PoseEstimate pose;
+  /// Logarithm of how many poses as good chance is expected to give (a contrario: Moisan and
+  /// Stival, IJCV 2004): how often so many matches would agree where each does as often as what is
+  /// seen of one point agrees with the others.
+  double log_false_alarms = 0;
   std::vector<std::pair<LandmarkId, LandmarkId>> same;  ///< (of the place, seen)
 };
 

@@ -34,7 +34,7 @@ struct MapStore {
   std::vector<SeenPoint> NewestView(const StereoCamera& camera,
                                     const StereoCorrection& correction) const;
   /// What keyframe `k` (an index) saw that others saw too, as it is known now or was when it
-  /// settled.
+  /// settled; where that is too little to be recognised, all that it saw.
   Place PlaceOf(int k) const;
 
   /// Forgets what says nothing of the keyframes from `first_moving` on: observations by older ones

@@ -40,6 +40,9 @@ class PlacedMap {
   /// false where the keyframe is of a restarted odometry (its epoch or stamp is before what came):
   /// then all that was before is forgotten, or what is kept is looked for.
   bool Add(const PlacedKeyframe& keyframe);
+  /// Looks for a pair of the newest epoch in what is kept, while the map is kLocalising; where it
+  /// is found, the map frame moves. To be called for each pair, keyframe or not.
+  void Localise(const StereoFrame& frame, const Rigid3& odom_from_camera);
   /// Whether the newest keyframe calls for an adjustment.
   bool IsAdjustmentDue() const { return global_ && global_->IsAdjustmentDue(); }
   /// Adjusts the newest epoch. Nothing where there is nothing to adjust or no solution.
@@ -83,7 +86,7 @@ class PlacedMap {
   void TakeLandmarks(const MapUpdate& update);
   std::vector<KnownKeyframe> NewestPlaces(bool with_points) const;
   void CloseEpoch();
-  void Localise();
+  void Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera);
   Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
 
   GlobalMapOptions options_;

@@ -87,7 +87,7 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   const StereoImages images{pair.left->header.stamp.toSec(),
                             ToGrey(pair.left, topics_.left_image, window_),
                             ToGrey(pair.right, topics_.right_image, window_)};
-  Announced announced{pair, images, StereoFrameStamped(), frontend_->Look(images)};
+  Announced announced{pair, images, StereoFrameStamped(), frontend_->Look(images), nullptr};
   announced.message = ToMessage(announced.frame, camera_);
   announced.message.has_features = false;
   announced.message.header = pair.left->header;
@@ -103,7 +103,12 @@ void ArfmNode::Process(const StereoMessagePair& pair) {
   figures_.refusals.Clear();
 }
 
-void ArfmNode::PublishFeatures(const Announced& pair) {
+void ArfmNode::PublishFeatures(Announced& pair) {
+  if (!pair.whole) pair.whole = Complete(pair);
+  features_.publish(pair.whole);
+}
+
+StereoFrameStampedConstPtr ArfmNode::Complete(const Announced& pair) {
   Stopwatch stopwatch;
   StageTimes stages;
   const StereoFrame frame = frontend_->Complete(pair.frame, pair.images, &stages);
@@ -115,21 +120,23 @@ void ArfmNode::PublishFeatures(const Announced& pair) {
     message->stage_names.push_back(name);
     message->stage_ms.push_back(ms);
   }
-  features_.publish(message);
   ++figures_.num_with_features;
   figures_.times.Add(stopwatch.LapMs());
   figures_.num_left = message->keypoint_x.size();
   figures_.num_right = message->num_right_keypoints;
   figures_.num_points = message->point_keypoint.size();
+  return message;
 }
 
 void ArfmNode::Answer(const FeaturesRequest& request) {
+  const auto stamp_of = [](const Announced& pair) { return pair.message.header.stamp; };
   const auto pair = std::find_if(announced_.begin(), announced_.end(), [&](const auto& announced) {
-    return announced.message.header.stamp == request.stamp;
+    return stamp_of(announced) == request.stamp;
   });
-  if (pair == announced_.end()) return;
-  if (request.wanted) PublishFeatures(*pair);
-  announced_.erase(announced_.begin(), std::next(pair));
+  if (request.wanted && pair != announced_.end()) PublishFeatures(*pair);
+  if (request.wanted) return;
+  while (!announced_.empty() && stamp_of(announced_.front()) <= request.stamp)
+    announced_.pop_front();
 }
 
 bool ArfmNode::AcceptStamp(const ros::Time& stamp) {

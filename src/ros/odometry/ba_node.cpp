@@ -43,12 +43,17 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
       keeper_(options_.map, options_.map_frame),
       diagnostics_(node, private_node, private_node.getNamespace()),
-      worker_(1, [this](const std::exception& error) {
-        figures_.refusals.Add(error.what());
-        told_.Set(figures_);
+      worker_(1,
+              [this](const std::exception& error) {
+                figures_.refusals.Add(error.what());
+                told_.Set(figures_);
+              }),
+      pairs_(node, options_.camera_frame, [this](const TrackedPair& pair) {
+        worker_.PostLossy([this, pair] { Localise(pair); });
       }) {
   diagnostics_.setHardwareID("arfm_vo");
-  diagnostics_.add("global adjustment", [this](Diagnostics& status) { Report(status); });
+  diagnostics_.add("global adjustment",
+                   [this](Diagnostics& status) { told_.Get().Report(keeper_.told(), status); });
   Subscribe(node);
   save_ = OfferTrigger(private_node, "save_trajectory",
                        [this] { return trajectory_output_.Save(trajectory_.Get()); });
@@ -89,12 +94,10 @@ void BaNode::Subscribe(ros::NodeHandle& node) {
                                                [this](const KeyframeStampedConstPtr& keyframe) {
                                                  worker_.Post([this, keyframe] { Add(*keyframe); });
                                                });
-  odometry_ = node.subscribe<nav_msgs::Odometry>(
-      "odom", 1, [this](const auto& odometry) { newest_odometry_ = odometry; });
   stated_ = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       "initialpose", 1, [this](const auto& stated) {
         worker_.Post(
-            [this, stated, odometry = newest_odometry_] { PlaceRover(*stated, odometry); });
+            [this, stated, odometry = pairs_.newest_odometry()] { PlaceRover(*stated, odometry); });
       });
 }
 
@@ -123,7 +126,7 @@ void BaNode::Add(const KeyframeStamped& message) {
   figures_.num_landmarks = map_.num_landmarks();
   figures_.num_loops = map_.num_loops();
   figures_.refusals.Clear();
-  Tell();
+  Tell(false);
   settles_ = ros::WallTime::now() + kSettled;
   if (!options_.algorithm.adjust_globally || !map_.IsAdjustmentDue()) return;
   if (const std::optional<MapUpdate> update = Adjust()) {
@@ -149,19 +152,35 @@ void BaNode::PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
     ROS_WARN("refused: %s", error.what());
     return;
   }
-  Tell();
-  Publish();
+  Tell(true);
 }
 
-void BaNode::Tell() {
+void BaNode::Localise(const TrackedPair& pair) {
+  if (pair.epoch != map_.epoch()) return;
+  try {
+    Require(FromMessage(pair.frame->camera) == map_.camera(), "features are of another camera");
+    map_.Localise(FromMessage(*pair.frame), pairs_.OdomFromCamera(pair));
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_THROTTLE(10, "the rover is not looked for in the map: %s", error.what());
+  }
+  TellMapState();
+}
+
+void BaNode::Tell(bool with_landmarks) {
+  trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+  TellMapState();
+  Publish(with_landmarks);
+}
+
+void BaNode::TellMapState() {
   figures_.map_from_odom = map_.map_from_odom();
   told_.Set(figures_);
-  trajectory_.Set(trajectory_output_.Select(map_.MakeTrajectory(), mounts_));
+  pairs_.Want(map_.localiser().state() == MapState::kLocalising);
   if (const auto status = keeper_.News(map_, newest_)) {
     map_status_.publish(*status);
     const std::vector<MapPose> poses = map_.BasePoses();
     map_text_.publish(MakeMapText(*status, poses.empty() ? Rigid3() : poses.back().map_from_base));
-    if (status->state == MapStatus::LOCALISED) Publish();
+    if (status->state == MapStatus::LOCALISED) Publish(true);
   }
 }
 
@@ -185,8 +204,7 @@ std::optional<MapUpdate> BaNode::Adjust() {
     learned_.Write(update->correction);
     WarnOfCalibration(update->correction);
   }
-  Tell();
-  if (update) Publish();
+  Tell(update.has_value());
   return update;
 }
 
@@ -205,46 +223,24 @@ void BaNode::WarnOfCalibration(const CorrectionBelief& learnt) {
       radial_px.mean, radial_px.sigma, 100 * excess.mean, 100 * excess.sigma);
 }
 
-void BaNode::Publish() const {
+void BaNode::Publish(bool with_landmarks) const {
   const std::vector<MapPose> poses = map_.BasePoses();
   nav_msgs::Path path;
   path.header.stamp = newest_;
   path.header.frame_id = options_.map_frame;
   const size_t stride = 1 + poses.size() / options_.max_path_poses;
-  for (size_t i = (poses.size() - 1) % stride; i < poses.size(); i += stride) {
-    path.poses.emplace_back();
-    path.poses.back().header.frame_id = options_.map_frame;
-    path.poses.back().header.stamp.fromSec(poses[i].stamp_s);
-    path.poses.back().pose = ToPoseMessage(poses[i].map_from_base);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (i % stride != 0 && i + 1 != poses.size()) continue;
+    geometry_msgs::PoseStamped& place = path.poses.emplace_back();
+    place.header.frame_id = options_.map_frame;
+    place.header.stamp.fromSec(poses[i].stamp_s);
+    place.pose = ToPoseMessage(poses[i].map_from_base);
   }
   path_.publish(path);
+  if (!with_landmarks) return;
   sensor_msgs::PointCloud2 cloud = MakeLandmarkCloud(map_.Landmarks());
   cloud.header = path.header;
   landmarks_.publish(cloud);
-}
-
-void BaNode::Report(Diagnostics& status) const {
-  const Figures figures = told_.Get();
-  status.add("keyframes", figures.num_keyframes);
-  status.add("landmarks", figures.num_landmarks);
-  status.add("loops closed", figures.num_loops);
-  status.add("map", keeper_.told());
-  status.add("adjustments", figures.num_adjustments);
-  status.add("keyframes refused", figures.refusals.num());
-  status.add("iteration", figures.iteration);
-  status.addf("cost", "%.1f", figures.cost);
-  status.addf("time of the last adjustment (ms)", "%.0f", figures.last_ms);
-  status.addf("time of the longest adjustment (ms)", "%.0f", figures.longest_ms);
-  status.addf("rectification: columns known to (px)", "%.2f", figures.columns_sigma_px);
-  status.addf("calibration: both images off radially by up to (px)", "%.1f, sigma %.1f",
-              figures.radial_px.mean, figures.radial_px.sigma);
-  status.addf("calibration: focal length of both images off by (%)", "%.2f, sigma %.2f",
-              100 * figures.focal_length_excess.mean, 100 * figures.focal_length_excess.sigma);
-  if (figures.refusals.IsTold(status)) return;
-  if (figures.num_failed > 0)
-    return status.summaryf(Diagnostics::WARN, "%d adjustments found no solution",
-                           figures.num_failed);
-  status.summary(Diagnostics::OK, figures.is_adjusting ? "adjusting" : "waiting");
 }
 
 }  // namespace arfm_vo

@@ -24,7 +24,7 @@ StereoFrameStampedConstPtr FeaturesRequests::Get(const ros::Time& stamp) {
   wanted_ = stamp;
   for (int attempt = 0; attempt < kAttempts && !frame_; ++attempt) {
     lock.unlock();
-    Send(stamp, true);
+    Ask(stamp);
     lock.lock();
     taken_.wait_for(lock, kAttempt, [this] { return frame_ != nullptr; });
   }

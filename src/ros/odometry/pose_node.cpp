@@ -120,7 +120,7 @@ void PoseNode::Process(const StereoFrameStampedConstPtr& pair,
   if (const auto known = learned_.ReadFor(camera)) session_->SetCorrection(camera, *known);
   const SessionUpdate pose =
       mount_.Process(frame, camera, images, pair->header, *session_, mounts_);
-  if (!frame.IsWhole()) requests_.Release(pair->header.stamp);
+  requests_.Release(pair->header.stamp);
   outputs_.Publish(pose, *message, num_dropped);
   outputs_.PublishPicture(images.left, frame.Known(), pose, pair->header);
   const auto line =

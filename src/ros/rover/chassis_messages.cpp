@@ -82,6 +82,14 @@ TrackSlip ToMessage(const Slip& slip) {
   return message;
 }
 
+OperatorChallenge ToMessage(const Challenge& challenge) {
+  OperatorChallenge message;
+  message.rover = challenge.rover;
+  message.sequence = challenge.sequence;
+  message.number = challenge.number;
+  return message;
+}
+
 ChassisState ToChassisMessage(const ChassisLink& link) {
   const ChassisReadings& readings = link.Readings();
   const ChassisTraffic& traffic = link.Traffic();
@@ -192,6 +200,16 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
   diagnostics.add("commands of other drivers", traffic.num_foreign_commands);
   diagnostics.add("error frames", traffic.num_error_frames);
   diagnostics.add("bus-off events", traffic.num_bus_off);
+}
+
+void FillDiagnostics(const OperatorWatch& operator_watch, Diagnostics& diagnostics) {
+  if (const auto round_trip_s = operator_watch.RoundTrip())
+    diagnostics.add("operator's round trip, s", *round_trip_s);
+  const auto& [num_taken, num_late, num_repeated, num_foreign] = operator_watch.Answers();
+  diagnostics.add("operator's answers", num_taken);
+  diagnostics.add("operator's answers refused, late", num_late);
+  diagnostics.add("operator's answers refused, repeated", num_repeated);
+  diagnostics.add("operator's answers refused, foreign", num_foreign);
 }
 
 }  // namespace arfm_vo

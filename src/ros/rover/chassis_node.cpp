@@ -40,6 +40,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       publisher_(node, TrackKinematics(options_.pilot.kinematics), options_.map_frame,
                  options_.base_frame),
       check_(driver_, options_.pilot, options_.baseline_m),
+      driven_(node),
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
@@ -54,7 +55,11 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
   move_base_ = std::make_unique<MoveBaseServer>(
       node, [this](const auto& goal) { return Drive(goal); },
       [this] { driver_.pilot().CancelRoute(); });
-  SetPace(node);
+  // Simulated time may run faster or slower than the wall's: then it sets the pace too.
+  if (ros::Time::isSimTime())
+    timer_ = node.createTimer(ros::Duration(kTick_s), [this](const ros::TimerEvent&) { Tick(); });
+  steady_timer_ = node.createSteadyTimer(ros::WallDuration(kTick_s),
+                                         [this](const ros::SteadyTimerEvent&) { Tick(); });
 }
 
 void ChassisNode::Listen(ros::NodeHandle& node) {
@@ -93,6 +98,14 @@ void ChassisNode::Serve(ros::NodeHandle& private_node) {
   serve("check", [this] { return Reply{Check(true).empty(), "start-up check" + Check(false)}; });
   serve("stop", [&pilot] { return pilot.Stop(), Reply{true, "stopped"}; });
   serve("cancel", [&pilot] { return pilot.CancelRoute(), Reply{true, "no goal"}; });
+  serve("drive_home", [this] {
+    try {
+      const std::string flaw = Drive(driven_.PlanHome(base_));
+      return Reply{flaw.empty(), flaw.empty() ? "drives home" : flaw};
+    } catch (const std::invalid_argument& error) {
+      return Reply{false, error.what()};
+    }
+  });
   serve("clear_errors", [this] { return ClearErrors(); });
   serve("set_datum", [&pilot] { return pilot.SetDatum(); });
   serve("release_emergency_stop", [&pilot] {
@@ -119,14 +132,6 @@ Reply ChassisNode::ClearErrors() {
   return {true, "sent"};
 }
 
-void ChassisNode::SetPace(ros::NodeHandle& node) {
-  // Simulated time may run faster or slower than the wall's: then it sets the pace too.
-  if (ros::Time::isSimTime())
-    timer_ = node.createTimer(ros::Duration(kTick_s), [this](const ros::TimerEvent&) { Tick(); });
-  steady_timer_ = node.createSteadyTimer(ros::WallDuration(kTick_s),
-                                         [this](const ros::SteadyTimerEvent&) { Tick(); });
-}
-
 void ChassisNode::Tick() {
   const double now_s = clock_.Now();
   if (now_s > last_tick_s_) clock_moved_ = ros::SteadyTime::now();
@@ -146,11 +151,7 @@ void ChassisNode::ChallengeOperator(double steady_s) {
   const auto challenge =
       driver_.pilot().operator_watch().Advance(steady_s, uint64_t{random_()} << 32 | random_());
   if (!challenge) return;
-  OperatorChallenge message;
-  message.rover = challenge->rover;
-  message.sequence = challenge->sequence;
-  message.number = challenge->number;
-  challenge_.publish(message);
+  challenge_.publish(ToMessage(*challenge));
 }
 
 void ChassisNode::Look(double now_s) {
@@ -170,15 +171,8 @@ void ChassisNode::Look(double now_s) {
 
 void ChassisNode::Report(Diagnostics& diagnostics) const {
   FillDiagnostics(driver_.pilot().Status(), driver_.link(), diagnostics);
-  const OperatorWatch& operator_watch = driver_.pilot().operator_watch();
   diagnostics.add("rover", options_.pilot.operator_watch.rover);
-  if (const auto round_trip_s = operator_watch.RoundTrip())
-    diagnostics.add("operator's round trip, s", *round_trip_s);
-  const auto& [num_taken, num_late, num_repeated, num_foreign] = operator_watch.Answers();
-  diagnostics.add("operator's answers", num_taken);
-  diagnostics.add("operator's answers refused, late", num_late);
-  diagnostics.add("operator's answers refused, repeated", num_repeated);
-  diagnostics.add("operator's answers refused, foreign", num_foreign);
+  FillDiagnostics(driver_.pilot().operator_watch(), diagnostics);
   diagnostics.add("tf refused, from the future", transforms_.num_from_future());
   diagnostics.add("odometry refused, from the future", num_odometry_refused_);
 }

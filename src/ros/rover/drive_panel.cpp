@@ -67,6 +67,7 @@ DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadParameters<DrivePanelOptions>(private_node)),
       start_(node.serviceClient<std_srvs::Trigger>("chassis_node/start")),
       stop_(node.serviceClient<std_srvs::Trigger>("chassis_node/stop")),
+      home_(node.serviceClient<std_srvs::Trigger>("chassis_node/drive_home")),
       server_(kName) {
   status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
   Show(state_);
@@ -83,8 +84,9 @@ void DrivePanel::TakeStatus(const DriveStatus& status) {
 }
 
 void DrivePanel::TakeClick(const InteractiveMarkerFeedback& feedback) {
-  ros::ServiceClient& service = feedback.control_name == "stop" ? stop_ : start_;
-  if (feedback.control_name != "stop" && feedback.control_name != "start") return;
+  const std::string& name = feedback.control_name;
+  if (name != "stop" && name != "start" && name != "home") return;
+  ros::ServiceClient& service = name == "stop" ? stop_ : name == "home" ? home_ : start_;
   std_srvs::Trigger call;
   const bool is_answered = service.call(call);
   answer_ = feedback.control_name + ": " +
@@ -103,6 +105,7 @@ visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
   InteractiveMarkerControl words = MakeControl("words");
   words.markers = {MakeText(state_ + "\n" + answer_, 0, z_m + 2 * kRow_m)};
   panel.controls = {MakeButton("start", kRow_m, z_m, 0.1f, 0.7f),
+                    MakeButton("home", 0, z_m, 0.9f, 0.7f),
                     MakeButton("stop", -kRow_m, z_m, 0.9f, 0.1f), words};
   return panel;
 }

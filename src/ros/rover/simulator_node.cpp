@@ -66,6 +66,9 @@ void SimulatorNodeOptions::Check() const {
   Require(max_latency_s >= 0 && max_latency_s <= 600, "max_latency_s must be in 0..600");
   Require(max_wait_s >= 0 && max_wait_s <= 600, "max_wait_s must be in 0..600");
   Require(pair_period_s >= 0.02 && pair_period_s <= 60, "pair_period_s must be in 0.02..60");
+  Require(start.size() == 3, "start must hold x, y and the heading");
+  for (const double value : start)
+    Require(std::abs(value) < terrain.side_m / 2, "start must lie on the terrain");
   terrain.Check();
   plant.Check();
   rig.Check();
@@ -79,8 +82,10 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
       renderer_(terrain_, options_.render),
       camera_(options_.rig.Camera()),
       map_from_world_(GroundOf(terrain_, options_.shape)(RoverPose{}).Inverse()),
-      chassis_(OpenCanBus(options_.can),
-               TrackedPlant(options_.plant, RoverPose{}, GroundOf(terrain_, options_.shape))),
+      chassis_(
+          OpenCanBus(options_.can),
+          TrackedPlant(options_.plant, {options_.start[0], options_.start[1], options_.start[2]},
+                       GroundOf(terrain_, options_.shape))),
       now_ns_(kStart_ns),
       head_(options_.head_port.empty() ? nullptr
                                        : std::make_unique<SimulatedPtuPort>(

@@ -1,18 +1,21 @@
 #include <actionlib/client/simple_action_client.h>
+#include <arfm_vo/MapStatus.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <move_base_msgs/MoveBaseAction.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "arfm_vo/ros/rover/chassis_publisher.h"
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/inbox.h"
 
-// The action move_base of chassis_node, by actionlib's own client.
+// The action move_base of chassis_node, by actionlib's own client, and the way home.
 
 namespace arfm_vo {
 namespace {
@@ -190,6 +193,35 @@ TEST_F(MoveBaseTest, TheGoalOfAClientThatIsGoneIsDrivenToAndAnybodyCancelsIt) {
   ASSERT_TRUE(world_->RunUntil([&] { return other.isServerConnected(); }));
   other.cancelAllGoals();
   ExpectToStandWithoutAGoal();
+}
+
+TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) {
+  ASSERT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  EXPECT_EQ(world_->Call("drive_home").message, "way home: ba_node tells no path_optimized");
+  ros::NodeHandle node;
+  const auto paths = node.advertise<nav_msgs::Path>("path_optimized", 1, true);
+  const auto statuses = node.advertise<MapStatus>("map_status", 1, true);
+  const RoverPose start = world_->chassis_.plant().Pose();
+  nav_msgs::Path path;
+  path.header.frame_id = "map";
+  for (const double way_m : {0.6, 0.3, 0.})
+    path.poses.emplace_back().pose = ToMessage(Advance(start, way_m, 0));
+  paths.publish(path);
+  const auto says = [](const std::string& text) {
+    return world_->Call("drive_home").message.find(text) != std::string::npos;
+  };
+  MapStatus status;
+  status.state = MapStatus::LOCALISING;
+  statuses.publish(status);
+  EXPECT_TRUE(world_->RunUntil([&] { return says("LOCALISING"); }));
+  status.state = MapStatus::LOCALISED;
+  statuses.publish(status);
+  world_->reports_.clear();
+  EXPECT_TRUE(world_->RunUntil([&] { return says("drives home"); }));
+  EXPECT_TRUE(world_->RunUntil(
+      [] { return !world_->reports_.empty() && world_->reports_.back().text == "arrived"; }));
+  const RoverPose home = Advance(start, 0.6, 0), end = world_->chassis_.plant().Pose();
+  EXPECT_LT(std::hypot(end.x_m - home.x_m, end.y_m - home.y_m), 0.06);
 }
 
 }  // namespace

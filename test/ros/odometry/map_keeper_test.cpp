@@ -25,6 +25,9 @@ class MapKeeperTest : public ::testing::Test {
   }
   ~MapKeeperTest() override { fs::remove_all(folder_); }
 
+  /// Of the camera, seen from the first keyframe's.
+  static Rigid3 At(int number) { return {Eigen::Quaterniond::Identity(), {0.5 * number, 0, 0}}; }
+
   /// Keyframe `number` of a camera that goes half a metre along a wall from one to the next.
   static PlacedKeyframe MakeKeyframe(int number, const StereoCamera& camera) {
     RandomEngine engine(3);
@@ -33,7 +36,7 @@ class MapKeeperTest : public ::testing::Test {
     keyframe.camera = camera;
     keyframe.keyframe.id = number;
     keyframe.keyframe.stamp_s = 10 + number;
-    keyframe.keyframe.camera_from_world.translation.x() = -0.5 * number;
+    keyframe.keyframe.camera_from_world = At(number).Inverse();
     for (int i = 0; i < 200; ++i) {
       Landmark landmark;
       landmark.id = i;
@@ -51,6 +54,26 @@ class MapKeeperTest : public ::testing::Test {
     return keyframe;
   }
 
+  /// What the front end makes of the pair that keyframe `number` is of.
+  static StereoFrame MakeFrame(int number, const StereoCamera& camera) {
+    const std::vector<Landmark> landmarks = MakeKeyframe(0, camera).landmarks;
+    StereoFrame frame;
+    for (const auto& seen : MakeKeyframe(number, camera).keyframe.observations) {
+      const Landmark& landmark = landmarks[seen.landmark];
+      StereoPoint& point = frame.points.emplace_back();
+      point.keypoint = frame.features.size();
+      point.observation = seen.pixels.head<3>();
+      point.x_in_camera = camera.TriangulateMeasured(seen.pixels.x(), seen.pixels.y(),
+                                                     seen.pixels.x() - seen.pixels.z());
+      Keypoint& keypoint = frame.features.keypoints.emplace_back(landmark.keypoint);
+      keypoint.x = static_cast<float>(seen.pixels.x());
+      keypoint.y = static_cast<float>(seen.pixels.y());
+      keypoint.scale = 1;
+      frame.features.descriptors.push_back(cv::Mat(landmark.descriptor, true).reshape(1, 1));
+    }
+    return frame;
+  }
+
   /// The state after each keyframe, and what was saved at the end.
   std::vector<int> Drive(const StereoCamera& camera = kCamera) {
     MapKeeper keeper(options_, "map");
@@ -59,6 +82,7 @@ class MapKeeperTest : public ::testing::Test {
     for (int number = 0; number < 4; ++number) {
       keeper.LoadFor(camera, map);
       map.Add(MakeKeyframe(number, camera));
+      map.Localise(MakeFrame(number, camera), At(number));
       if (const auto news = keeper.News(map, ros::Time(1))) {
         states.push_back(news->state);
         text_ = news->text;
@@ -110,6 +134,7 @@ TEST_F(MapKeeperTest, AfterALossOrARestartTheOdometryIsFoundInWhatWasSeenBefore)
         keyframe.keyframe.stamp_s += 100;
       }
       EXPECT_EQ(map.Add(keyframe), !(is_restart && i == 4));
+      map.Localise(MakeFrame(i % 4, kCamera), keyframe.odom_from_world * At(i % 4));
       if (i == 3) map.Adjust();
       if (const auto news = keeper.News(map, ros::Time(1))) states.push_back(news->state);
     }

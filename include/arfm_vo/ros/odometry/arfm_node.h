@@ -70,8 +70,10 @@ class ArfmNode {
     StereoImages images;
     StereoFrameStamped message;
     StereoFrame frame;
+    StereoFrameStampedConstPtr whole;  ///< with features; null: nobody has asked for them
   };
-  void PublishFeatures(const Announced& pair);
+  void PublishFeatures(Announced& pair);
+  StereoFrameStampedConstPtr Complete(const Announced& pair);
   /// Says whether the pair is to be worked on; begins anew where time has jumped.
   bool AcceptStamp(const ros::Time& stamp);
   void PrepareFrontend(const StereoMessagePair& pair);

@@ -3,7 +3,6 @@
 #include <arfm_vo/KeyframeStamped.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -14,9 +13,10 @@
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/evaluation/trajectory_output.h"
 #include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/ros/node/health.h"
+#include "arfm_vo/ros/odometry/adjustment_figures.h"
 #include "arfm_vo/ros/odometry/learned_calibration.h"
 #include "arfm_vo/ros/odometry/map_keeper.h"
+#include "arfm_vo/ros/odometry/tracked_pair_input.h"
 
 namespace arfm_vo {
 
@@ -24,6 +24,7 @@ struct BaNodeOptions {
   OdometryOptions algorithm;        ///< its keys stand beside those of the node; `global` is used
   std::string map_frame = "map";    ///< adjusted; its newest pose may jump
   std::string odom_frame = "odom";  ///< that of pose_node, continuous
+  std::string camera_frame;         ///< as that of pose_node
   bool publish_tf = true;           ///< map_frame -> odom_frame
   double tf_rate_hz = 20;           ///< of the transform
   double tf_tolerance_s = 0.1;      ///< how far into the future a transform is said to hold
@@ -42,8 +43,8 @@ struct BaNodeOptions {
     Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
     Require(max_path_poses >= 2, "max_path_poses must be at least 2");
   }
-  ARFM_FIELDS((algorithm), map_frame, odom_frame, publish_tf, tf_rate_hz, tf_tolerance_s,
-              max_time_share, max_path_poses, (trajectory), (learned), (map))
+  ARFM_FIELDS((algorithm), map_frame, odom_frame, camera_frame, publish_tf, tf_rate_hz,
+              tf_tolerance_s, max_time_share, max_path_poses, (trajectory), (learned), (map))
 };
 
 /// Keyframes in, the globally adjusted map out (Fig. 4): map_update, path_optimized, landmarks.
@@ -55,30 +56,21 @@ class BaNode {
   ~BaNode();
 
  private:
-  /// How adjusting fares; told to the diagnostics while the worker may be busy.
-  struct Figures {
-    int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_adjustments = 0, num_failed = 0;
-    Refusals refusals{"keyframe"};
-    bool is_adjusting = false;
-    int iteration = 0;
-    double cost = 0, last_ms = 0, longest_ms = 0, columns_sigma_px = 0;
-    CorrectionBelief::Estimate radial_px, focal_length_excess;
-    Rigid3 map_from_odom;
-  };
-
   void Subscribe(ros::NodeHandle& node);
-  void Report(Diagnostics& status) const;
   void SendTransform();
   // On the worker's thread:
   void Add(const KeyframeStamped& message);
   std::optional<MapUpdate> Adjust();
-  void Publish() const;
+  /// The path, and the landmarks where they may have moved.
+  void Publish(bool with_landmarks) const;
   void WarnOfCalibration(const CorrectionBelief& learnt);
   /// Where a person states that the rover stands; `odometry` is the newest, or null.
   void PlaceRover(const geometry_msgs::PoseWithCovarianceStamped& stated,
                   const nav_msgs::OdometryConstPtr& odometry);
   std::string SaveMap();
-  void Tell();
+  void Localise(const TrackedPair& pair);
+  void Tell(bool with_landmarks);
+  void TellMapState();
 
   const BaNodeOptions options_;
   ros::Publisher updates_, path_, landmarks_, map_status_, map_text_;
@@ -91,15 +83,15 @@ class BaNode {
   ros::Time newest_;                                   // keyframe's stamp
   bool is_dirty_ = false, told_to_calibrate_ = false;  // dirty: not adjusted to the newest keyframe
   ros::WallTime settles_;
-  Figures figures_;
+  AdjustmentFigures figures_;
   // Of all threads:
-  Shared<Figures> told_;
+  Shared<AdjustmentFigures> told_;
   Shared<Trajectory> trajectory_;  // of the keyframes
   tf2_ros::TransformBroadcaster broadcaster_;
   diagnostic_updater::Updater diagnostics_;
   Worker worker_;
-  nav_msgs::OdometryConstPtr newest_odometry_;
-  ros::Subscriber keyframes_, odometry_, stated_;
+  TrackedPairInput pairs_;
+  ros::Subscriber keyframes_, stated_;
   ros::ServiceServer save_, save_map_;
   ros::Time sent_;  // the newest transform's stamp
   ros::WallTimer timer_;

@@ -18,7 +18,9 @@ class FeaturesRequests {
   StereoFrameStampedConstPtr Get(const ros::Time& stamp);
   /// Takes a message of `features`, on another thread; whether it is what Get waits for.
   bool Take(const StereoFrameStampedConstPtr& frame);
-  /// Those of the pair will not be asked for.
+  /// Asks without waiting: Take will have them if arfm_node still keeps the pair.
+  void Ask(const ros::Time& stamp) { Send(stamp, true); }
+  /// Those of the pair and of those before it will not be asked for any more.
   void Release(const ros::Time& stamp) { Send(stamp, false); }
 
  private:

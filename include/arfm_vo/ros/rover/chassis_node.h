@@ -1,6 +1,5 @@
 #pragma once
 
-#include <arfm_vo/OperatorChallenge.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
@@ -18,6 +17,7 @@
 #include "arfm_vo/ros/input/transform_input.h"
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
+#include "arfm_vo/ros/rover/driven_path.h"
 #include "arfm_vo/ros/rover/move_base_server.h"
 #include "arfm_vo/ros/rover/start_check.h"
 
@@ -64,7 +64,6 @@ class ChassisNode {
   Reply Start();
   std::string Check(bool flaws_only) { return check_.Describe(clock_.Now(), flaws_only); }
   Reply ClearErrors();
-  void SetPace(ros::NodeHandle& node);
   void Tick();
   void ChallengeOperator(double steady_s);
   void Look(double now_s);
@@ -93,11 +92,11 @@ class ChassisNode {
   ChassisDriver driver_;
   ChassisPublisher publisher_;
   StartCheck check_;
-  geometry_msgs::PoseStamped base_;  // by the newest sighting, in the map
-  double seen_s_ = 0;                // its stamp in driving time
-  ros::SteadyTime clock_moved_;      // when driving time last went on
-  double last_tick_s_ = 0;
-  long num_odometry_refused_ = 0;  // from the future
+  DrivenPath driven_;
+  geometry_msgs::PoseStamped base_;      // by the newest sighting, in the map
+  ros::SteadyTime clock_moved_;          // when driving time last went on
+  double seen_s_ = 0, last_tick_s_ = 0;  // base_'s stamp in driving time
+  long num_odometry_refused_ = 0;        // from the future
   std::random_device random_;
   ros::Publisher challenge_;
   diagnostic_updater::Updater updater_;

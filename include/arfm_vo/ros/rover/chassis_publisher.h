@@ -3,6 +3,7 @@
 #include <arfm_vo/ChassisState.h>
 #include <arfm_vo/DriveStatus.h>
 #include <arfm_vo/GoalReport.h>
+#include <arfm_vo/OperatorChallenge.h>
 #include <arfm_vo/TrackSlip.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -26,6 +27,7 @@ GoalReport ToMessage(const GoalResult& result);
 /// A goal that was refused, and why.
 GoalReport RefusedGoal(const std::string& reason);
 TrackSlip ToMessage(const Slip& slip);
+OperatorChallenge ToMessage(const Challenge& challenge);
 ChassisState ToChassisMessage(const ChassisLink& link);
 /// What is not known is NaN, as the message's definition asks.
 sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings);
@@ -36,6 +38,8 @@ nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMot
 /// OK while driving or ready, WARN while standing for a reason, ERROR for a fault; bus, battery and
 /// frame counts as values.
 void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnostics& diagnostics);
+/// The answers as values.
+void FillDiagnostics(const OperatorWatch& operator_watch, Diagnostics& diagnostics);
 
 /// Tells by topics what the chassis and its pilot do: drive_status (latched, at 5 Hz and at every
 /// change), goal_report, plan and motion_warning (latched), slip, chassis_state, battery and

@@ -43,7 +43,7 @@ class DrivePanel {
   const DrivePanelOptions options_;
   std::string state_ = "no drive_status", answer_;
   ros::WallTime heard_;  // the last drive_status
-  ros::ServiceClient start_, stop_;
+  ros::ServiceClient start_, stop_, home_;
   interactive_markers::InteractiveMarkerServer server_;
   ros::Subscriber status_;
   ros::WallTimer timer_;

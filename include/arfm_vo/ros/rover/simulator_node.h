@@ -11,6 +11,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
@@ -34,7 +35,8 @@ struct SimulatorNodeOptions {
   double max_latency_s = 0.3;  ///< simulated time stops where a pair's odometry takes longer..
   double max_wait_s = 10;      ///< ..for so much wall time at most
   double pair_period_s = 0.5;  ///< simulated time between stereo pairs
-  std::string picture;         ///< PNG of the drive, written when a goal has ended; empty: none
+  std::vector<double> start = {0, 0, 0};  ///< of the rover: x, y, m, and heading, rad, in the world
+  std::string picture;  ///< PNG of the drive, written when a goal has ended; empty: none
   TerrainOptions terrain;
   TrackedPlantOptions plant;
   StereoRigOptions rig;
@@ -43,7 +45,7 @@ struct SimulatorNodeOptions {
 
   void Check() const;
   ARFM_FIELDS(can, head_port, map_frame, base_frame, camera_frame, max_speed_up, max_latency_s,
-              max_wait_s, pair_period_s, picture, terrain, plant, rig, render, shape)
+              max_wait_s, pair_period_s, start, picture, terrain, plant, rig, render, shape)
 };
 
 /// The ground around the map's origin, without rocks, as lit triangles for rviz, some cm too low so
