@@ -40,7 +40,7 @@ class DrivePanelTest : public testing::Test {
     clicks_.publish(feedback);
   }
   std::string Words() const {
-    return panel_.all().back().markers.at(0).controls.at(2).markers.at(0).text;
+    return panel_.all().back().markers.at(0).controls.back().markers.at(0).text;
   }
   void AwaitWords(const std::string& words) {
     WaitUntil([&] { return Words().find(words) != std::string::npos; }, "\"" + words + "\"");
