@@ -17,7 +17,7 @@ double Allowance(double before, double after, double num_sigmas, double max_allo
 
 PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
   PoseDifference difference;
-  difference.distance_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+  difference.distance_m = Distance(a, b);
   difference.turn_rad = std::abs(WrapAngle(a.heading_rad - b.heading_rad));
   return difference;
 }

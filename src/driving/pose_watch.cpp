@@ -15,20 +15,13 @@ constexpr double kClockNoise_s = 0.01;
 constexpr double kMaxDatumSigma_m = 90;
 
 RoverPose InMap(const Rigid3& map_from_odom, const RoverPose& pose_in_odom) {
-  const Rigid3 odom_from_base(ExpSO3({0, 0, pose_in_odom.heading_rad}),
-                              Eigen::Vector3d(pose_in_odom.x_m, pose_in_odom.y_m, 0));
-  return ProjectToPlane(map_from_odom * odom_from_base);
+  return ProjectToPlane(map_from_odom * LiftFromPlane(pose_in_odom));
 }
 
 /// What is left of a standard deviation since the datum. It may fall too: on the way back to the
 /// start, or where an adjustment has told more. NaN stays NaN.
 double Since(double datum, double sigma) {
   return std::min(sigma, std::sqrt(std::abs(sigma * sigma - datum * datum)));
-}
-
-double TiltOf(const Rigid3& map_from_base) {
-  const Eigen::Vector3d up = map_from_base.rotation.normalized() * Eigen::Vector3d::UnitZ();
-  return std::acos(std::clamp(up.z(), -1.0, 1.0));
 }
 
 }  // namespace

@@ -1,11 +1,22 @@
 #include "arfm_vo/driving/rover_pose.h"
 
+#include <algorithm>
+
 namespace arfm_vo {
 
 RoverPose ProjectToPlane(const Rigid3& map_from_base) {
   const Eigen::Vector3d forward = map_from_base.rotation * Eigen::Vector3d::UnitX();
   return {map_from_base.translation.x(), map_from_base.translation.y(),
           std::atan2(forward.y(), forward.x())};
+}
+
+Rigid3 LiftFromPlane(const RoverPose& pose) {
+  return {ExpSO3({0, 0, pose.heading_rad}), Eigen::Vector3d(pose.x_m, pose.y_m, 0)};
+}
+
+double TiltOf(const Rigid3& map_from_base) {
+  const Eigen::Vector3d up = map_from_base.rotation.normalized() * Eigen::Vector3d::UnitZ();
+  return std::acos(std::clamp(up.z(), -1.0, 1.0));
 }
 
 RoverPose Advance(const RoverPose& pose, double forward_m, double turn_rad) {

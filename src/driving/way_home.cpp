@@ -20,10 +20,6 @@ constexpr double kMaxStep_m = 2;
 constexpr double kMeeting_m = 0.5;
 constexpr double kSmoothing_m = 0.1;
 
-double Distance(const RoverPose& a, const RoverPose& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
-
 /// [driven] The next pose on the shortest way to the first one (Dijkstra 1959); -1: there is none.
 std::vector<int> FindNext(const std::vector<RoverPose>& driven) {
   const int size = static_cast<int>(driven.size());

@@ -98,8 +98,7 @@ PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
 }
 
 double SlopeOf(const Rigid3& world_from_base) {
-  const Eigen::Vector3d up = world_from_base.rotation * Eigen::Vector3d::UnitZ();
-  return std::acos(std::min(1.0, up.z())) * 180 / M_PI;
+  return TiltOf(world_from_base) * 180 / M_PI;
 }
 
 Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad, double tilt_rad) {

@@ -30,10 +30,6 @@ RoverPose ToWorld(const RoverPose& start, const RoverPose& in_map) {
           start.heading_rad + in_map.heading_rad};
 }
 
-double Distance(const RoverPose& a, const RoverPose& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
-
 class Canvas {
  public:
   Canvas(const Terrain& terrain, const RoverPose& start, const Drive& drive)

@@ -23,10 +23,6 @@ void TrackedPlantOptions::Check() const {
   Require(response_s >= 0 && response_s <= 10, "plant.response_s must be in 0..10");
 }
 
-Rigid3 PlaceOnLevelGround(const RoverPose& pose) {
-  return {ExpSO3({0, 0, pose.heading_rad}), Eigen::Vector3d(pose.x_m, pose.y_m, 0)};
-}
-
 TrackedPlant::TrackedPlant(const TrackedPlantOptions& options, const RoverPose& start,
                            PlaceOnGround place)
     : options_(options), place_(std::move(place)), engine_(options.seed), pose_(start) {

@@ -124,9 +124,9 @@ SlipEstimator SeenAside(double aside_deg, double track_m, double per_m = 0,
   TrackWays ways;
   RoverPose pose;
   for (double way_m = 0; way_m <= track_m; way_m += 0.05) {
-    const Rigid3 odom_from_base(ExpSO3({0, 0, pose.heading_rad}), {pose.x_m, pose.y_m, 0});
-    slip.Add(RotatedBy(aside) * RotatedBy(ground) * odom_from_base * RotatedBy(aside).Inverse(),
-             ways);
+    slip.Add(
+        RotatedBy(aside) * RotatedBy(ground) * LiftFromPlane(pose) * RotatedBy(aside).Inverse(),
+        ways);
     const double turn_rad = 0.05 * per_m, half_m = turn_rad * 0.583 / 2;
     pose = Advance(pose, 0.05, turn_rad);
     ways = {ways.left_m + 0.05 - half_m, ways.right_m + 0.05 + half_m};

@@ -85,8 +85,7 @@ TEST(GoalScene, KeepsDistanceAndSlopeWithinTheirLimits) {
   for (int seed = 1; seed <= 3; ++seed) {
     loop.scene.seed = seed;
     const GoalScene scene(loop.scene, loop.options.shape);
-    const double distance_m =
-        std::hypot(scene.goal().x_m - scene.start().x_m, scene.goal().y_m - scene.start().y_m);
+    const double distance_m = Distance(scene.start(), scene.goal());
     EXPECT_GE(distance_m, 5);
     EXPECT_LE(distance_m, 20);
     EXPECT_GE(scene.SteepestSlope(), 5);

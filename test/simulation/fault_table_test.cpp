@@ -140,7 +140,7 @@ std::vector<Fault> PoseFaults() {
   };
 }
 
-Rigid3 PlaceAt(double x_m, double y_m) { return PlaceOnLevelGround({x_m, y_m, 0}); }
+Rigid3 PlaceAt(double x_m, double y_m) { return LiftFromPlane({x_m, y_m, 0}); }
 
 void CreepSideways(SimulatedDrive& d) {
   d.each_tick_ = [&d] { d.told_from_true_ = PlaceAt(0, 0.002) * d.told_from_true_; };
@@ -151,7 +151,7 @@ std::vector<Fault> WrongPoseFaults() {
     d.told_from_true_ = d.map_from_odom_ = d.base_from_told_ = Rigid3();
     d.each_tick_ = [] {};
   };
-  const Rigid3 aside = PlaceOnLevelGround({0, 0, M_PI / 12});
+  const Rigid3 aside = LiftFromPlane({0, 0, M_PI / 12});
   const auto tilt = [](SimulatedDrive& d) {
     d.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
   };

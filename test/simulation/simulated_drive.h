@@ -23,7 +23,7 @@ class SimulatedDrive {
 
   explicit SimulatedDrive(const PilotOptions& pilot = WithFarGoals(),
                           const TrackedPlantOptions& plant = {},
-                          const PlaceOnGround& place = PlaceOnLevelGround)
+                          const PlaceOnGround& place = LiftFromPlane)
       : listener_(bus_.OpenEnd()),
         chassis_(std::in_place, bus_.OpenEnd(), TrackedPlant(plant, RoverPose{}, place)),
         driver_(std::in_place, pilot, bus_.OpenEnd()) {}

@@ -7,7 +7,7 @@
 namespace arfm_vo {
 namespace {
 
-Rigid3 Aside(double aside_deg) { return PlaceOnLevelGround({0, 0, aside_deg * M_PI / 180}); }
+Rigid3 Aside(double aside_deg) { return LiftFromPlane({0, 0, aside_deg * M_PI / 180}); }
 
 /// The goal would be missed by a quarter of the way.
 TEST(SlippedBelt, OneThatHasSlippedBeforeTheDriveStopsItWithinAMetre) {

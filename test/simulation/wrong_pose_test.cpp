@@ -10,7 +10,7 @@ namespace {
 constexpr double kMaxWayOnAWrongPose_m = 0.1;
 
 Rigid3 WrongPlaceAt(double x_m, double y_m, double heading_rad = 0) {
-  return PlaceOnLevelGround({x_m, y_m, heading_rad});
+  return LiftFromPlane({x_m, y_m, heading_rad});
 }
 
 class WrongPoseTest : public ::testing::Test {
@@ -29,10 +29,7 @@ class WrongPoseTest : public ::testing::Test {
   void RestartOdometryAt(const Rigid3& told) {
     drive_.told_from_true_ = told * drive_.plant().WorldFromBase().Inverse();
   }
-  double WayOnTheWrongPose() {
-    const RoverPose& now = drive_.plant().Pose();
-    return std::hypot(now.x_m - at_fault_.x_m, now.y_m - at_fault_.y_m);
-  }
+  double WayOnTheWrongPose() { return Distance(drive_.plant().Pose(), at_fault_); }
   void ExpectBlocked(StopReason reason) {
     EXPECT_EQ(drive_.pilot().Status().state, DriveState::kBlocked);
     EXPECT_STREQ(ToString(drive_.pilot().Status().reason), ToString(reason));

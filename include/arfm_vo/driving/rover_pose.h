@@ -22,6 +22,17 @@ struct RoverPose {
 /// The pose seen from above. The base's x axis must not stand on end.
 RoverPose ProjectToPlane(const Rigid3& map_from_base);
 
+/// The pose on the plane: level, at height 0.
+Rigid3 LiftFromPlane(const RoverPose& pose);
+
+/// Between the base's z axis and the plane's normal, rad.
+double TiltOf(const Rigid3& map_from_base);
+
+/// From place to place, m, whatever the headings.
+inline double Distance(const RoverPose& a, const RoverPose& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
+
 /// The pose after `forward_m` along an arc that turns by `turn_rad`.
 RoverPose Advance(const RoverPose& pose, double forward_m, double turn_rad);
 

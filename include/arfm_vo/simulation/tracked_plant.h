@@ -28,14 +28,11 @@ struct TrackedPlantOptions {
 /// The base (x ahead, y left, z up) of a rover standing at a place, in the world.
 using PlaceOnGround = std::function<Rigid3(const RoverPose&)>;
 
-/// A place on level ground at height 0.
-Rigid3 PlaceOnLevelGround(const RoverPose& pose);
-
 /// A tracked rover that slips: what its tracks do, and what becomes of it on the ground.
 class TrackedPlant {
  public:
   TrackedPlant(const TrackedPlantOptions& options, const RoverPose& start,
-               PlaceOnGround place = PlaceOnLevelGround);
+               PlaceOnGround place = LiftFromPlane);
 
   /// Lets the tracks follow `commanded` for `dt_s`.
   void Step(const TrackSpeeds& commanded, double dt_s);

@@ -129,14 +129,12 @@ StereoFrameStampedConstPtr ArfmNode::Complete(const Announced& pair) {
 }
 
 void ArfmNode::Answer(const FeaturesRequest& request) {
-  const auto stamp_of = [](const Announced& pair) { return pair.message.header.stamp; };
   const auto pair = std::find_if(announced_.begin(), announced_.end(), [&](const auto& announced) {
-    return stamp_of(announced) == request.stamp;
+    return announced.message.header.stamp == request.stamp;
   });
-  if (request.wanted && pair != announced_.end()) PublishFeatures(*pair);
-  if (request.wanted) return;
-  while (!announced_.empty() && stamp_of(announced_.front()) <= request.stamp)
-    announced_.pop_front();
+  if (pair == announced_.end()) return;
+  if (request.wanted) return PublishFeatures(*pair);
+  announced_.erase(announced_.begin(), std::next(pair));
 }
 
 bool ArfmNode::AcceptStamp(const ros::Time& stamp) {

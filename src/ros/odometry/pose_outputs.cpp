@@ -1,6 +1,5 @@
 #include "arfm_vo/ros/odometry/pose_outputs.h"
 
-#include <arfm_vo/OdometryStatus.h>
 #include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/image_encodings.h>
@@ -18,40 +17,6 @@ static_assert(static_cast<uint8_t>(PoseStatus::kTracked) == OdometryStatus::TRAC
               static_cast<uint8_t>(PoseStatus::kNoConsensus) == OdometryStatus::NO_CONSENSUS &&
               static_cast<uint8_t>(PoseStatus::kHeadSlewing) == OdometryStatus::HEAD_SLEWING &&
               static_cast<uint8_t>(PoseStatus::kDegraded) == OdometryStatus::DEGRADED);
-namespace {
-
-OdometryStatusPtr MakeStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
-                             const FeatureCounts& counts, const std_msgs::Header& header,
-                             uint32_t num_dropped) {
-  const auto status = boost::make_shared<OdometryStatus>();
-  status->header = header;
-  status->state = static_cast<uint8_t>(pose.update.pose.status);
-  status->text = pose.text;
-  status->is_keyframe = pose.update.is_keyframe;
-  status->epoch = pose.epoch;
-  status->has_features = frame.has_features;
-  status->num_features = counts.left;
-  status->num_right_features = counts.right;
-  status->num_stereo_points = counts.stereo_points;
-  status->num_matches = pose.update.pose.num_matches;
-  status->num_inliers = pose.update.pose.num_inliers;
-  status->rms_px = pose.update.pose.rms_px;
-  status->ratio_threshold = frame.ratio_threshold;
-  status->row_residual_px = pose.update.median_row_residual_px;
-  status->grey_mean = frame.grey_mean;
-  status->grey_variance = frame.grey_variance;
-  status->num_dropped_arfm = frame.num_dropped_pairs;
-  status->num_dropped_pose = num_dropped;
-  status->stage_names = frame.stage_names;
-  status->stage_ms = frame.stage_ms;
-  for (const auto& [name, ms] : pose.update.stage_ms) {
-    status->stage_names.push_back(name);
-    status->stage_ms.push_back(ms);
-  }
-  return status;
-}
-
-}  // namespace
 
 PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
                          std::string base_frame)
@@ -69,11 +34,8 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
   std_msgs::Header header;
   header.stamp = frame.header.stamp;
   header.frame_id = options_.odom_frame;
-  if (frame.has_features)
-    counts_ = {static_cast<uint32_t>(frame.keypoint_x.size()), frame.num_right_keypoints,
-               static_cast<uint32_t>(frame.point_keypoint.size())};
   // First, so that who drives by the pose hears of a new epoch before its poses.
-  status_publisher_.publish(MakeStatus(pose, frame, counts_, header, num_dropped));
+  PublishStatus(pose, frame, header, num_dropped);
   if (pose.IsTried()) PublishOdometry(pose, header);
   if (pose.update.pose.IsMeasured()) {  // nobody steers by what no picture told
     if (options_.publish_tf)
@@ -87,6 +49,37 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
     keyframe->header = header;
     keyframe_publisher_.publish(keyframe);
   }
+}
+
+void PoseOutputs::PublishStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
+                                const std_msgs::Header& header, uint32_t num_dropped) {
+  status_.header = header;
+  status_.state = static_cast<uint8_t>(pose.update.pose.status);
+  status_.text = pose.text;
+  status_.is_keyframe = pose.update.is_keyframe;
+  status_.epoch = pose.epoch;
+  status_.has_features = frame.has_features;
+  if (frame.has_features) {
+    status_.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
+    status_.num_right_features = frame.num_right_keypoints;
+    status_.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
+  }
+  status_.num_matches = pose.update.pose.num_matches;
+  status_.num_inliers = pose.update.pose.num_inliers;
+  status_.rms_px = pose.update.pose.rms_px;
+  status_.ratio_threshold = frame.ratio_threshold;
+  status_.row_residual_px = pose.update.median_row_residual_px;
+  status_.grey_mean = frame.grey_mean;
+  status_.grey_variance = frame.grey_variance;
+  status_.num_dropped_arfm = frame.num_dropped_pairs;
+  status_.num_dropped_pose = num_dropped;
+  status_.stage_names = frame.stage_names;
+  status_.stage_ms = frame.stage_ms;
+  for (const auto& [name, ms] : pose.update.stage_ms) {
+    status_.stage_names.push_back(name);
+    status_.stage_ms.push_back(ms);
+  }
+  status_publisher_.publish(boost::make_shared<OdometryStatus>(status_));
 }
 
 void PoseOutputs::PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header) {

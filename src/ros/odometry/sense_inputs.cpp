@@ -24,7 +24,7 @@ SenseInputs::SenseInputs(ros::NodeHandle& node, const SensesOptions& options,
 template <class Message>
 void SenseInputs::Subscribe(ros::NodeHandle& node, const std::string& topic, Worker& worker) {
   const std::string name = node.resolveName(topic);
-  inputs_.push_back({name, Refusals("reading of " + name)});
+  inputs_.push_back({name, Refusals("reading of " + name), 0, {}});
   Input& input = inputs_.back();
   const auto take = [this, &worker, &input](const boost::shared_ptr<const Message>& message) {
     worker.Post([this, &input, message] {

@@ -100,7 +100,7 @@ void ChassisNode::Serve(ros::NodeHandle& private_node) {
   serve("cancel", [&pilot] { return pilot.CancelRoute(), Reply{true, "no goal"}; });
   serve("drive_home", [this] {
     try {
-      const std::string flaw = Drive(driven_.PlanHome(base_));
+      const std::string flaw = Follow([way = driven_.PlanHome(base_)] { return way; });
       return Reply{flaw.empty(), flaw.empty() ? "drives home" : flaw};
     } catch (const std::invalid_argument& error) {
       return Reply{false, error.what()};
@@ -187,9 +187,15 @@ void ChassisNode::TellResults() {
 
 template <class Goal>
 std::string ChassisNode::Drive(const Goal& goal) {
-  try {
+  return Follow([&] {
     goal_reader_.RequireFresh(goal.header, ros::Time::now());
-    const Route route{goal_reader_.Read(goal)};
+    return Route{goal_reader_.Read(goal)};
+  });
+}
+
+std::string ChassisNode::Follow(const std::function<Route()>& read) {
+  try {
+    const Route route = read();
     const Reply reply = driver_.pilot().SetRoute(route);
     Require(reply.is_accepted, reply.text);
     TellResults();  // of the goal that is replaced
@@ -236,8 +242,8 @@ void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatu
   const OdometryStatus& status = *event.getConstMessage();
   const double taken_s = clock_.At(status.header.stamp);
   driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
-  driver_.pilot().picture_watch().Observe({taken_s, status.grey_mean, status.num_features,
-                                           status.num_stereo_points});
+  driver_.pilot().picture_watch().Observe(
+      {taken_s, status.grey_mean, status.num_features, status.num_stereo_points});
 }
 
 }  // namespace arfm_vo

@@ -5,7 +5,6 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/driving/way_home.h"
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
 namespace {
@@ -22,7 +21,7 @@ DrivenPath::DrivenPath(ros::NodeHandle& node)
       statuses_(node.subscribe<MapStatus>("map_status", 1,
                                           [this](const auto& status) { status_ = status; })) {}
 
-nav_msgs::Path DrivenPath::PlanHome(const geometry_msgs::PoseStamped& base) const {
+Route DrivenPath::PlanHome(const geometry_msgs::PoseStamped& base) const {
   const std::string& map_frame = base.header.frame_id;
   Require(!map_frame.empty(), "way home: the rover has no pose");
   Require(path_ != nullptr, "way home: ba_node tells no path_optimized");
@@ -32,12 +31,7 @@ nav_msgs::Path DrivenPath::PlanHome(const geometry_msgs::PoseStamped& base) cons
           "way home: the rover is still looked for in the map (map_status: LOCALISING)");
   std::vector<RoverPose> driven;
   for (const auto& place : path_->poses) driven.push_back(ToRoverPose(place.pose));
-  nav_msgs::Path way;
-  way.header.frame_id = map_frame;
-  way.header.stamp = ros::Time::now();
-  for (const auto& [x_m, y_m, heading_rad] : FindWayHome(driven, ToRoverPose(base.pose)))
-    way.poses.emplace_back().pose = ToMessage(RoverPose{x_m, y_m, heading_rad.value_or(0)});
-  return way;
+  return FindWayHome(driven, ToRoverPose(base.pose));
 }
 
 }  // namespace arfm_vo

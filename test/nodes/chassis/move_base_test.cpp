@@ -223,8 +223,7 @@ TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) 
   EXPECT_TRUE(world_->RunUntil([&] { return says("drives home"); }));
   EXPECT_TRUE(world_->RunUntil(
       [] { return !world_->reports_.empty() && world_->reports_.back().text == "arrived"; }));
-  const RoverPose home = Advance(start, 0.6, 0), end = stands();
-  EXPECT_LT(std::hypot(end.x_m - home.x_m, end.y_m - home.y_m), 0.06);
+  EXPECT_LT(Distance(stands(), Advance(start, 0.6, 0)), 0.06);
 }
 
 }  // namespace

@@ -29,9 +29,7 @@ class FaultySenses {
   }
   void ReadTracks(double stamp_s, const TrackWays& ways) {
     odometry_.Update({faults_.track_scale * ways.left_m, faults_.track_scale * ways.right_m});
-    const RoverPose& pose = odometry_.Pose();
-    tracks_.emplace_back(
-        stamp_s, Rigid3(ExpSO3({0, 0, pose.heading_rad}), Eigen::Vector3d(pose.x_m, pose.y_m, 0)));
+    tracks_.emplace_back(stamp_s, LiftFromPlane(odometry_.Pose()));
   }
   /// What has come until now.
   void GiveTo(double now_s, Senses& senses) {
@@ -67,7 +65,7 @@ struct SensedDriveOptions {
 /// gyro at 100 Hz and track odometry at 20 Hz.
 class SensedDrive {
  public:
-  explicit SensedDrive(const SensedDriveOptions& options, PlaceOnGround place = PlaceOnLevelGround)
+  explicit SensedDrive(const SensedDriveOptions& options, PlaceOnGround place = LiftFromPlane)
       : options_(options),
         plant_(options.plant, RoverPose{}, std::move(place)),
         imu_(options.gyro_seed) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arfm_vo/OdometryStatus.h>
 #include <arfm_vo/StereoFrameStamped.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -25,11 +26,6 @@ struct PoseOutputOptions {
   ARFM_FIELDS(odom_frame, publish_tf, path)
 };
 
-/// How many features the newest pair has for which any were computed.
-struct FeatureCounts {
-  uint32_t left = 0, right = 0, stereo_points = 0;
-};
-
 /// All that pose_node publishes: odom, path, status, keyframe, matches_image, tf.
 class PoseOutputs {
  public:
@@ -47,12 +43,14 @@ class PoseOutputs {
   void ClearPath() { path_.Clear(); }
 
  private:
+  void PublishStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
+                     const std_msgs::Header& header, uint32_t num_dropped);
   void PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header);
 
   PoseOutputOptions options_;
   std::string base_frame_;
   BoundedPath path_;
-  FeatureCounts counts_;
+  OdometryStatus status_;  // the newest
   ros::Publisher odometry_publisher_, path_publisher_, status_publisher_, keyframe_publisher_;
   image_transport::Publisher picture_publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;

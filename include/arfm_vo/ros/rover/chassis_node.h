@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -73,6 +74,8 @@ class ChassisNode {
   /// A pose or a path. Says why it is refused.
   template <class Goal>
   std::string Drive(const Goal& goal);
+  /// The same of the route that `read` returns; what it throws is why.
+  std::string Follow(const std::function<Route()>& read);
   template <class Goal>
   void TakeGoal(const Goal& goal);
   void TakeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);

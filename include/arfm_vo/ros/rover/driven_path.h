@@ -6,6 +6,8 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include "arfm_vo/driving/route.h"
+
 namespace arfm_vo {
 
 /// The path of this drive and, where it was found in their map, those before: `path_optimized` of
@@ -17,7 +19,7 @@ class DrivenPath {
   /// The way home (FindWayHome) from `base`, in its frame, the map. Throws std::invalid_argument
   /// where there is none, where the path is in another frame, and while the drive is LOCALISING:
   /// its path begins where the rover woke up.
-  nav_msgs::Path PlanHome(const geometry_msgs::PoseStamped& base) const;
+  Route PlanHome(const geometry_msgs::PoseStamped& base) const;
 
  private:
   nav_msgs::PathConstPtr path_;
