@@ -1,23 +1,17 @@
 // Matches and right ones on image pairs with truth: by ratio threshold, by rule of the threshold,
-// by the paper's strategy and by feature method. CSV on stdout, pictures on demand.
+// by the paper's strategy and by feature method. CSV on stdout.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/configuration/program.h"
-#include "arfm_vo/datasets/kitti_sequence.h"
 #include "arfm_vo/matching/exact_matcher.h"
 #include "arfm_vo/matching/feature_matcher.h"
 #include "arfm_vo/matching/ratio_threshold.h"
-#include "arfm_vo/odometry/stereo_frontend.h"
 #include "experiments/false_match_threshold.h"
 #include "experiments/feature_method.h"
 #include "experiments/judged_pair.h"
-#include "experiments/match_drawing.h"
 
 namespace arfm_vo {
 namespace {
@@ -34,7 +28,6 @@ struct Row {
 
 struct Experiment {
   std::vector<std::string> folders;
-  std::string pictures;  ///< folder for them; empty: none
   int num_points = 1000, max_pairs = 12;
 };
 
@@ -51,16 +44,6 @@ int CountCorrect(const JudgedPair& pair, const std::vector<cv::Point2f>& first,
     if (pair.is_correct(first[match.first], second[match.second])) ++correct;
   }
   return correct;
-}
-
-void SavePicture(const std::string& path, const cv::Mat& picture) {
-  constexpr int kMaxWidth = 1100;
-  cv::Mat small = picture;
-  const double factor = static_cast<double>(kMaxWidth) / picture.cols;
-  if (factor < 1) cv::resize(picture, small, {}, factor, factor, cv::INTER_AREA);
-  if (!cv::imwrite(path, small, {cv::IMWRITE_JPEG_QUALITY, 80})) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
 }
 
 /// SURF features of a pair and what all thresholds share.
@@ -153,13 +136,13 @@ void PrintRules(const JudgedPair& pair, const SurfPair& surf, FalseMatchThreshol
   learner.Learn(surf.RateMatches(), surf.SeenShare());
 }
 
-Matches PrintStrategy(const SurfPair& surf, const std::string& name, MatchStrategy strategy,
+void PrintStrategy(const SurfPair& surf, const std::string& name, MatchStrategy strategy,
                       double ratio, const std::string& rule) {
   FeatureMatcherOptions options;
   options.strategy = strategy;
   const FeatureMatcher matcher(options);
   const auto start = std::chrono::steady_clock::now();
-  Matches matches = matcher.MatchFeatures(surf.first(), surf.second(), ratio);
+  const Matches matches = matcher.MatchFeatures(surf.first(), surf.second(), ratio);
   Row row{"strategy"};
   row.ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -167,22 +150,14 @@ Matches PrintStrategy(const SurfPair& surf, const std::string& name, MatchStrate
   row.rule = rule;
   row.ratio = ratio;
   surf.PrintMatches(row, matches);
-  return matches;
 }
 
-void PrintStrategies(const JudgedPair& pair, const SurfPair& surf, const std::string& pictures) {
+void PrintStrategies(const JudgedPair& pair, const SurfPair& surf) {
   const double adaptive = PapersRatio(ComputeGreyStatistics(pair.first));
-  const auto save = [&](const std::string& name, const Matches& matches) {
-    if (pictures.empty()) return;
-    SavePicture(pictures + "/" + pair.set + "_" + name + ".jpg",
-                DrawMatches(pair, surf.first(), surf.second(), matches));
-  };
   for (const auto& [name, strategy] : ListNames(MatchStrategy{})) {
     PrintStrategy(surf, name, strategy, adaptive, "variance");
-    save(name, PrintStrategy(surf, name, strategy, kRuleFixed, "fixed"));
+    PrintStrategy(surf, name, strategy, kRuleFixed, "fixed");
   }
-  save("fixed_0.6", surf.Select(0.6));
-  save("adaptive", surf.Select(adaptive));
 }
 
 void PrintMethods(const JudgedPair& pair, int num_points) {
@@ -205,17 +180,7 @@ void PrintMethods(const JudgedPair& pair, int num_points) {
   }
 }
 
-void SaveDepths(const std::string& folder, const JudgedPair& pair, const std::string& pictures) {
-  KittiSequence sequence(folder, {1, 1});
-  StereoFrontend frontend(sequence.camera(), {});
-  const auto first = sequence.Next();
-  const StereoFrame frame = frontend.Process(first->images);
-  SavePicture(pictures + "/" + pair.set + "_depths.jpg",
-              DrawDepths(first->images.left, frame.points));
-}
-
 void Run(const Experiment& experiment) {
-  if (!experiment.pictures.empty()) std::filesystem::create_directories(experiment.pictures);
   std::puts("experiment,set,pair,method,strategy,rule,ratio,points,matches,correct,ms");
   for (const std::string& folder : experiment.folders) {
     const std::vector<JudgedPair> pairs = ReadJudgedPairs(folder, experiment.max_pairs);
@@ -226,12 +191,8 @@ void Run(const Experiment& experiment) {
       const SurfPair surf(pair, options);
       PrintCurve(surf);
       PrintRules(pair, surf, learner);
-      const bool is_drawn = &pair == &pairs[pairs.size() / 3];
-      PrintStrategies(pair, surf, is_drawn ? experiment.pictures : "");
+      PrintStrategies(pair, surf);
       PrintMethods(pair, experiment.num_points);
-    }
-    if (!experiment.pictures.empty() && pairs.front().is_stereo) {
-      SaveDepths(folder, pairs.front(), experiment.pictures);
     }
   }
 }
@@ -252,7 +213,6 @@ int main(int argc, char** argv) {
   program.inputs = {{"FOLDER", &first_folder}};
   const auto more = po::value(&experiment.folders)->multitoken()->value_name("FOLDER..");
   program.options.add_options()("more", more, "more folders");
-  program.Add("pictures", experiment.pictures, "DIR", "pictures of matches there");
   program.Add("points", experiment.num_points, "N", "points an image");
   program.Add("pairs", experiment.max_pairs, "N", "pairs of a KITTI folder");
   program.run = [&] {

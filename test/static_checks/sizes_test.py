@@ -11,7 +11,7 @@ import re
 import sys
 
 MAX_LINES = {".cpp": 250, ".inl": 250, ".py": 250, ".sh": 250, ".h": 120}
-MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 6893
+MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 6352
 FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scripts", "src", "test", "urdf")
 LARGER = {
     # Folders, files.
@@ -21,7 +21,6 @@ LARGER = {
     "src/mapping/local_map.cpp": 259, "src/odometry/global_map.cpp": 265,
     "test/odometry/global_map_test.cpp": 260, "src/pose/pose_election.cpp": 261,
     "test/bundle_adjustment/bundle_adjustment_test.cpp": 350, "test/bundle_adjustment/bundle_scene.h": 153,
-    "test/experiments/experiments_report.py": 345, "test/experiments/matching_experiment.cpp": 263,
     "test/features/plain_surf.h": 195, "test/hardware/pan_tilt_test.cpp": 300,
     "test/nodes/chassis_node_test.cpp": 379, "test/nodes/odometry_chain_test.cpp": 345, "test/odometry/session_test.cpp": 373,
     "test/pose/pose_estimator_test.cpp": 288, "test/pose/pose_refinement_test.cpp": 269, "test/programs/programs_test.cpp": 263,
