@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Puts the text of standard input between the marks of a section in a Markdown file, in place of what stands there.
 
+What measures something writes its tables so; the page says around them what they mean. No text at all is an error.
 Usage: readme_section.py FILE NAME      marks: a line that begins with <!-- NAME: begin and one that is <!-- NAME: end -->
 """
 import os
@@ -10,6 +11,8 @@ import sys
 
 def replace_section(path, name, text):
     """The file as a whole is there at any time, old or new."""
+    if not text.strip():
+        sys.exit(f"{path}: nothing to put into {name}")
     with open(path) as stream:
         content = stream.read()
     marks = re.compile(rf"(^<!-- {re.escape(name)}: begin.*?-->\n).*?(^<!-- {re.escape(name)}: end -->$)", re.M | re.S)

@@ -20,14 +20,6 @@ peer() {  # SEQUENCE K PROGRAM
 }
 
 {
-  echo "# Results"
-  echo
-  echo "Written by \`scripts/measure.sh results\`. Mean translation error over sub-sequences of 10..50 m from every frame, % / ATE"
-  echo "after SE(3) alignment, m. K: every K-th pair. Live: the pose as known at once, which a rover steers by; in the"
-  echo "second drive with the calibration that the first has learnt. After: the trajectory after the drive. Peers, of"
-  echo "libviso2 and ORB-SLAM2 the final trajectory, of OV2SLAM and dsol the live one, measured by the project's planning on the same clips (\`docs/peers.csv\`; ORB-SLAM2: range of 8"
-  echo "runs, or the best). The truth of drive 0001 is good to about 0.6 % of the length."
-  echo
   echo "| sequence | K | pairs | lost | **live** | live, second drive | after | live length ratio | libviso2 | ORB-SLAM2 | OV2SLAM | dsol |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
   for folder in "${folders[@]}"; do
@@ -41,13 +33,13 @@ peer() {  # SEQUENCE K PROGRAM
         "| $(peer "$name" $stride OV2SLAM) | $(peer "$name" $stride dsol) |"
     done
   done
-} > "$work/results.md"
+} > "$work/table"
 {
   echo "| sequence | pairs | **arfm_vo** | libviso2 | ORB-SLAM2 | OV2SLAM | dsol |"
   echo "|---|---|---|---|---|---|---|"
   awk -F' *[|] *' 'NF > 9 && ($3 == 1 || $3 == 5) {
-    printf "| %s | %s | %s | %s | %s | %s | %s |\n", $2, $3 == 1 ? "all" : "every " $3 "th", $6, $10, $11, $12, $13}' "$work/results.md"
+    printf "| %s | %s | %s | %s | %s | %s | %s |\n", $2, $3 == 1 ? "all" : "every " $3 "th", $6, $10, $11, $12, $13}' "$work/table"
 } > "$work/section"
-mv "$work/results.md" docs/results.md
+test/readme_section.py docs/results.md results < "$work/table"
 if [ $# -eq 0 ]; then test/readme_section.py README.md results < "$work/section"; fi
 cat docs/results.md

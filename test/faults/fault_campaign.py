@@ -30,8 +30,9 @@ from geometry_msgs.msg import PoseStamped, TransformStamped, Twist  # noqa: E402
 from nav_msgs.msg import Odometry, Path  # noqa: E402
 from rover import UNCERTAIN, Launch, Rover, pids_of_nodes, start_again  # noqa: E402
 from ports import find_bus_port  # noqa: E402
+from readme_section import replace_section  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
-from table import WATCH_S, table  # noqa: E402
+from table import WATCH_S, tables  # noqa: E402
 
 MAX_STOP_S = 0.3  # after the fault, or after its limit
 MAX_WAY_M = 0.10  # of the tracks from the fault on, their own inertia included
@@ -183,7 +184,7 @@ def did_not_drive(fault):
             "way_m": 0, "wrong_way_m": 0, "go_on": "", "kept": False, "arrived": 0, "unwarned": 0, "drives_on": False}
 
 
-def run(names, log, output, max_stop_s):
+def run(names, log, page, max_stop_s):
     driver_port = find_bus_port(4721)
     chassis_port = find_bus_port(driver_port + 1)
     tap = bus.BusTap(driver_port, chassis_port)
@@ -215,8 +216,8 @@ def run(names, log, output, max_stop_s):
                 row = did_not_drive(fault)
             print(row, flush=True)
             rows.append(row)
-            if output:
-                output.write_text(table(rows))
+            for name, text in tables(rows).items() if page else ():
+                replace_section(page, name, text)
         if not is_silent:
             print("frames were sent before start", flush=True)
             rows[0]["kept"] = False
@@ -230,7 +231,7 @@ def run(names, log, output, max_stop_s):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", help="faults whose name holds one of these, separated by |")
-    parser.add_argument("--output", type=pathlib.Path, help="the table, Markdown")
+    parser.add_argument("--output", metavar="PAGE", help="whose tables are replaced")
     parser.add_argument("--max-stop-s", type=float, default=MAX_STOP_S, help="after the fault or its limit")
     arguments = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so do its children

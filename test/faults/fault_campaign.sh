@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Injects faults into the running nodes of the simulated rover and writes docs/fault_campaign.md.
+# Injects faults into the running nodes of the simulated rover and writes the tables of docs/fault_campaign.md.
 # Usage: scripts/measure.sh fault_campaign [--only TEXT|TEXT|..]      with --only nothing is written
 set -euo pipefail
 scripts/build.sh chassis_node chassis_guard simulator_node arfm_node pose_node ba_node truth_path_node arfm_vo_generate_messages_py

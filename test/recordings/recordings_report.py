@@ -105,7 +105,7 @@ def main():
     clean = [row for row in rows if row["fault"] == "none"]
     faulty = [row for row in rows if row["fault"] != "none"]
     rendered = total([row for row in rows if row["kind"] == "rendered"], "pairs")
-    print(f"{len(rows)} recordings, {total(rows, 'pairs'):.0f} pairs, {rendered:.0f} of them rendered; "
+    print(f"{len(rows)} recordings{half and ' of the half to ' + half}, {total(rows, 'pairs'):.0f} pairs, {rendered:.0f} of them rendered; "
           f"it took {total(rows, 'seconds') / 60:.0f} min.\n")
     print("| | asked | " + "without a fault | with a fault |\n|---|---|---|---|")
     lost, degraded = total(clean, "lost"), total(clean, "degraded")

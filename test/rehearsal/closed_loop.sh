@@ -30,21 +30,6 @@ most() { rows | awk -v c="$1" 'NR == 1 || $c > m { m = $c } END { print m }'; }
 count() { for file in "$work"/drive_*.txt; do awk -v key="$1:" '$1 == key { print $2 }' "$file"; done | awk '{ s += $1 } END { print s }'; }
 
 {
-  cat <<'TEXT'
-# Driving by sight alone
-
-Made by `scripts/measure.sh closed_loop`: a simulated rover drives to goals on rendered terrain, in process, on a simulated
-clock, with fixed seeds (a seed is a terrain, a start, a goal, the slip and the camera's noise). The pilot speaks to the
-chassis in the CAN frames of the real one; the tracks slip by 10 %, more or less from place to place, and downhill on
-side slopes; all that the pilot knows of its place comes from the visual odometry on the rendered stereo pairs
-(320 x 240, one each 0.75 s), 0.2 s late. Allowed are 1 % of the way driven and 5 cm. The tests `ClosedLoopTest` drive
-to three of these goals.
-
-![four of the drives](drives.jpg)
-
-*Four of the drives from above: contours every 0.25 m, green the true way, red the way by sight, yellow the goal.*
-
-TEXT
   echo "| | asked | measured |"
   echo "|---|---|---|"
   echo "| goals reached | $goals | $(count reached) |"
@@ -63,11 +48,12 @@ TEXT
   echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
   rows | awk '{ printf "|"; for (i = 1; i <= 14; ++i) printf " %s |", $i
                 for (i = 15; i <= NF; ++i) printf " %s", $i; print " |" }'
-} > "$work/driving.md"
+} > "$work/driving"
 
 mapfile -t pictures < <(find "$work" -name 'drive_*.png' | sort | tail -4)
 montage "${pictures[@]}" -tile 2x2 -geometry 500x634+4+4 -quality 80 "$work/drives.jpg"
-mv "$work/driving.md" "$work/drives.jpg" docs/
+test/readme_section.py docs/driving.md driving < "$work/driving"
+mv "$work/drives.jpg" docs/
 {
   echo "$(count reached) of $goals goals, $(rows | awk '{ print $2 }' | sort -n | awk 'NR == 1 { printf "%.0f to ", $1 } END { printf "%.0f", $1 }') m away, were reached, the farthest $(most 4) m beside"
   echo "(at most $(rows | awk '$4 / $5 > m { m = $4 / $5 } END { printf "%.2f", m }') of what is allowed: 1 % and 5 cm), by sight alone and with $(sum 14) stops on the way, in"

@@ -27,51 +27,31 @@ run nees "${simulate[@]}" --config "$work/online.yaml" --runs 20 --frames 200
 run rest "$programs/simulate_rest"
 wait "$all"
 
+section() { test/readme_section.py docs/simulated.md "$1"; }
 {
-  echo "# Simulated drives"
-  echo
-  echo "Written by \`scripts/measure.sh simulated_kitti\`: KITTI's true paths, random landmarks (300 in view, 12 frames a track),"
-  echo "0.5 px noise on every coordinate, 20 % outliers; the odometry without its front end. ATE in m. Adjusted: by the"
-  echo "global adjustment, in which the newest 110 keyframes move. NEES of one run: 6 is consistent, less is too careful."
-  echo
-  echo "## Without loop closing"
-  echo
   echo "| sequence | frames | length m | lost | t_rel % | r_rel deg/100 m | ATE | adjusted t_rel % | ATE | NEES | ms a frame |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|"
   awk -F, 'NR > 1 {printf "| %s | %s | %s | %d | %s | %s | %s | %s | %s | %s | %.1f |\n",
                    $1, $2, $3, $4, $6, $7, $8, $9, $11, $12, 1000 * $15 / $2
                    t += $6; r += $7; f += $9; e += $12; n++}
            END {printf "| mean | | | | %.4f | %.4f | | %.4f | | %.2f | |\n", t / n, r / n, f / n, e / n}' "$work/all.csv"
-  echo
-  echo "## With loop closing"
-  echo
-  echo "Of 5,000 keyframes that move at most. Falls: from the ATE without loop closing, as known at once and adjusted."
-  echo
+} | section all
+{
   echo "| sequence | keyframes | loops | ATE | falls by | and by | ms a frame | without loops | at the end s |"
   echo "|---|---|---|---|---|---|---|---|---|"
   awk -F, 'FNR == 1 {next}
            NR == FNR {online[$1] = $8; adjusted[$1] = $11; ms[$1] = 1000 * $15 / $2; next}
            {printf "| %s | %d | %d | %s | %.1f x | %.1f x | %.1f | %.1f | %s |\n", $1, $5, $14, $11,
             online[$1] / $11, adjusted[$1] / $11, 1000 * $15 / $2, ms[$1], $16}' "$work/all.csv" "$work/loops.csv"
-  echo
-  echo "## Consistency (NEES) of the pose covariance that odom carries"
-  echo
-  echo "Normalised estimation error squared against the first camera, 6 degrees of freedom, over 20 runs of 200 frames."
-  echo "Within: frames whose mean over the runs lies within its 95 % bounds, 4.58..7.60. The frames of a run are not"
-  echo "independent: an error of the first metres stays with all of them."
-  echo
+} | section loops
+{
   echo "| sequence | NEES | frames within % |"
   echo "|---|---|---|"
   awk -F, 'NR > 1 {printf "| %s | %s | %s |\n", $1, $12, $13; e += $12; w += $13; n++}
            END {printf "| mean | %.2f | %.1f |\n", e / n, w / n}' "$work/nees.csv"
-  echo
-  echo "## At rest"
-  echo
-  echo "1,000 noisy pairs of one rendered place (\`simulate_rest\`): the farthest that the pose went."
-  echo
+} | section nees
+{
   echo "| | m | deg |"
   echo "|---|---|---|"
   awk -F, 'NR > 1 {printf "| %s | %s | %s |\n", $1, $2, $3}' "$work/rest.csv"
-} > "$work/simulated.unfinished"
-mv "$work/simulated.unfinished" docs/simulated.md
-cat docs/simulated.md
+} | section rest

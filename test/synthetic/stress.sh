@@ -44,14 +44,6 @@ PLOT
 }
 
 {
-  echo "# Stress"
-  echo
-  echo "Written by \`scripts/measure.sh stress ${all[*]}\`: the first 60 pairs of each recording, once for each disturbance of its pictures."
-  echo "Live and after the drive: mean translation error over 10..50 m, % / ATE, m; against the truth, or against the"
-  echo "undisturbed live poses where there is none. Wrong: pairs called tracked whose place is more than 3 standard"
-  echo "deviations from that of the undisturbed drive; beside it the largest deviation of a tracked pair, in standard"
-  echo "deviations. Objects are textured, as many % of the picture as their name says, from pair 15 to the end; what else"
-  echo "begins during the drive begins at pair 20. Pairs that are missing are not counted."
   for folder in "${folders[@]}"; do
     name=$(basename "$folder")
     mkdir -p "$work/states"
@@ -59,7 +51,6 @@ PLOT
     picture=
     [ "$name$page" != raw_2011_09_26_drive_0001stress ] || picture=stress.png
     [ -z "$picture" ] || { plot "$name" && mv "$work/stress.png" docs/stress.png; }
-    echo
     echo "## $name"
     echo
     [ -z "$picture" ] || { echo "![state of each pair](stress.png)"; echo; }
@@ -68,31 +59,29 @@ PLOT
     awk -F, 'NR > 1 {gsub("nan", "-"); printf "| %s | %s / %s | %s / %s | %s | %s | %s | %s | %s |\n", \
       $1, $2, $3, $4, $5, $6, $7, $8, $9, $10}' "$work/lines"
     awk -F, -v name="$name" 'NR > 1 && $9 > 0 {printf "| %s | %s | %s | %s |\n", name, $1, $9, $10}' "$work/lines" >> "$work/wrong"
+    echo
   done
-  if [ $page = stress_all ]; then
-    echo
-    echo "## Tracked and more than 3 standard deviations off"
-    echo
+} > "$work/stress"
+if [ $page = stress_all ]; then
+  last=wrong
+  {
     echo "| sequence | disturbance | wrong | largest |"
     echo "|---|---|---|---|"
     cat "$work/wrong"
     echo
     echo "It took $SECONDS s."
-  else
-    echo
-    echo "## Relocalisation"
-    echo
-    echo "A rendered turn in place through 98 degrees: the rover is driven to a random pair, sees nothing for ten pairs, and is"
-    echo "then shown another random pair that shares at least a part of the last view (test/synthetic/relocalise.cpp)."
-    echo
+  } > "$work/last"
+else
+  last=relocalisation
+  "$programs/render_sequence" "$work/turn" --path wide_turn > "$work/log" 2>&1
+  {
     echo "| shared view at least | tries | found by the first pair | wrong |"
     echo "|---|---|---|---|"
-    "$programs/render_sequence" "$work/turn" --path wide_turn > "$work/log" 2>&1
     for share in 0.5 0.25 0.1; do
       "$programs/relocalise" "$work/turn" --min-share $share |
         awk -F': ' -v share=$share '{v[$1] = $2} END {printf "| %s | %d | %d | %d |\n", share, v["tries"], v["found"], v["wrong"]}'
     done
-  fi
-} > "$work/stress.md"
-mv "$work/stress.md" docs/$page.md
-cat docs/$page.md
+  } > "$work/last"
+fi
+test/readme_section.py docs/$page.md stress < "$work/stress"
+test/readme_section.py docs/$page.md $last < "$work/last"
