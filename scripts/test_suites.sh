@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Builds the package and runs its tests on other systems, each in a chroot of its own (debootstrap), as root.
-# Usage: scripts/test_suites.sh [--core] [SUITE ...]      default: all but focal
+# Usage: scripts/test_suites.sh [--core] [SUITE ...]      default: all
 #   bullseye, bookworm, trixie   Debian 11, 12, 13
 #   bullseye-gcc9                Debian 11 by g++ 9
-#   focal                        Ubuntu 20.04, which Noetic is made for; needs UBUNTU_MIRROR=URL, UBUNTU_KEYRING=FILE
 #   arm64                        this machine's release for arm64: the layers below ros, cross-built, their tests in qemu-user
 #   --core                       only the layers below ros and their tests, which need no ROS master
 # Each ends with a line "SUITE: ... tests". The chroots (4 GB each) stay in ARFM_VO_SUITES (default: ~/.cache/arfm_vo/suites);
@@ -34,15 +33,10 @@ debian_mirror() {
 make_chroot() {
   [ -d "$suites/$1" ] && return
   need debootstrap debootstrap
-  local mirror options=()
-  if [ "$1" = focal ]; then
-    mirror=${UBUNTU_MIRROR:?focal needs the address of a mirror of Ubuntu}
-    options=("--components=main,universe" --keyring="${UBUNTU_KEYRING:?focal needs the file ubuntu-archive-keyring.gpg}")
-  else
-    mirror=$(debian_mirror)
-  fi
+  local mirror
+  mirror=$(debian_mirror)
   rm -rf "$suites/$1.new"
-  debootstrap --variant=minbase "${options[@]}" "$1" "$suites/$1.new" "$mirror" > "$suites/$1.log" 2>&1 ||
+  debootstrap --variant=minbase "$1" "$suites/$1.new" "$mirror" > "$suites/$1.log" 2>&1 ||
     fail "debootstrap failed: $suites/$1.log"
   mv "$suites/$1.new" "$suites/$1"
 }
@@ -81,18 +75,6 @@ print(f'{suite}: {tests - skipped - failed} gtest and rostest cases passed, {ski
 PYTHON
 }
 
-# What Ubuntu 20.04 has of ROS itself; diagnostic_updater, which only Noetic's packages have there, is declared, not there.
-install_on_focal() {
-  local root=$suites/focal folder
-  mapfile -t packages < <(scripts/install_dependencies.sh --list build ros libraries tests | grep -vx libdiagnostic-updater-dev)
-  enter online "$root" apt-get update -qq
-  enter online "$root" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-    "${packages[@]}" python3-roslaunch python3-rostest
-  folder=$root/usr/share/diagnostic_updater/cmake
-  mkdir -p "$folder"
-  echo 'set(diagnostic_updater_FOUND_CATKIN_PROJECT TRUE)' > "$folder/diagnostic_updaterConfig.cmake"
-}
-
 # test_chroot SUITE: in the chroot of its release, in a folder of its own.
 test_chroot() {
   local release=${1%-gcc9} status=0 compiler=()
@@ -101,17 +83,13 @@ test_chroot() {
   cp /etc/resolv.conf "$root/etc/"
   put_sources "$root/$folder"
   [ ! -d "$shared" ] || cp -RLup "$shared/." "$root/root/shared"
-  if [ "$1" = focal ]; then
-    install_on_focal
-  else
-    enter online "$root" "/$folder/scripts/install_dependencies.sh"
-  fi
+  enter online "$root" "/$folder/scripts/install_dependencies.sh"
   if [ "$1" != "$release" ]; then
     enter online "$root" apt-get install -y -qq --no-install-recommends g++-9
     compiler=(CXX=g++-9)
   fi
   rm -rf "$root/$folder/_b/test_results"
-  if [[ $is_core || $1 = focal ]]; then
+  if [[ $is_core ]]; then
     enter offline "$root" "${compiler[@]}" "/$folder/scripts/build.sh" "${core[@]/#/test_}"
     enter offline "$root" bash -c "cd /$folder/_b && ctest --output-on-failure -R '_gtest_test_($(IFS='|'; echo "${core[*]}"))\$'" || status=1
   else
@@ -203,8 +181,8 @@ chosen=("$@")
 [ $# -gt 0 ] || chosen=(bullseye bullseye-gcc9 bookworm trixie arm64)
 case ${#chosen[@]}-${chosen[0]} in
   1-arm64) test_arm64 ;;
-  1-bullseye | 1-bullseye-gcc9 | 1-bookworm | 1-trixie | 1-focal) test_chroot "${chosen[0]}" ;;
-  1-*) fail "'${chosen[0]}' is none of bullseye bullseye-gcc9 bookworm trixie focal arm64" ;;
+  1-bullseye | 1-bullseye-gcc9 | 1-bookworm | 1-trixie) test_chroot "${chosen[0]}" ;;
+  1-*) fail "'${chosen[0]}' is none of bullseye bullseye-gcc9 bookworm trixie arm64" ;;
   *)
     result=0
     for suite in "${chosen[@]}"; do
