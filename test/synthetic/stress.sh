@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Spoils the pictures of recordings and of a rendered drive (test/synthetic/disturbances.cpp) and writes what the odometry
-# makes of them to docs/stress.md, and the state of each pair over time to docs/stress.png.
+# makes of them to docs/stress.md.
 # Usage: scripts/measure.sh stress [--all] [KITTI_FOLDER ...]
 #        default folders: those of ../shared/data that are there, the hand-held walk too
 #        --all   60 disturbances instead of 16, to docs/stress_all.md, and how long it took
@@ -19,41 +19,12 @@ trap 'rm -rf "$work"' EXIT
   { cat "$work/log" >&2; exit 1; }
 folders+=("$work/rendered_curve")
 
-# A row a disturbance, a column a pair: tracked 0, degraded 1, lost 2.
-plot() {  # SEQUENCE_NAME
-  local names files labels
-  mapfile -t names < <(cut -d, -f1 "$work/lines" | sed 1d)
-  files=("${names[@]/#/$work/states/}")
-  files=("${files[@]/%/.csv}")
-  awk -F, 'FNR == 1 {++row; next} {print row - 1, $1, $2 == "tracked" ? 0 : $2 == "degraded" ? 1 : 2}' \
-    "${files[@]}" > "$work/grid"
-  labels=$(printf '%s\n' "${names[@]}" | awk '{printf "%s\"%s\" %d", (NR > 1 ? ", " : ""), $1, NR - 1}')
-  gnuplot <<PLOT
-set terminal pngcairo size 900,520 noenhanced font "sans,10"
-set output "$work/stress.png"
-set title "$1: state of each pair (green tracked, yellow degraded, red lost)"
-set palette defined (0 "#58a65c", 1 "#f2c14e", 2 "#c8443c")
-set cbrange [0:2]
-unset colorbox
-set xlabel "pair"
-set xrange [-0.5:59.5]
-set yrange [*:*] reverse noextend
-set ytics ($labels)
-plot "$work/grid" using 2:1:3 with image notitle
-PLOT
-}
-
 {
   for folder in "${folders[@]}"; do
     name=$(basename "$folder")
-    mkdir -p "$work/states"
-    "$programs/stress_odometry" "$folder" "${all[@]}" --states "$work/states" > "$work/lines"
-    picture=
-    [ "$name$page" != raw_2011_09_26_drive_0001stress ] || picture=stress.png
-    [ -z "$picture" ] || { plot "$name" && mv "$work/stress.png" docs/stress.png; }
+    "$programs/stress_odometry" "$folder" "${all[@]}" > "$work/lines"
     echo "## $name"
     echo
-    [ -z "$picture" ] || { echo "![state of each pair](stress.png)"; echo; }
     echo "| disturbance | live | after | tracked | degraded | lost | wrong | largest |"
     echo "|---|---|---|---|---|---|---|---|"
     awk -F, 'NR > 1 {gsub("nan", "-"); printf "| %s | %s / %s | %s / %s | %s | %s | %s | %s | %s |\n", \
