@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tests the drivers on the kernel's real SocketCAN and V4L2, in a small virtual machine (test/virtual_machine.sh):
-# every script in test/hardware/ runs in one of its own, and what they tell of faults and recoveries goes to
+# every part (test/hardware) runs in one of its own, and what they tell of faults and recoveries goes to
 # docs/hardware_faults.md. The package must be built. Skipped, with the reason, where there can be no such machine.
 # Usage: scripts/test_hardware.sh [--check] [PART ...]     video, vcan, chain; default: all
 #        --check leaves docs/hardware_faults.md as it is
@@ -23,7 +23,9 @@ trap 'rm -f "$results"' EXIT
 tables() { awk '/^\|/ {if (!inside && n++) print ""; print; inside = 1; next} {inside = 0}' "$results"; }
 for part in "${parts[@]}"; do
   echo "== $part, in the virtual machine"
-  if test/virtual_machine.sh --timeout "${VM_TIMEOUT_S:-1500}" -- "test/hardware/$part.sh" | tee "$results"; then
+  test=("test/hardware/kernel_tests.sh" "$part")
+  if [[ $part == chain ]]; then test=(test/hardware/chain.sh); fi
+  if test/virtual_machine.sh --timeout "${VM_TIMEOUT_S:-1500}" -- "${test[@]}" | tee "$results"; then
     echo "== $part: passed"
     [[ $is_check ]] || tables | test/readme_section.py docs/hardware_faults.md "$part"
   else
