@@ -17,7 +17,7 @@ fault_campaign       test/faults/fault_campaign.sh           15_min  quiet      
 fault_table          test/faults/fault_table.sh              10_s    -             faults in process, time to stop
 fuzz                 test/fuzz/fuzz.sh                       15_min  clang         readers of bytes from outside
 malformed_input      test/fuzz/malformed_input.sh            15_min  -             malformed messages, with sanitizers
-mutants              test/mutation/mutants.sh                3_h     -             changes of the code that the tests notice
+mutants              test/mutation/mutation.py               3_h     -             changes of the code that the tests notice
 recordings           test/recordings/recordings.sh           60_min  KITTI         recordings made by seeds, with faults
 results              test/experiments/results.sh             2_min   KITTI,_b      the tables of accuracy
 simulated_kitti      test/synthetic/simulated_kitti.sh       15_min  KITTI,quiet   KITTI sequences 00 to 10, simulated

@@ -4,7 +4,8 @@
 1. Protections of the driving (protections.py): each is removed in turn.
 2. With --sample N: N of the changes that fixed rules (rules.py) make to src/driving: conditions negated or
    dropped, signs and limits changed, lines removed.
-With FOLDER, such as src/pose: the second only, of the sources there, and the table as Markdown at the end.
+With FOLDER, such as src/pose: the second only, of the sources there, and the table as Markdown at the end. Without any
+argument: with a sample of 200, and the tables of docs/mutation.md are written (hours).
 
 All changes are compiled in at once, each behind a switch that the environment sets (ARFM_VO_MUTANT), so that there is
 one build. Run it in a checkout without changes: the sources are changed in place and put back at the end. Builds into
@@ -19,9 +20,11 @@ import subprocess
 import sys
 import time
 
-from protections import PROTECTIONS
-from rules import find_changes
-from switch import Source
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from protections import PROTECTIONS  # noqa: E402
+from readme_section import replace_section  # noqa: E402
+from rules import find_changes  # noqa: E402
+from switch import Source  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("BUILD_DIR", ROOT / "_b"))
@@ -109,14 +112,15 @@ def drop_what_does_not_compile(source):
             return
         if said.returncode == TIMED_OUT:
             print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
-            return source.drop_all()
+            source.by_rule = []
+            return source.restore()
         wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines() if line.startswith(str(source.path)) and " error:" in line}
         if not source.drop_lines(wrong):
             sys.exit("does not compile:\n" + said.stderr)
 
 
 def table(rows, header):
-    return ["", "| %s |" % " | ".join(header), "|" + "---|" * len(header)] + ["| %s |" % " | ".join(row) for row in rows]
+    return "\n".join(["", "| %s |" % " | ".join(header), "|" + "---|" * len(header)] + ["| %s |" % " | ".join(row) for row in rows])
 
 
 def try_all(changes, suites_of):
@@ -168,34 +172,25 @@ def try_rules(folder, size, seed):
         for source in sources:
             source.restore()
         raise
-    possible = [change for source in sources for change in source.changes_by_rule()]
+    possible = [change for source in sources for change in source.by_rule]
     sample = random.Random(seed).sample(possible, min(size, len(possible)))
     suites = {change.number: suites_of_file(folder, change.file) for change in sample}
     return try_switched(sources, sample, {one for some in suites.values() for one in some},
                         lambda change: suites[change.number]), len(possible)
 
 
-def make_page(protections, sampled, seed, num_possible):
-    missed = [change for change, noticed in protections if not noticed]
-    lines = ["# What the tests notice", "",
-             "Made by `scripts/measure.sh mutants`: the driving code is broken in one place at a time, and the tests are run.",
-             "", "## Protections removed", "",
-             "%d of %d are noticed." % (len(protections) - len(missed), len(protections))]
-    lines += table([(change.name, "`%s`" % change.file, noticed or "**not noticed**") for change, noticed in protections],
-                   ("protection", "in", "noticed by"))
-    if sampled:
-        lines += [""] + tell_sample("src/driving", sampled, seed, num_possible)
-    return "\n".join(lines) + "\n"
+def tell_protections(tried):
+    rows = [(change.name, "`%s`" % change.file, noticed or "**not noticed**") for change, noticed in tried]
+    return "%d of %d are noticed.\n" % (sum(bool(noticed) for _, noticed in tried), len(tried)) + table(rows, ("protection", "in", "noticed by"))
 
 
 def tell_sample(folder, sampled, seed, num_possible):
     survivors = [change for change, noticed in sampled if not noticed]
-    lines = ["## Changes by rule, %s" % folder, "",
-             "%d changes of %s, drawn (seed %d) from %d that the rules of `test/mutation/rules.py` make: %d are"
-             % (len(sampled), folder, seed, num_possible, len(sampled) - len(survivors)),
-             "noticed (%.0f %%). Those that are not:" % (100 * (1 - len(survivors) / len(sampled)))]
-    return lines + table([(change.file.split("/")[-1] + ":%d" % change.line, change.rule, "`%s`" % change.text.replace("|", "\\|"))
-                          for change in survivors], ("place", "change", "line"))
+    text = ("%d changes of %s, drawn (seed %d) from %d that the rules of `test/mutation/rules.py` make: %d are\n"
+            "noticed (%.0f %%). Those that are not:\n" % (len(sampled), folder, seed, num_possible, len(sampled) - len(survivors),
+                                                         100 * (1 - len(survivors) / len(sampled))))
+    return text + table([(change.file.split("/")[-1] + ":%d" % change.line, change.rule, "`%s`" % change.text.replace("|", "\\|"))
+                         for change in survivors], ("place", "change", "line"))
 
 
 def main():
@@ -205,18 +200,22 @@ def main():
     parser.add_argument("--rules-only", action="store_true", help="no protections")
     parser.add_argument("--sample", type=int, default=0, help="of the changes by rule")
     parser.add_argument("--seed", type=int, default=1, help="of the sample")
-    parser.add_argument("--output", type=pathlib.Path, help="the page, Markdown")
-    arguments = parser.parse_args()
+    parser.add_argument("--output", metavar="PAGE", help="whose tables are replaced")
+    arguments = parser.parse_args(sys.argv[1:] or ["--sample", "200", "--output", str(ROOT / "docs/mutation.md")])
+    if subprocess.run(["git", "status", "--porcelain", "src", "include", "nodes"], cwd=ROOT, capture_output=True).stdout:
+        sys.exit("mutants: src, include and nodes must be as committed")
     if arguments.folder:
         sampled, num_possible = try_rules(arguments.folder, arguments.sample or 60, arguments.seed)
-        print("\n".join(tell_sample(arguments.folder, sampled, arguments.seed, num_possible)))
+        print(tell_sample(arguments.folder, sampled, arguments.seed, num_possible))
         return 0
     protections = [] if arguments.rules_only else try_protections(arguments.only)
     sampled, num_possible = try_rules("src/driving", arguments.sample, arguments.seed) if arguments.sample else ([], 0)
     for what, tried in ("protections", protections), ("changes by rule", sampled):
         print("%s: %d of %d noticed" % (what, sum(bool(noticed) for _, noticed in tried), len(tried)))
-    if arguments.output:
-        arguments.output.write_text(make_page(protections, sampled, arguments.seed, num_possible))
+    if arguments.output and protections:
+        replace_section(arguments.output, "protections", tell_protections(protections))
+    if arguments.output and sampled:
+        replace_section(arguments.output, "sample", tell_sample("src/driving", sampled, arguments.seed, num_possible))
     return 0 if all(noticed for _, noticed in protections) else 1
 
 

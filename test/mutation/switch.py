@@ -76,19 +76,12 @@ class Source:
         self.by_rule.append(Change(number, name, self.file, line + 1, text, rule, start=start, end=end,
                                    inner=inner or (start, end), new=new.replace("%d", str(number))))
 
-    def changes_by_rule(self):
-        return self.by_rule
-
     def drop_lines(self, numbers):
         """Gives up the changes of lines that do not compile; says whether there were any."""
         before = len(self.by_rule)
         lines = {number - NUM_SWITCH_LINES for number in numbers}
         self.by_rule = [change for change in self.by_rule if change.line not in lines]
         return len(self.by_rule) < before
-
-    def drop_all(self):
-        self.by_rule = []
-        self.restore()
 
     def write(self):
         if not self.by_rule and not self.protected:
