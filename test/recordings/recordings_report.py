@@ -50,6 +50,18 @@ def cells(rows):
                                         show(median_sigma_over_error(rows)), show(nees(rows), 1), show(median_ratio(rows), 4)]
 
 
+# What is said of the recordings without and with a fault: label, what is asked, and how it is found.
+MEASURES = (
+    ("lost of the trackable pairs", "<= 2 without a fault", lambda rows: f"{total(rows, 'lost'):.0f}"),
+    ("degraded", "<= 20 without a fault", lambda rows: f"{total(rows, 'degraded'):.0f}"),
+    ("wrong of the tracked", "<= 1 in 1000 with a fault", lambda rows: f"{total(rows, 'wrong'):.0f} of {total(rows, 'tracked'):.0f}"),
+    ("wrong where it cannot be tracked", "0", lambda rows: f"{total(rows, 'other_wrong'):.0f}"),
+    ("tracked of the trackable, %", ">= 90 with a fault", lambda rows: show(100 * total(rows, "tracked") / max(1, total(rows, "trackable")), 1)),
+    ("sigma / rms error", "<= 3 with a fault", lambda rows: show(sigma_over_error(rows))),
+    ("its median over the recordings", "", lambda rows: show(median_sigma_over_error(rows))),
+    ("NEES, rendered", "3 to 9", lambda rows: show(nees(rows))))
+
+
 def failures(rows, with_fault):
     """Bounds that the rows miss, in words."""
     missed = []
@@ -108,21 +120,8 @@ def main():
     print(f"{len(rows)} recordings{half and ' of the half to ' + half}, {total(rows, 'pairs'):.0f} pairs, {rendered:.0f} of them rendered; "
           f"it took {total(rows, 'seconds') / 60:.0f} min.\n")
     print("| | asked | " + "without a fault | with a fault |\n|---|---|---|---|")
-    lost, degraded = total(clean, "lost"), total(clean, "degraded")
-    print(f"| lost of the trackable pairs | <= 2 without a fault | {lost:.0f} | {total(faulty, 'lost'):.0f} |")
-    print(f"| degraded | <= 20 without a fault | {degraded:.0f} | {total(faulty, 'degraded'):.0f} |")
-
-    def wrong(part):
-        return f"{total(part, 'wrong'):.0f} of {total(part, 'tracked'):.0f}"
-
-    def share(part):
-        return show(100 * total(part, "tracked") / max(1, total(part, "trackable")), 1)
-    print(f"| wrong of the tracked | <= 1 in 1000 with a fault | {wrong(clean)} | {wrong(faulty)} |")
-    print(f"| wrong where it cannot be tracked | 0 | {total(clean, 'other_wrong'):.0f} | {total(faulty, 'other_wrong'):.0f} |")
-    print(f"| tracked of the trackable, % | >= 90 with a fault | {share(clean)} | {share(faulty)} |")
-    print(f"| sigma / rms error | <= 3 with a fault | {show(sigma_over_error(clean))} | {show(sigma_over_error(faulty))} |")
-    print(f"| its median over the recordings | | {show(median_sigma_over_error(clean))} | {show(median_sigma_over_error(faulty))} |")
-    print(f"| NEES, rendered | 3 to 9 | {show(nees(clean))} | |")
+    for label, asked, measure in MEASURES:
+        print(f"| {label} | {asked} | {measure(clean)} | {measure(faulty)} |")
     print("\n## Without a fault, by property")
     print_table(clean, ["kind"] + PROPERTIES, False)
     print("\n## With a fault, by property")
