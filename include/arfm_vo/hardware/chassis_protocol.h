@@ -99,16 +99,8 @@ using ChassisCommand = std::variant<std::monostate, MotionCommand, ControlModeCo
 using ChassisFeedback = std::variant<std::monostate, SystemState, MotionState, MotorState,
                                      MotorDriverState, TrackOdometer, BatteryState>;
 
-CanFrame EncodeFrame(const MotionCommand& command);
-CanFrame EncodeFrame(const ControlModeCommand& command);
-CanFrame EncodeFrame(const ClearErrorsCommand& command);
-CanFrame EncodeFrame(const LightCommand& command);
-CanFrame EncodeFrame(const SystemState& state);
-CanFrame EncodeFrame(const MotionState& state);
-CanFrame EncodeFrame(const MotorState& state);
-CanFrame EncodeFrame(const MotorDriverState& state);
-CanFrame EncodeFrame(const TrackOdometer& odometer);
-CanFrame EncodeFrame(const BatteryState& battery);
+CanFrame EncodeFrame(const ChassisCommand& command);
+CanFrame EncodeFrame(const ChassisFeedback& feedback);
 
 /// What the chassis says in `frame`; monostate where the frame is not a data frame, has another
 /// identifier, or is too short for its fields. Never reads past frame.dlc.
