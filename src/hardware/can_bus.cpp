@@ -4,7 +4,6 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <regex>
@@ -24,10 +23,6 @@ uint16_t ParsePort(const std::string& digits, const std::string& address) {
   return static_cast<uint16_t>(port);
 }
 
-// A datagram: kind, identifier (4 bytes, big-endian), dlc, 8 bytes.
-constexpr size_t kDatagramSize = 14;
-using Datagram = std::array<uint8_t, kDatagramSize>;
-
 sockaddr_in LoopbackAddress(uint16_t port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -36,28 +31,9 @@ sockaddr_in LoopbackAddress(uint16_t port) {
   return address;
 }
 
-Datagram ToDatagram(const CanFrame& frame) {
-  Datagram datagram{};
-  datagram[0] = static_cast<uint8_t>(frame.kind);
-  for (int i = 0; i < 4; ++i) datagram[1 + i] = static_cast<uint8_t>(frame.id >> (24 - 8 * i));
-  datagram[5] = frame.dlc;
-  std::copy(frame.bytes.begin(), frame.bytes.end(), datagram.begin() + 6);
-  return datagram;
-}
-
-std::optional<CanFrame> ReadDatagram(const Datagram& datagram) {
-  if (datagram[0] > static_cast<uint8_t>(CanFrameKind::kError) || datagram[5] > 8) return {};
-  CanFrame frame;
-  frame.kind = static_cast<CanFrameKind>(datagram[0]);
-  for (int i = 0; i < 4; ++i) frame.id = frame.id << 8 | datagram[1 + i];
-  frame.dlc = datagram[5];
-  std::copy(datagram.begin() + 6, datagram.end(), frame.bytes.begin());
-  return frame;
-}
-
-/// A bus of two ends over UDP on 127.0.0.1, for kernels without CAN. Frames from any other address
-/// are not received. Where nobody listens at the other end, frames are refused with kBusy, as on a
-/// bus where nobody acknowledges.
+/// A bus of two ends over UDP on 127.0.0.1, for kernels without CAN; a datagram is a CanFrame as it
+/// lies in memory. Frames from any other address are not received. Where nobody listens at the
+/// other end, frames are refused with kBusy, as on a bus where nobody acknowledges.
 class CanUdpBus : public CanBus {
  public:
   /// Throws std::system_error where `local_port` is taken; a second end takes it over from another
@@ -78,10 +54,9 @@ class CanUdpBus : public CanBus {
   }
 
   CanSendStatus Send(const CanFrame& frame) override {
-    const Datagram datagram = ToDatagram(frame);
     // A refusal tells of the datagram before; this one has not been sent then.
     for (int attempt = 0; attempt < 2; ++attempt) {
-      if (::send(socket_.Get(), datagram.data(), datagram.size(), 0) == kDatagramSize)
+      if (::send(socket_.Get(), &frame, sizeof(frame), 0) == sizeof(frame))
         return attempt == 0 ? CanSendStatus::kSent : CanSendStatus::kBusy;
       if (errno != ECONNREFUSED) break;
     }
@@ -90,9 +65,11 @@ class CanUdpBus : public CanBus {
 
   std::optional<CanFrame> Receive() override {
     for (int attempt = 0; attempt < 2; ++attempt) {
-      Datagram datagram;
-      const auto size = ::recv(socket_.Get(), datagram.data(), datagram.size(), MSG_TRUNC);
-      if (size == kDatagramSize) return ReadDatagram(datagram);
+      CanFrame frame;
+      const ssize_t size = ::recv(socket_.Get(), &frame, sizeof(frame), MSG_TRUNC);
+      if (size == sizeof(frame))
+        return frame.kind <= CanFrameKind::kError && frame.dlc <= 8 ? std::optional(frame)
+                                                                    : std::nullopt;
       if (size >= 0) return CanFrame{CanFrameKind::kOther, 0, 0, {}};
       if (errno != ECONNREFUSED) break;
     }

@@ -1,4 +1,4 @@
-"""The wire between chassis_node and the simulated chassis, both on UDP (hardware/can_udp_bus.cpp)."""
+"""The wire between chassis_node and the simulated chassis, both on UDP (hardware/can_bus.cpp)."""
 import socket
 import struct
 import threading
@@ -10,18 +10,19 @@ BUS_OFF = 2  # a kind of frame: the controller left the bus
 
 
 class Frame:
-    """A data frame: kind, identifier (4 bytes, big-endian), dlc, 8 bytes."""
+    """A frame as hardware/can_frame.h has it in memory."""
+    LAYOUT = "=B3xIB8s3x"
 
     def __init__(self, datagram):
-        self.kind, self.id, self.dlc = struct.unpack(">BIB", datagram[:6])
-        self.bytes = bytearray(datagram[6:14])
+        self.kind, self.id, self.dlc, data = struct.unpack(self.LAYOUT, datagram)
+        self.bytes = bytearray(data)
 
     def datagram(self):
-        return struct.pack(">BIB", self.kind, self.id, self.dlc) + bytes(self.bytes)
+        return struct.pack(self.LAYOUT, self.kind, self.id, self.dlc, bytes(self.bytes))
 
 
 def make_frame(identifier, data):
-    return Frame(struct.pack(">BIB", 0, identifier, len(data)) + bytes(data).ljust(8, b"\0"))
+    return Frame(struct.pack(Frame.LAYOUT, 0, identifier, len(data), bytes(data)))
 
 
 class BusTap:

@@ -8,7 +8,7 @@
 namespace arfm_vo {
 
 /// What a frame is, apart from its bytes. Only kData frames carry the chassis protocol.
-enum class CanFrameKind {
+enum class CanFrameKind : uint8_t {
   kData,       ///< data frame with an 11-bit identifier
   kOther,      ///< extended (29-bit) or remote-request frame
   kBusOff,     ///< error frame: the controller left the bus
