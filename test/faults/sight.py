@@ -1,5 +1,6 @@
 """Where the rover is told to be, beside where it truly is."""
 import bisect
+import cmath
 import math
 
 import rospy
@@ -10,27 +11,23 @@ MAX_ERROR_M, MAX_ERROR_RAD = 0.10, math.radians(10)  # of a pose that is right
 KEPT = 3000
 
 
+# A pose on the plane is its place and its heading, complex numbers: x + iy, and one of size 1.
+ORIGIN = (0j, 1 + 0j)
+
+
 def planar(place, rotation):
-    """(x, y, heading) of a position and a quaternion."""
+    """Of a position and a quaternion."""
     x, y, z, w = rotation.x, rotation.y, rotation.z, rotation.w
-    return place.x, place.y, math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
-
-
-def wrap(angle):
-    return math.atan2(math.sin(angle), math.cos(angle))
+    return complex(place.x, place.y), cmath.rect(1, math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z)))
 
 
 def compose(a_from_b, b_from_c):
-    sine, cosine = math.sin(a_from_b[2]), math.cos(a_from_b[2])
-    return (a_from_b[0] + cosine * b_from_c[0] - sine * b_from_c[1], a_from_b[1] + sine * b_from_c[0] + cosine * b_from_c[1],
-            wrap(a_from_b[2] + b_from_c[2]))
+    return a_from_b[0] + a_from_b[1] * b_from_c[0], a_from_b[1] * b_from_c[1]
 
 
 def relative(a_from_b, a_from_c):
     """b_from_c."""
-    dx, dy = a_from_c[0] - a_from_b[0], a_from_c[1] - a_from_b[1]
-    sine, cosine = math.sin(a_from_b[2]), math.cos(a_from_b[2])
-    return cosine * dx + sine * dy, cosine * dy - sine * dx, wrap(a_from_c[2] - a_from_b[2])
+    return (a_from_c[0] - a_from_b[0]) / a_from_b[1], a_from_c[1] / a_from_b[1]
 
 
 class Sight:
@@ -39,7 +36,7 @@ class Sight:
     def __init__(self, way_m):
         self.way_m = way_m  # of the tracks, now
         self.truths = {}  # places by stamp
-        self.edges = {"odom": (0, 0, 0), "base_link": (0, 0, 0)}  # of tf, by the child frame
+        self.edges = {"odom": ORIGIN, "base_link": ORIGIN}  # of tf, by the child frame
         self.told = []  # (stamp, map_from_base, way)
         rospy.Subscriber("base_truth", Odometry, self.take_truth)
         rospy.Subscriber("/tf", TFMessage, self.take_transforms, queue_size=100)
@@ -53,7 +50,7 @@ class Sight:
     def take_transforms(self, message):
         for transform in message.transforms:
             edge = planar(transform.transform.translation, transform.transform.rotation)
-            if transform.child_frame_id not in self.edges or not all(map(math.isfinite, edge)):
+            if transform.child_frame_id not in self.edges or not all(map(cmath.isfinite, edge)):
                 continue
             self.edges[transform.child_frame_id] = edge
             stamp = transform.header.stamp.to_sec() if transform.child_frame_id == "base_link" else None
@@ -75,16 +72,16 @@ class Sight:
             return None
         before, after = self.truths[stamps[i - 1]], self.truths[stamps[i]]
         share = (stamp - stamps[i - 1]) / (stamps[i] - stamps[i - 1])
-        way = relative(before, after)
-        return compose(before, tuple(share * part for part in way))
+        place, heading = relative(before, after)
+        return compose(before, (share * place, heading ** share))
 
     def is_wrong(self, told, reference):
         """Whether the pose is off the truth since the reference; one of no known time is nobody's."""
         truths = [self.truth_at(stamp) for stamp in (reference[0], told[0])]
         if None in truths:
             return False
-        error = relative(relative(*truths), relative(reference[1], told[1]))
-        return math.hypot(*error[:2]) > MAX_ERROR_M or abs(error[2]) > MAX_ERROR_RAD
+        place, heading = relative(relative(*truths), relative(reference[1], told[1]))
+        return abs(place) > MAX_ERROR_M or abs(cmath.phase(heading)) > MAX_ERROR_RAD
 
     def wrong_way_m(self, end_way_m):
         """How far the tracks have gone since the mark while the newest pose that was told was wrong."""
@@ -96,4 +93,4 @@ class Sight:
 
     def distance_m(self):
         """From where the drive began."""
-        return math.hypot(*next(reversed(self.truths.values()))[:2]) if self.truths else 0.0
+        return abs(next(reversed(self.truths.values()))[0]) if self.truths else 0.0
