@@ -42,22 +42,27 @@ def make_keyframe(number):
 
 
 class BaNodeTest(unittest.TestCase):
+    def step_until(self, condition, now_s, step_s, *outputs):
+        """Sets /clock on by steps, and publishes each of the (publisher, message), until the condition holds or a minute is over."""
+        clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        end = time.monotonic() + 60
+        while not condition() and time.monotonic() < end:
+            now_s += step_s
+            clock.publish(Clock(clock=rospy.Time(now_s)))
+            for publisher, message in outputs:
+                publisher.publish(message)
+            time.sleep(0.03)
+
     def test_no_transform_is_sent_twice_with_the_same_stamp(self):
         stamps = []
         rospy.Subscriber("/tf", TFMessage, lambda message: stamps.extend(transform.header.stamp for transform in message.transforms))
-        clock = rospy.Publisher("/clock", Clock, queue_size=10)
-        now_s, end = 1000, time.monotonic() + 60
-        while len(set(stamps)) < 20 and time.monotonic() < end:
-            now_s += 1  # 20 periods of the transform in one
-            clock.publish(Clock(clock=rospy.Time(now_s)))
-            time.sleep(0.02)
+        self.step_until(lambda: len(set(stamps)) >= 20, 1000, 1)  # 20 periods of the transform in one
         self.assertGreaterEqual(len(set(stamps)), 20)
         self.assertEqual(sorted(set(stamps)), stamps)
 
     def test_the_map_moves_to_where_a_person_states_the_rover_to_stand(self):
         transforms = []
         rospy.Subscriber("/tf", TFMessage, lambda message: transforms.extend(message.transforms))
-        clock = rospy.Publisher("/clock", Clock, queue_size=10)
         odom = rospy.Publisher("odom", Odometry, queue_size=1)
         stated = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
         odometry = Odometry()  # at (1, 2), looking along y
@@ -74,32 +79,20 @@ class BaNodeTest(unittest.TestCase):
             return move and abs(move.translation.x - 8) < 1e-9 and abs(move.translation.y - 21) < 1e-9 and \
                 abs(abs(move.rotation.w) - math.sqrt(0.5)) < 1e-9 and move.rotation.z * move.rotation.w < 0
 
-        now_s, end = 5000, time.monotonic() + 60
-        while not is_moved() and time.monotonic() < end:
-            now_s += 0.1
-            clock.publish(Clock(clock=rospy.Time(now_s)))
-            odom.publish(odometry)
-            stated.publish(pose)
-            time.sleep(0.05)
+        self.step_until(is_moved, 5000, 0.1, (odom, odometry), (stated, pose))
         self.assertTrue(is_moved(), transforms[-1:])
 
     def test_a_malformed_keyframe_is_refused_by_name(self):
         told = []
         rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: told.extend(
             status for status in message.status if "global adjustment" in status.name))
-        clock = rospy.Publisher("/clock", Clock, queue_size=10)
         keyframes = rospy.Publisher("keyframe", KeyframeStamped, queue_size=1)
 
         def is_refused():
             return any(status.level == DiagnosticStatus.ERROR and "keyframe refused: stereo camera: fx" in status.message
                        for status in told)
 
-        now_s, end = 9000, time.monotonic() + 60
-        while not is_refused() and time.monotonic() < end:
-            now_s += 0.5
-            clock.publish(Clock(clock=rospy.Time(now_s)))
-            keyframes.publish(KeyframeStamped())  # without a camera
-            time.sleep(0.1)
+        self.step_until(is_refused, 9000, 0.5, (keyframes, KeyframeStamped()))  # without a camera
         self.assertTrue(is_refused(), told[-1:])
 
     def test_the_map_is_adjusted_to_its_last_keyframe_once_none_comes_and_the_odometry_is_not_told(self):
