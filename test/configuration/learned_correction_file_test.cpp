@@ -65,6 +65,7 @@ TEST_F(LearnedCorrectionFileTest, ErrorsNameFileAndKey) {
   ExpectRefused(
       "mean_px: [", "mean_px: [7, ",
       "mean_px must be a list of " + std::to_string(StereoCorrection::kSize) + " numbers");
+  ExpectRefused("mean_px: [", "# ", "mean_px must be a list");
   ExpectRefused("mean_px: [-0.3", "mean_px: [nan", "mean_px");
   ExpectRefused("mean_px", "mean", "mean_px");
   ExpectRefused("covariance_px2: [", "covariance_px2: [-", "covariance");

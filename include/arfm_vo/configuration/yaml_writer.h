@@ -40,7 +40,7 @@ void YamlMapWriter::Write(Field& field) {
       if (value == field) emitter_ << name;
     }
   } else if constexpr (kIsVector<Field> || kIsArray<Field>) {
-    emitter_ << YAML::BeginSeq;
+    emitter_ << YAML::Flow << YAML::BeginSeq;
     for (auto& element : field) Write(element);
     emitter_ << YAML::EndSeq;
   } else if constexpr (std::is_same_v<Field, std::string>) {
