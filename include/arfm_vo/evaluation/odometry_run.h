@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -32,8 +33,14 @@ struct OdometryRun {
   double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
   double cpu_s = 0;  ///< all threads, from first pair to end, without loading
 
-  int CountLost() const;
-  int CountDegraded() const;  ///< whose pose is one to be wary of
+  int CountLost() const {
+    return std::count_if(online.begin(), online.end(), [](auto& pose) { return !pose.is_tracked; });
+  }
+  /// Those whose pose is one to be wary of.
+  int CountDegraded() const {
+    return std::count_if(states.begin(), states.end(),
+                         [](auto& state) { return state.status == PoseStatus::kDegraded; });
+  }
 };
 
 /// Told after each pair: pairs done, pairs in all.
