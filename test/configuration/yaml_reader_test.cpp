@@ -22,6 +22,7 @@ std::vector<std::pair<std::string, Solver>> ListNames(Solver) {
 struct LayerOptions {
   double scale = 1.2;
   RansacOptions ransac;
+  void Check() const { Require(scale != 0, "scale must not be 0"); }
   ARFM_FIELDS(scale, ransac)
 };
 
@@ -124,6 +125,9 @@ TEST(YamlReader, EndsWithCheckAndLeavesOptionsAloneWhereItFails) {
                std::invalid_argument);
   EXPECT_EQ(options.name, "left");
   EXPECT_EQ(ErrorOf("count: 0"), "file.yaml: count must be positive");
+  EXPECT_EQ(ErrorOf("pose: {scale: 0}"), "file.yaml: scale must not be 0");
+  EXPECT_EQ(ErrorOf("layers: [{}, {scale: 0}]"), "file.yaml: scale must not be 0");
+  EXPECT_THAT(ErrorOf("pose: {ransac: {max_iterations: 0}}"), testing::HasSubstr("max_iterations"));
 }
 
 TEST(YamlReader, NodeMadeInMemoryHasNoLine) {

@@ -190,10 +190,9 @@ TEST_F(PilotTest, TiltIsWarnedOfBelowItsLimit) {
 TEST(PilotOptions, EachPartIsChecked) {
   const auto refuses = [](auto&& spoil) {
     PilotOptions options;
-    options.Check();
     spoil(options);
     try {
-      options.Check();
+      Pilot{options};
       return false;
     } catch (const std::invalid_argument&) {
       return true;

@@ -190,7 +190,7 @@ TEST(PoseWatchOptions, WrongValuesAreNamed) {
   PoseWatchOptions options;
   options.consistency.max_map_step_m = std::numeric_limits<double>::infinity();
   try {
-    options.Check();
+    PoseWatch{options, TrackKinematics({})};
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()).rfind("pose.consistency.max_map_step_m", 0), 0u);

@@ -75,7 +75,7 @@ TEST(Terrain, RaysCrossFromTheDetailedSquareToTheLandAround) {
 TEST(Terrain, CheckNamesTheBadOption) {
   const auto message = [](const TerrainOptions& options) {
     try {
-      options.Check();
+      Terrain{options};
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
     }

@@ -4,10 +4,10 @@
 
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/configuration/option_traits.h"
 
 namespace arfm_vo {
@@ -61,6 +61,7 @@ void ReadYamlField(const YamlValue& value, Field& field) {
     YamlMapReader reader(value);
     field.VisitFields(reader);
     reader.CheckAllKeysKnown();
+    Within(value.source, [&] { field.Check(); });
   } else if constexpr (std::is_enum_v<Field>) {
     const auto names = ListNames(Field{});
     field = names[ReadYamlName(value, FirstsOf(names))].second;
@@ -86,13 +87,13 @@ void YamlMapReader::operator()(const char* name, Field& field) {
 
 /// Reads options strictly: each key of the map must be a field (ARFM_FIELDS) of the right type, or
 /// std::invalid_argument names the key with its full dotted name and where it stands. Keys left out
-/// keep the value that they have. Ends with options.Check(). Where it throws, `options` is as
-/// before. A quoted scalar is a string and nothing else.
+/// keep the value that they have. Each options struct that a map holds is checked, by its Check(),
+/// so that none need check those within it. Where it throws, `options` is as before. A quoted
+/// scalar is a string and nothing else.
 template <class Options>
 void ReadYaml(const YAML::Node& node, const std::string& source, Options& options) {
   Options read = options;
   ReadYamlField(YamlValue{node, source, ""}, read);
-  Within(source, [&] { read.Check(); });
   options = read;
 }
 

@@ -11,6 +11,7 @@ struct SurfDescriptorOptions {
   /// which lie side by side.
   bool overlapping_regions = true;
 
+  void Check() const {}
   ARFM_FIELDS(upright, overlapping_regions)
 };
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/ros/odometry/arfm_node.h"
 #include "arfm_vo/ros/odometry/ba_node.h"
 #include "arfm_vo/ros/odometry/pose_node.h"
@@ -8,13 +9,13 @@
 namespace arfm_vo {
 namespace {
 
-/// What Check() says of options of which `change` made one wrong.
+/// What reading says of options of which `change` made one wrong.
 template <class Options, class Change>
 void ExpectOptionRefused(const Change& change, const std::string& text) {
-  Options options;
-  EXPECT_NO_THROW(options.Check());
+  Options options, read;
+  EXPECT_NO_THROW(ReadYaml(YAML::Load(WriteYaml(options)), "", read));
   change(options);
-  EXPECT_INVALID(options.Check(), text);
+  EXPECT_INVALID(ReadYaml(YAML::Load(WriteYaml(options)), "", read), text);
 }
 
 TEST(PoseNodeOptions, EachPartIsChecked) {

@@ -49,6 +49,7 @@ TEST(Parameters, BinaryIsRefusedWithItsFullName) {
 struct HeadOptions {
   double max_slew_rate_dps = 5;
   bool is_gated = true;
+  void Check() const { Require(max_slew_rate_dps > 0, "max_slew_rate_dps must be positive"); }
   ARFM_FIELDS(max_slew_rate_dps, is_gated)
 };
 
@@ -85,6 +86,9 @@ TEST(Parameters, AnUnknownOrMistypedOneIsRefusedWithItsFullName) {
   XmlRpcValue wrong;
   wrong["base_frame"] = "";
   EXPECT_INVALID(Read(wrong), "base_frame must not be empty");
+  wrong["base_frame"] = "rover";
+  wrong["head"]["max_slew_rate_dps"] = 0;
+  EXPECT_INVALID(Read(wrong), "max_slew_rate_dps must be positive");
 }
 
 }  // namespace
