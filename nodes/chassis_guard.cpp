@@ -7,13 +7,12 @@
 
 #include <csignal>
 #include <iostream>
-#include <system_error>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/hardware/bus_lock.h"
 #include "arfm_vo/hardware/chassis_link.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 
 namespace {
 

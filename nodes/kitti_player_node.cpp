@@ -7,7 +7,7 @@
 #include "arfm_vo/datasets/kitti_sequence.h"
 #include "arfm_vo/ros/node/node_main.h"
 #include "arfm_vo/ros/node/parameters.h"
-#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 
 namespace arfm_vo {
 namespace {

@@ -1,9 +1,8 @@
-#include <iostream>
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/datasets/kitti_sequence.h"
 #include "arfm_vo/evaluation/progress_bar.h"
-#include "arfm_vo/ros/replay/stereo_bag_writer.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 
 namespace {
 

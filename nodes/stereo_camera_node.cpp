@@ -4,7 +4,7 @@
 #include <iostream>
 #include <string>
 
-#include "arfm_vo/hardware/v4l2_call.h"
+#include "arfm_vo/hardware/v4l2_buffers.h"
 #include "arfm_vo/ros/node/node_main.h"
 
 namespace {

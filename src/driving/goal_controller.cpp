@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "arfm_vo/driving/range_check.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -34,19 +35,10 @@ void GoalControllerOptions::Check() const {
 }
 
 const char* ToString(DrivePhase phase) {
-  switch (phase) {
-    case DrivePhase::kTurnToWaypoint:
-      return "turning to the waypoint";
-    case DrivePhase::kDrive:
-      return "driving";
-    case DrivePhase::kTurnToHeading:
-      return "turning to the goal's heading";
-    case DrivePhase::kSettle:
-      return "settling";
-    case DrivePhase::kArrived:
-      return "arrived";
-  }
-  return "unknown";
+  constexpr const char* kNames[] = {"turning to the waypoint", "driving",
+                                    "turning to the goal's heading", "settling", "arrived"};
+  static_assert(std::size(kNames) == static_cast<size_t>(DrivePhase::kArrived) + 1);
+  return kNames[static_cast<size_t>(phase)];
 }
 
 GoalController::GoalController(const GoalControllerOptions& options, Route route)

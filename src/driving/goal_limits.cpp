@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/format.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,12 +21,9 @@ std::string NameOf(size_t index, size_t size) {
 }  // namespace
 
 void GoalLimitsOptions::Check() const {
-  Require(max_distance_m > 0 && max_distance_m <= 1e5,
-          "goal_limits.max_distance_m must be in (0, 100000]");
-  Require(max_waypoints >= 1 && max_waypoints <= 100000,
-          "goal_limits.max_waypoints must be in 1..100000");
-  Require(max_standby_s >= 0 && max_standby_s <= 3600,
-          "goal_limits.max_standby_s must be in 0..3600");
+  RequireAbove(max_distance_m, 0, 100000, "goal_limits.max_distance_m");
+  RequireInRange(max_waypoints, 1, 100000, "goal_limits.max_waypoints");
+  RequireInRange(max_standby_s, 0, 3600, "goal_limits.max_standby_s");
   Require(fence_m.size() % 2 == 0 && (fence_m.empty() || fence_m.size() >= 6),
           "goal_limits.fence_m must hold x and y of three corners or more");
   for (const double value : fence_m)

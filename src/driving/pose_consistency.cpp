@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/format.h"
-#include "arfm_vo/driving/range_check.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/route.h"
 
 namespace arfm_vo {
@@ -27,15 +28,12 @@ double Since(double datum, double sigma) {
 }  // namespace
 
 void PoseWatchOptions::Check() const {
-  Require(max_pose_age_s > 0 && max_pose_age_s <= 3600, "pose.max_pose_age_s must be in (0, 3600]");
-  Require(max_position_sigma_m > 0 && max_position_sigma_m <= 1000,
-          "pose.max_position_sigma_m must be in (0, 1000]");
-  Require(max_heading_sigma_rad > 0 && max_heading_sigma_rad <= 10,
-          "pose.max_heading_sigma_rad must be in (0, 10]");
-  Require(max_tilt_deg >= 1 && max_tilt_deg <= 60, "pose.max_tilt_deg must be in 1..60");
+  RequireAbove(max_pose_age_s, 0, 3600, "pose.max_pose_age_s");
+  RequireAbove(max_position_sigma_m, 0, 1000, "pose.max_position_sigma_m");
+  RequireAbove(max_heading_sigma_rad, 0, 10, "pose.max_heading_sigma_rad");
+  RequireInRange(max_tilt_deg, 1, 60, "pose.max_tilt_deg");
   Require(warn_tilt_deg >= 0 && warn_tilt_deg <= max_tilt_deg,
           "pose.warn_tilt_deg must be in 0..pose.max_tilt_deg");
-  consistency.Check();
 }
 
 PoseWatch::PoseWatch(const PoseWatchOptions& options, const TrackKinematics& kinematics)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/format.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,17 +22,14 @@ double Ratio(double track, double sight) {
 }  // namespace
 
 void SlipOptions::Check() const {
-  Require(window_m >= 0.05 && window_m <= 100, "slip.window_m must be in 0.05..100");
-  Require(max_slip_ratio > 0 && max_slip_ratio <= 1, "slip.max_slip_ratio must be in (0, 1]");
-  Require(max_turn_slip_ratio > 0 && max_turn_slip_ratio <= 1,
-          "slip.max_turn_slip_ratio must be in (0, 1]");
-  Require(max_leap_m > 0 && max_leap_m <= 100, "slip.max_leap_m must be in (0, 100]");
-  Require(level_window_m >= 0.05 && level_window_m <= 100,
-          "slip.level_window_m must be in 0.05..100");
-  Require(straight_window_m >= 0.05 && straight_window_m <= 100,
-          "slip.straight_window_m must be in 0.05..100");
-  Require(max_level_ratio > 0 && max_level_ratio <= 1, "slip.max_level_ratio must be in (0, 1]");
-  Require(level_deg >= 0 && level_deg <= 60, "slip.level_deg must be in 0..60");
+  RequireInRange(window_m, 0.05, 100, "slip.window_m");
+  RequireAbove(max_slip_ratio, 0, 1, "slip.max_slip_ratio");
+  RequireAbove(max_turn_slip_ratio, 0, 1, "slip.max_turn_slip_ratio");
+  RequireAbove(max_leap_m, 0, 100, "slip.max_leap_m");
+  RequireInRange(level_window_m, 0.05, 100, "slip.level_window_m");
+  RequireInRange(straight_window_m, 0.05, 100, "slip.straight_window_m");
+  RequireAbove(max_level_ratio, 0, 1, "slip.max_level_ratio");
+  RequireInRange(level_deg, 0, 60, "slip.level_deg");
 }
 
 SlipEstimator::SlipEstimator(const SlipOptions& options, const TrackKinematics& kinematics)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "arfm_vo/base/range_check.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -14,12 +16,9 @@ double StepTowards(double from, double to, double max_step) {
 void SpeedLimiterOptions::Check() const {
   Require(max_speed_mps > 0 && max_speed_mps <= kMaxSpeed_mps,
           "limits.max_speed_mps must be in (0, 0.1]");
-  Require(max_turn_rate_radps > 0 && max_turn_rate_radps <= 1,
-          "limits.max_turn_rate_radps must be in (0, 1]");
-  Require(max_acceleration_mps2 > 0 && max_acceleration_mps2 <= 10,
-          "limits.max_acceleration_mps2 must be in (0, 10]");
-  Require(max_turn_acceleration_radps2 > 0 && max_turn_acceleration_radps2 <= 100,
-          "limits.max_turn_acceleration_radps2 must be in (0, 100]");
+  RequireAbove(max_turn_rate_radps, 0, 1, "limits.max_turn_rate_radps");
+  RequireAbove(max_acceleration_mps2, 0, 10, "limits.max_acceleration_mps2");
+  RequireAbove(max_turn_acceleration_radps2, 0, 100, "limits.max_turn_acceleration_radps2");
 }
 
 SpeedLimiter::SpeedLimiter(const SpeedLimiterOptions& options, const TrackKinematics& kinematics)

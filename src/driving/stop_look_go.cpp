@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 
 void StopLookGoOptions::Check() const {
-  Require(step_m >= 0.02 && step_m <= 10, "stop_look_go.step_m must be in 0.02..10");
-  Require(max_pose_age_s > 0 && max_pose_age_s <= 3600,
-          "stop_look_go.max_pose_age_s must be in (0, 3600]");
+  RequireInRange(step_m, 0.02, 10, "stop_look_go.step_m");
+  RequireAbove(max_pose_age_s, 0, 3600, "stop_look_go.max_pose_age_s");
 }
 
 PlanarMotion StopLookGo::Gate(const PlanarMotion& wanted, const TrackWays& ways, bool is_at_rest) {

@@ -2,14 +2,16 @@
 
 #include <system_error>
 
+#include "arfm_vo/base/range_check.h"
+
 namespace arfm_vo {
 
 void PanTiltOptions::Check() const {
-  Require(home_timeout_s > 0 && home_timeout_s <= 600, "home_timeout_s must be in (0, 600]");
-  Require(reply_timeout_s > 0 && reply_timeout_s <= 10, "reply_timeout_s must be in (0, 10]");
+  RequireAbove(home_timeout_s, 0, 600, "home_timeout_s");
+  RequireAbove(reply_timeout_s, 0, 10, "reply_timeout_s");
   Require(max_failed_reads >= 1, "max_failed_reads must be at least 1");
-  Require(pan_speed_rad_s >= 0 && pan_speed_rad_s <= 100, "pan_speed_rad_s must be in 0..100");
-  Require(tilt_speed_rad_s >= 0 && tilt_speed_rad_s <= 100, "tilt_speed_rad_s must be in 0..100");
+  RequireInRange(pan_speed_rad_s, 0, 100, "pan_speed_rad_s");
+  RequireInRange(tilt_speed_rad_s, 0, 100, "tilt_speed_rad_s");
   reopen.Check();
 }
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 
 namespace arfm_vo {
 namespace {

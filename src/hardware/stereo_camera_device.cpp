@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cmath>
 
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/v4l2_device.h"
 
 namespace arfm_vo {

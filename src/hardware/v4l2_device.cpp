@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
-#include "arfm_vo/hardware/v4l2_call.h"
+#include "arfm_vo/hardware/clock_offset.h"
+#include "arfm_vo/hardware/v4l2_buffers.h"
 
 namespace arfm_vo {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/simulation/hash_noise.h"
 
 namespace arfm_vo {
@@ -57,7 +58,7 @@ Solid MakeRock(const Draw& draw, const Eigen::Vector3d& ground, double radius, d
 }  // namespace
 
 void RockOptions::Check() const {
-  Require(density_per_m2 >= 0 && density_per_m2 <= 100, "rocks.density_per_m2 must be in [0, 100]");
+  RequireInRange(density_per_m2, 0, 100, "rocks.density_per_m2");
   Require(min_radius_m > 0 && max_radius_m > min_radius_m,
           "rocks.max_radius_m must be above rocks.min_radius_m, and that above 0");
   Require(power > 0, "rocks.power must be positive");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/simulation/hash_noise.h"
 
 namespace arfm_vo {
@@ -63,11 +64,9 @@ void TerrainOptions::Check() const {
   Require(relief_wavelength_m > 0, "terrain.relief_wavelength_m must be positive");
   Require(relief_persistence > 0 && relief_persistence < 1,
           "terrain.relief_persistence must be in (0, 1)");
-  Require(sand_fraction >= 0 && sand_fraction <= 1, "terrain.sand_fraction must be in [0, 1]");
+  RequireInRange(sand_fraction, 0, 1, "terrain.sand_fraction");
   Require(texture_contrast >= 0, "terrain.texture_contrast must not be negative");
-  Require(sun_elevation_deg >= 3 && sun_elevation_deg <= 90,
-          "terrain.sun_elevation_deg must be in [3, 90]");
-  rocks.Check();
+  RequireInRange(sun_elevation_deg, 3, 90, "terrain.sun_elevation_deg");
 }
 
 Terrain::Terrain(const TerrainOptions& options, const Corridor& corridor, int num_threads)

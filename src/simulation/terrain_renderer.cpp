@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "arfm_vo/simulation/hash_noise.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/simulation/parallel_rows.h"
 #include "arfm_vo/simulation/view_solids.h"
 
@@ -171,8 +171,8 @@ double Supersample(const Tracer& tracer, int u, int v, int samples) {
 
 void RenderOptions::Check() const {
   Require(num_threads >= 1, "render.num_threads must be at least 1");
-  Require(edge_samples >= 1 && edge_samples <= 8, "render.edge_samples must be in 1..8");
-  Require(skylight >= 0 && skylight <= 1, "render.skylight must be in [0, 1]");
+  RequireInRange(edge_samples, 1, 8, "render.edge_samples");
+  RequireInRange(skylight, 0, 1, "render.skylight");
   Require(haze_distance_m > 0, "render.haze_distance_m must be positive");
   sensor.Check();
 }

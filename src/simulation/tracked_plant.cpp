@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {
@@ -15,12 +15,11 @@ constexpr double kSlipPatch_m = 0.5;  // way over which the slip changes
 
 void TrackedPlantOptions::Check() const {
   Require(gauge_m > 0.01 && gauge_m < 10, "plant.gauge_m must be in (0.01, 10)");
-  Require(turn_slip_factor >= 0.2 && turn_slip_factor <= 10,
-          "plant.turn_slip_factor must be in 0.2..10");
-  Require(forward_slip >= -1 && forward_slip <= 1, "plant.forward_slip must be in -1..1");
-  Require(slip_variation >= 0 && slip_variation <= 1, "plant.slip_variation must be in 0..1");
-  Require(sideways_slip >= 0 && sideways_slip <= 10, "plant.sideways_slip must be in 0..10");
-  Require(response_s >= 0 && response_s <= 10, "plant.response_s must be in 0..10");
+  RequireInRange(turn_slip_factor, 0.2, 10, "plant.turn_slip_factor");
+  RequireInRange(forward_slip, -1, 1, "plant.forward_slip");
+  RequireInRange(slip_variation, 0, 1, "plant.slip_variation");
+  RequireInRange(sideways_slip, 0, 10, "plant.sideways_slip");
+  RequireInRange(response_s, 0, 10, "plant.response_s");
 }
 
 TrackedPlant::TrackedPlant(const TrackedPlantOptions& options, const RoverPose& start,

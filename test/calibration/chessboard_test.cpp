@@ -1,8 +1,8 @@
-#include "arfm_vo/calibration/chessboard.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "arfm_vo/calibration/corner_detection.h"
 
 namespace arfm_vo {
 namespace {

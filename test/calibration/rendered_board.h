@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "arfm_vo/base/random.h"
-#include "arfm_vo/calibration/chessboard.h"
+#include "arfm_vo/calibration/corner_detection.h"
 #include "arfm_vo/geometry/rigid3.h"
-#include "arfm_vo/simulation/board_renderer.h"
+#include "arfm_vo/simulation/board_set.h"
 
 namespace arfm_vo {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/stop_look_go.h"
 

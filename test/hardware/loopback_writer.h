@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "arfm_vo/hardware/file_descriptor.h"
-#include "arfm_vo/hardware/v4l2_call.h"
+#include "arfm_vo/hardware/v4l2_buffers.h"
 
 namespace arfm_vo {
 

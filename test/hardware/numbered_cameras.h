@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "hardware/loopback_writer.h"
 
 namespace arfm_vo {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
 

@@ -6,7 +6,7 @@
 #include <ros/ros.h>
 
 #include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "nodes/inbox.h"
 #include "ros/textured_wall.h"
 

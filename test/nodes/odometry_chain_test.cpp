@@ -19,7 +19,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "nodes/inbox.h"
 #include "ros/textured_wall.h"
 

@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
 #include "nodes/inbox.h"

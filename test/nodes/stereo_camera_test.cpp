@@ -12,7 +12,7 @@
 #include <memory>
 #include <thread>
 
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/ros/rover/stereo_camera_node.h"
 #include "hardware/simulated_cameras.h"
 #include "nodes/inbox.h"

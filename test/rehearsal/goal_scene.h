@@ -4,7 +4,6 @@
 
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/route.h"
-#include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/terrain.h"
 #include "arfm_vo/simulation/tracked_plant.h"

@@ -1,5 +1,3 @@
-#include "arfm_vo/simulation/board_renderer.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

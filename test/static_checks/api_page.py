@@ -89,8 +89,9 @@ def read_ranges():
 def read_conditions(body):
     """{member: range} of a Check()."""
     conditions = {}
-    for low, high, key in re.findall(r'RequireInRange\(\w+, ([^,]+), ([^,]+), "([\w.]+)"\)', body):
-        conditions[key.split(".")[-1]] = f"{low}..{high.replace('M_PI', 'pi')}"
+    for kind, low, high, key in re.findall(r'Require(InRange|Above)\(\w+, ([^,]+), ([^,]+), "([\w.]+)"\)', body):
+        text = f"{low}..{high}" if kind == "InRange" else f"({low}, {high}]"
+        conditions[key.split(".")[-1]] = text.replace("M_PI", "pi")
     for call in re.findall(r"Require\((.*?)\);", body, re.S):
         message = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', call))
         names, must, rule = message.partition(" must ")

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "arfm_vo/calibration/chessboard.h"
 #include "arfm_vo/calibration/corner_detection.h"
 
 namespace arfm_vo {

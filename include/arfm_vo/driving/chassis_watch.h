@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/drive_state.h"
 
 namespace arfm_vo {
@@ -42,10 +42,8 @@ struct ChassisWatchOptions {
   double foreign_command_s = 1;     ///< a command of another driver is a fault so long
 
   void Check() const {
-    Require(max_feedback_age_s >= 0.2 && max_feedback_age_s <= 10,
-            "chassis.max_feedback_age_s must be in 0.2..10");
-    Require(foreign_command_s >= 0.1 && foreign_command_s <= 60,
-            "chassis.foreign_command_s must be in 0.1..60");
+    RequireInRange(max_feedback_age_s, 0.2, 10, "chassis.max_feedback_age_s");
+    RequireInRange(foreign_command_s, 0.1, 60, "chassis.foreign_command_s");
   }
   ARFM_FIELDS(max_feedback_age_s, allows_remote_lost, foreign_command_s)
 };

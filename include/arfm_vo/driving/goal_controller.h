@@ -3,7 +3,6 @@
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/route.h"
-#include "arfm_vo/driving/rover_pose.h"
 
 namespace arfm_vo {
 

@@ -5,7 +5,6 @@
 
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/driving/route.h"
-#include "arfm_vo/driving/rover_pose.h"
 
 namespace arfm_vo {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "arfm_vo/base/fields.h"
-#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/planar_motion.h"
 
 namespace arfm_vo {
@@ -14,8 +14,7 @@ struct TrackKinematicsOptions {
 
   void Check() const {
     Require(gauge_m > 0.01 && gauge_m < 10, "kinematics.gauge_m must be in (0.01, 10)");
-    Require(turn_slip_factor >= 0.2 && turn_slip_factor <= 5,
-            "kinematics.turn_slip_factor must be in 0.2..5");
+    RequireInRange(turn_slip_factor, 0.2, 5, "kinematics.turn_slip_factor");
   }
   ARFM_FIELDS(gauge_m, turn_slip_factor)
 };

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/driving/track_kinematics.h"
 

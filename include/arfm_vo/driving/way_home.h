@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "arfm_vo/driving/route.h"
-#include "arfm_vo/driving/rover_pose.h"
 
 namespace arfm_vo {
 

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <ctime>
 #include <functional>
 #include <limits>
 
 namespace arfm_vo {
+
+/// CLOCK_MONOTONIC in seconds, the clock of V4L2's stamps.
+inline double MonotonicNow() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// Brings stamps of the monotonic clock to a wall clock. The wall clock is steered and set while
 /// the machine runs, so the offset is measured again and again.

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
+#include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/file_descriptor.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/hardware/simulated_ptu.h"
 
 namespace arfm_vo {

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 
@@ -25,12 +22,12 @@ struct VideoOptions {
 
   void Check() const {
     Require(width > 0 && height > 0, "video.width and video.height must be positive");
-    Require(rate_hz > 0 && rate_hz <= 1000, "video.rate_hz must be in (0, 1000]");
+    RequireAbove(rate_hz, 0, 1000, "video.rate_hz");
     Require(exposure_s >= 0, "video.exposure_s must not be negative");
     Require(exposure_s * rate_hz <= 1, "video.exposure_s must not be longer than a frame");
     Require(gain >= -1, "video.gain must not be below -1");
     Require(white_balance_k >= 0, "video.white_balance_k must not be negative");
-    Require(num_buffers >= 2 && num_buffers <= 32, "video.num_buffers must be in 2..32");
+    RequireInRange(num_buffers, 2, 32, "video.num_buffers");
     Require(input >= -1, "video.input must not be below -1");
   }
   ARFM_FIELDS(pixel_format, width, height, rate_hz, exposure_s, gain, white_balance_k, num_buffers,

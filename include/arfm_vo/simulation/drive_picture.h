@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "arfm_vo/driving/route.h"
-#include "arfm_vo/driving/rover_pose.h"
 #include "arfm_vo/simulation/terrain.h"
 
 namespace arfm_vo {

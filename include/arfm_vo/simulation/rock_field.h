@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/simulation/solid.h"
 

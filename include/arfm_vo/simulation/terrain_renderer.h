@@ -4,7 +4,6 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"

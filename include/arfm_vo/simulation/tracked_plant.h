@@ -5,7 +5,7 @@
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/driving/planar_motion.h"
-#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/track_history.h"
 #include "arfm_vo/geometry/rigid3.h"
 

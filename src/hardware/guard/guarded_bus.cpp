@@ -4,7 +4,7 @@
 
 #include "arfm_vo/hardware/bus_lock.h"
 #include "arfm_vo/hardware/chassis_protocol.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 
 namespace arfm_vo {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "arfm_vo/base/array_checks.h"
-#include "arfm_vo/driving/range_check.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/route.h"
 
 namespace arfm_vo {

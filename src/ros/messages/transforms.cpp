@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/driving/rover_pose.h"
+#include "arfm_vo/driving/route.h"
 #include "arfm_vo/ros/messages/conversions.h"
 
 namespace arfm_vo {

@@ -12,15 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* ToString(MapState state) {
-  switch (state) {
-    case MapState::kNewMap:
-      return "NEW_MAP";
-    case MapState::kLocalising:
-      return "LOCALISING";
-    case MapState::kLocalised:
-      return "LOCALISED";
-  }
-  return "";
+  constexpr const char* kNames[] = {"NEW_MAP", "LOCALISING", "LOCALISED"};
+  return kNames[static_cast<size_t>(state)];
 }
 
 size_t NumKeyframes(const PlacedMap& map) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/hardware/serial_port.h"
 #include "arfm_vo/ros/node/parameters.h"
 #include "arfm_vo/ros/node/services.h"

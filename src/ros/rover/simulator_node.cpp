@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/node/parameters.h"
@@ -62,18 +63,13 @@ visualization_msgs::Marker MakeTerrainMarker(const Terrain& terrain, const Rigid
 
 void SimulatorNodeOptions::Check() const {
   Require(!can.empty(), "can must name a bus");
-  Require(max_speed_up > 0 && max_speed_up <= 1000, "max_speed_up must be in (0, 1000]");
-  Require(max_latency_s >= 0 && max_latency_s <= 600, "max_latency_s must be in 0..600");
-  Require(max_wait_s >= 0 && max_wait_s <= 600, "max_wait_s must be in 0..600");
-  Require(pair_period_s >= 0.02 && pair_period_s <= 60, "pair_period_s must be in 0.02..60");
+  RequireAbove(max_speed_up, 0, 1000, "max_speed_up");
+  RequireInRange(max_latency_s, 0, 600, "max_latency_s");
+  RequireInRange(max_wait_s, 0, 600, "max_wait_s");
+  RequireInRange(pair_period_s, 0.02, 60, "pair_period_s");
   Require(start.size() == 3, "start must hold x, y and the heading");
   for (const double value : start)
     Require(std::abs(value) < terrain.side_m / 2, "start must lie on the terrain");
-  terrain.Check();
-  plant.Check();
-  rig.Check();
-  render.Check();
-  shape.Check();
 }
 
 SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)

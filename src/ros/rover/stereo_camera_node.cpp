@@ -5,7 +5,6 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/format.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
 #include "arfm_vo/ros/node/parameters.h"
 
 namespace arfm_vo {
@@ -106,7 +105,6 @@ void ReportCalibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::C
 
 void StereoCameraNodeOptions::Check() const {
   camera.Check();
-  health.Check();
   for (const auto& [key, url] : {std::pair("left_camera_info_url", &left_camera_info_url),
                                  {"right_camera_info_url", &right_camera_info_url}})
     Require(url->empty() || url->find("://") != std::string::npos,

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "arfm_vo/hardware/chassis_protocol.h"
-#include "arfm_vo/hardware/monotonic_clock.h"
+#include "arfm_vo/hardware/clock_offset.h"
 #include "hardware/guard/started_process.h"
 
 namespace arfm_vo {

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "arfm_vo/ros/messages/conversions.h"
-#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "arfm_vo/simulation/simulated_imu.h"
 #include "nodes/inbox.h"
 #include "ros/textured_wall.h"

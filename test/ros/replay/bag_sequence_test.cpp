@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
-#include "arfm_vo/ros/replay/stereo_bag_writer.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 
 namespace arfm_vo {
 namespace {

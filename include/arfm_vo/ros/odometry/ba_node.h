@@ -10,13 +10,14 @@
 #include <string>
 
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/evaluation/trajectory_output.h"
 #include "arfm_vo/odometry/visual_odometry.h"
-#include "arfm_vo/ros/odometry/adjustment_figures.h"
+#include "arfm_vo/ros/odometry/features_requests.h"
 #include "arfm_vo/ros/odometry/learned_calibration.h"
 #include "arfm_vo/ros/odometry/map_keeper.h"
-#include "arfm_vo/ros/odometry/tracked_pair_input.h"
+#include "arfm_vo/ros/odometry/odometry_health.h"
 
 namespace arfm_vo {
 
@@ -40,7 +41,7 @@ struct BaNodeOptions {
     Require(!odom_frame.empty(), "odom_frame must not be empty");
     Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
     Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
-    Require(max_time_share > 0 && max_time_share <= 1, "max_time_share must be in (0, 1]");
+    RequireAbove(max_time_share, 0, 1, "max_time_share");
     Require(max_path_poses >= 2, "max_path_poses must be at least 2");
   }
   ARFM_FIELDS((algorithm), map_frame, odom_frame, camera_frame, publish_tf, tf_rate_hz,

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/odometry/placed_map.h"
 
@@ -22,7 +22,7 @@ struct MapKeeperOptions {
   double map_save_interval_s = 60;  ///< while keyframes come
 
   void Check() const {
-    Require(map_max_mb >= 0.1 && map_max_mb <= 1e5, "map_max_mb must be in [0.1, 100000]");
+    RequireInRange(map_max_mb, 0.1, 100000, "map_max_mb");
     Require(map_save_interval_s > 0, "map_save_interval_s must be positive");
   }
   ARFM_FIELDS(map_file, map_max_mb, map_save_interval_s)

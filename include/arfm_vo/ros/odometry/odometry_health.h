@@ -6,6 +6,8 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/geometry/correction_belief.h"
+#include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/odometry/session.h"
 #include "arfm_vo/ros/node/health.h"
 
@@ -66,6 +68,20 @@ class OdometryHealth {
   Refusals refusals_{"pair"};
   uint32_t num_pairs_ = 0, num_tracked_ = 0, num_degraded_ = 0, num_lost_ = 0;
   uint32_t num_dropped_ = 0;
+};
+
+/// How ba_node's adjusting fares.
+struct AdjustmentFigures {
+  int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_adjustments = 0, num_failed = 0;
+  Refusals refusals{"keyframe"};
+  bool is_adjusting = false;
+  int iteration = 0;
+  double cost = 0, last_ms = 0, longest_ms = 0, columns_sigma_px = 0;
+  CorrectionBelief::Estimate radial_px, focal_length_excess;
+  Rigid3 map_from_odom;
+
+  /// `map`: its state in words.
+  void Report(const std::string& map, Diagnostics& status) const;
 };
 
 }  // namespace arfm_vo

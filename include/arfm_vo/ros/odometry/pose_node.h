@@ -43,8 +43,6 @@ struct PoseNodeOptions {
     algorithm.Check();
     mount.Check();
     output.Check();
-    health.Check();
-    senses.Check();
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_held_pairs >= 0, "max_held_pairs must not be negative");
   }

@@ -21,7 +21,6 @@ struct PoseOutputOptions {
 
   void Check() const {
     Require(!odom_frame.empty(), "odom_frame must not be empty");
-    path.Check();
   }
   ARFM_FIELDS(odom_frame, publish_tf, path)
 };

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/pilot_options.h"
 #include "arfm_vo/hardware/bus_lock.h"
 #include "arfm_vo/ros/input/transform_input.h"
@@ -40,12 +40,10 @@ struct ChassisNodeOptions {
     Require(!can.empty(), "can must name a bus");
     Require(!map_frame.empty() && !odom_frame.empty() && !base_frame.empty(),
             "map_frame, odom_frame and base_frame must not be empty");
-    Require(max_clock_stall_s > 0 && max_clock_stall_s <= 600,
-            "max_clock_stall_s must be in (0, 600]");
-    Require(max_map_age_s >= 0.1 && max_map_age_s <= 3600, "max_map_age_s must be in 0.1..3600");
-    Require(max_goal_age_s > 0 && max_goal_age_s <= 3600, "max_goal_age_s must be in (0, 3600]");
+    RequireAbove(max_clock_stall_s, 0, 600, "max_clock_stall_s");
+    RequireInRange(max_map_age_s, 0.1, 3600, "max_map_age_s");
+    RequireAbove(max_goal_age_s, 0, 3600, "max_goal_age_s");
     Require(baseline_m >= 0 && baseline_m < 10, "baseline_m must be in 0..10");
-    pilot.Check();
   }
   ARFM_FIELDS(can, map_frame, odom_frame, base_frame, max_clock_stall_s, max_map_age_s,
               max_goal_age_s, baseline_m, pilot)

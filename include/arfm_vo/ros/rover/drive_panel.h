@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 
@@ -19,7 +19,7 @@ struct DrivePanelOptions {
 
   void Check() const {
     Require(!base_frame.empty(), "base_frame must not be empty");
-    Require(height_m >= 0 && height_m <= 100, "height_m must be in 0..100");
+    RequireInRange(height_m, 0, 100, "height_m");
   }
   ARFM_FIELDS(base_frame, height_m)
 };

@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
 #include "arfm_vo/ros/node/health.h"
@@ -26,7 +26,7 @@ struct PanTiltNodeOptions {
   void Check() const {
     Require(!port.empty(), "port must name a device file");
     Require(baud > 0, "baud must be positive");
-    Require(max_rate_hz > 0 && max_rate_hz <= 1000, "max_rate_hz must be in (0, 1000]");
+    RequireAbove(max_rate_hz, 0, 1000, "max_rate_hz");
     Require(!pan_joint.empty() && !tilt_joint.empty() && pan_joint != tilt_joint,
             "pan_joint and tilt_joint must be two names");
     unit.Check();

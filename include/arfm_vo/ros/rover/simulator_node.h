@@ -15,7 +15,7 @@
 
 #include "arfm_vo/base/fields.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
-#include "arfm_vo/ros/replay/stereo_publisher.h"
+#include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "arfm_vo/simulation/drive_path.h"
 #include "arfm_vo/simulation/drive_picture.h"
 #include "arfm_vo/simulation/simulated_chassis.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
+#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
@@ -22,9 +22,8 @@ struct CameraHealthOptions {
   double max_unpaired_share = 0.1;  ///< of an eye's frames since the last report; more: warning
 
   void Check() const {
-    Require(min_rate_share >= 0 && min_rate_share <= 1, "health.min_rate_share must be in 0..1");
-    Require(max_unpaired_share >= 0 && max_unpaired_share <= 1,
-            "health.max_unpaired_share must be in 0..1");
+    RequireInRange(min_rate_share, 0, 1, "health.min_rate_share");
+    RequireInRange(max_unpaired_share, 0, 1, "health.max_unpaired_share");
   }
   ARFM_FIELDS(min_rate_share, max_unpaired_share)
 };
