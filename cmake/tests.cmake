@@ -55,9 +55,9 @@ function(arfm_node_test name layer)
   endif()
 endfunction()
 
-# arfm_script_test(NAME SCRIPT [argument ...]): the Python program SCRIPT of test/ as a test, in a shell that knows the package.
+# arfm_script_test(NAME SCRIPT [argument ...]): the program SCRIPT of test/ as a test, in a shell that knows the package.
 function(arfm_script_test name script)
-  add_test(NAME ${name} COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${script} ${ARGN})
+  add_test(NAME ${name} COMMAND ${CATKIN_ENV} ${PROJECT_SOURCE_DIR}/test/${script} ${ARGN})
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900
     ENVIRONMENT "PYTHONPATH=/usr/lib/python3/dist-packages")
 endfunction()
