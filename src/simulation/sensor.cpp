@@ -9,7 +9,6 @@ namespace arfm_vo {
 void SensorOptions::Check() const {
   Require(gain > 0, "sensor.gain must be positive");
   Require(blur_px >= 0 && blur_px < 20, "sensor.blur_px must be in [0, 20)");
-  Require(vignetting >= 0 && vignetting < 1, "sensor.vignetting must be in [0, 1)");
   Require(noise_grey_levels >= 0, "sensor.noise_grey_levels must not be negative");
 }
 
@@ -20,6 +19,7 @@ cv::Mat ExposeImage(const cv::Mat& radiance, const SensorOptions& options, uint3
     cv::GaussianBlur(radiance, light, {0, 0}, options.blur_px, options.blur_px,
                      cv::BORDER_REPLICATE);
   }
+  constexpr double kVignetting = 0.1;  // share of the light lost in the corners
   cv::Mat image(light.size(), CV_8UC1);
   const double center_x = (light.cols - 1) / 2.0, center_y = (light.rows - 1) / 2.0;
   const double corner_squared = center_x * center_x + center_y * center_y + 1e-9;
@@ -30,7 +30,7 @@ cv::Mat ExposeImage(const cv::Mat& radiance, const SensorOptions& options, uint3
     const double dy = v - center_y;
     for (int u = 0; u < light.cols; ++u) {
       const double dx = u - center_x;
-      const double loss = options.vignetting * (dx * dx + dy * dy) / corner_squared;
+      const double loss = kVignetting * (dx * dx + dy * dy) / corner_squared;
       const double noise =
           options.noise_grey_levels > 0
               ? options.noise_grey_levels * HashGaussian(HashCell(u, v, image_word))

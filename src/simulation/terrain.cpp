@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kFarSide = 8192, kFarCell = 16;  ///< m, of the land around the detailed square
 constexpr double kGroundAlbedo = 0.42;
+/// Height of each octave of the relief over that of the one twice as long.
+constexpr double kPersistence = 0.48;
 constexpr int kNumLayers = 5;
 /// Of the texture layers: each band of 8 in wavelength follows the next.
 constexpr double kTexels[kNumLayers] = {0.0025, 0.02, 0.16, 1.28, 10.24};
@@ -62,8 +64,6 @@ void TerrainOptions::Check() const {
           "terrain.side_m must be terrain.cell_m times a power of two up to 8192");
   Require(side_m < kFarSide / 2, "terrain.side_m must be below 4096");
   Require(relief_wavelength_m > 0, "terrain.relief_wavelength_m must be positive");
-  Require(relief_persistence > 0 && relief_persistence < 1,
-          "terrain.relief_persistence must be in (0, 1)");
   RequireInRange(sand_fraction, 0, 1, "terrain.sand_fraction");
   Require(texture_contrast >= 0, "terrain.texture_contrast must not be negative");
   RequireInRange(sun_elevation_deg, 3, 90, "terrain.sun_elevation_deg");
@@ -103,9 +103,8 @@ void Terrain::RaiseGround(int num_threads) {
     // The fine relief ends where the coarse grid takes over.
     const double edge = std::max(std::abs(x), std::abs(y)) / half;
     const double wave = options_.relief_wavelength_m;
-    return land(x, y) +
-           options_.relief_m * (1 - SmoothStep(0.85, 1, edge)) *
-               FractalNoise(x / wave, y / wave, num_octaves, options_.relief_persistence, seed);
+    return land(x, y) + options_.relief_m * (1 - SmoothStep(0.85, 1, edge)) *
+                            FractalNoise(x / wave, y / wave, num_octaves, kPersistence, seed);
   };
   Raster near = MakeSquare(options_.side_m, options_.cell_m);
   near.Fill(num_threads, ground);

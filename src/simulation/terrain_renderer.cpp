@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kNoDepth = std::numeric_limits<double>::infinity();
 constexpr double kFarthest = 12000;    ///< m
+constexpr double kHaze_m = 4000;       ///< over which the air takes 63 % of the contrast
 constexpr double kShadowLift = 2e-4;   ///< m, off a surface, so that it does not shade itself
 constexpr double kSkyRadiance = 0.62;  ///< at the horizon
 constexpr int kSky = -1, kGround = 0, kFirstSolid = 16;
@@ -53,7 +54,7 @@ class Tracer {
       sight.radiance = SkyRadiance(ray.direction);
       return sight;
     }
-    const double haze = 1 - std::exp(-sight.depth / options_.haze_distance_m);
+    const double haze = 1 - std::exp(-sight.depth / kHaze_m);
     sight.radiance += haze * (kSkyRadiance - sight.radiance);
     return sight;
   }
@@ -173,7 +174,6 @@ void RenderOptions::Check() const {
   Require(num_threads >= 1, "render.num_threads must be at least 1");
   RequireInRange(edge_samples, 1, 8, "render.edge_samples");
   RequireInRange(skylight, 0, 1, "render.skylight");
-  Require(haze_distance_m > 0, "render.haze_distance_m must be positive");
   sensor.Check();
 }
 

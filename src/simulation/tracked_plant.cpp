@@ -10,6 +10,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kSlipPatch_m = 0.5;  // way over which the slip changes
+constexpr double kResponse_s = 0.1;   // time constant from commanded to real track speed
 
 }  // namespace
 
@@ -19,7 +20,6 @@ void TrackedPlantOptions::Check() const {
   RequireInRange(forward_slip, -1, 1, "plant.forward_slip");
   RequireInRange(slip_variation, 0, 1, "plant.slip_variation");
   RequireInRange(sideways_slip, 0, 10, "plant.sideways_slip");
-  RequireInRange(response_s, 0, 10, "plant.response_s");
 }
 
 TrackedPlant::TrackedPlant(const TrackedPlantOptions& options, const RoverPose& start,
@@ -29,7 +29,7 @@ TrackedPlant::TrackedPlant(const TrackedPlantOptions& options, const RoverPose& 
 }
 
 void TrackedPlant::Step(const TrackSpeeds& commanded, double dt_s) {
-  const double share = 1 - std::exp(-dt_s / std::max(options_.response_s, 1e-6));
+  const double share = 1 - std::exp(-dt_s / kResponse_s);
   speeds_.left_mps += share * (commanded.left_mps - speeds_.left_mps);
   speeds_.right_mps += share * (commanded.right_mps - speeds_.right_mps);
   const double left_m = speeds_.left_mps * dt_s, right_m = speeds_.right_mps * dt_s;

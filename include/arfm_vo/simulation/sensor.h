@@ -12,12 +12,11 @@ namespace arfm_vo {
 struct SensorOptions {
   double gain = 300;             ///< grey levels of a radiance of 1 (sunlit white ground)
   double blur_px = 0.4;          ///< standard deviation of the lens's spread; 0: none
-  double vignetting = 0.1;       ///< share of the light lost in the corners
   double noise_grey_levels = 1;  ///< standard deviation
   int seed = 1;                  ///< of the noise
 
   void Check() const;
-  ARFM_FIELDS(gain, blur_px, vignetting, noise_grey_levels, seed)
+  ARFM_FIELDS(gain, blur_px, noise_grey_levels, seed)
 };
 
 /// The 8 bit picture (CV_8UC1) of a radiance image (CV_32FC1). `image_id` selects the noise: the

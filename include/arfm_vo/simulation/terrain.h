@@ -16,17 +16,16 @@ struct TerrainOptions {
   double cell_m = 0.1;              ///< of the height field; side_m / cell_m must be a power of two
   double relief_m = 1.0;            ///< height of the largest undulations
   double relief_wavelength_m = 18;  ///< of the largest undulations
-  double relief_persistence = 0.48;  ///< height of each octave over that of the one twice as long
-  double hills_m = 90;               ///< height of the hills on the horizon
-  double sand_fraction = 0.3;        ///< share of the ground with little texture
-  double texture_contrast = 1;       ///< of the ground, 0: none, 1: as rendered for the fixture
-  double sun_elevation_deg = 25;     ///< above the horizon
-  double sun_azimuth_deg = 130;      ///< from +x towards +y
+  double hills_m = 90;              ///< height of the hills on the horizon
+  double sand_fraction = 0.3;       ///< share of the ground with little texture
+  double texture_contrast = 1;      ///< of the ground, 0: none, 1: as rendered for the fixture
+  double sun_elevation_deg = 25;    ///< above the horizon
+  double sun_azimuth_deg = 130;     ///< from +x towards +y
   RockOptions rocks;
 
   void Check() const;
-  ARFM_FIELDS(seed, side_m, cell_m, relief_m, relief_wavelength_m, relief_persistence, hills_m,
-              sand_fraction, texture_contrast, sun_elevation_deg, sun_azimuth_deg, (rocks))
+  ARFM_FIELDS(seed, side_m, cell_m, relief_m, relief_wavelength_m, hills_m, sand_fraction,
+              texture_contrast, sun_elevation_deg, sun_azimuth_deg, (rocks))
 };
 
 /// A way that is kept clear of large rocks and may have a surface of its own, like a road.

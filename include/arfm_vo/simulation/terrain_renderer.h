@@ -14,14 +14,13 @@
 namespace arfm_vo {
 
 struct RenderOptions {
-  int num_threads = 1;            ///< that render a picture
-  int edge_samples = 3;           ///< along each side of a pixel on an edge; 1: no smooth edges
-  double skylight = 0.22;         ///< share of the light that comes from the whole sky
-  double haze_distance_m = 4000;  ///< over which the air takes 63 % of the contrast
+  int num_threads = 1;     ///< that render a picture
+  int edge_samples = 3;    ///< along each side of a pixel on an edge; 1: no smooth edges
+  double skylight = 0.22;  ///< share of the light that comes from the whole sky
   SensorOptions sensor;
 
   void Check() const;
-  ARFM_FIELDS(num_threads, edge_samples, skylight, haze_distance_m, (sensor))
+  ARFM_FIELDS(num_threads, edge_samples, skylight, (sensor))
 };
 
 /// What an ideal camera sees.

@@ -17,12 +17,10 @@ struct TrackedPlantOptions {
   double forward_slip = 0.1;      ///< share of the tracks' way that the ground does not give back
   double slip_variation = 0.05;   ///< standard deviation of the forward slip from place to place
   double sideways_slip = 0.1;     ///< way down a side slope, over way ahead and sine of the slope
-  double response_s = 0.1;        ///< time constant from commanded to real track speed
   int seed = 1;                   ///< of the slip's variation
 
   void Check() const;
-  ARFM_FIELDS(gauge_m, turn_slip_factor, forward_slip, slip_variation, sideways_slip, response_s,
-              seed)
+  ARFM_FIELDS(gauge_m, turn_slip_factor, forward_slip, slip_variation, sideways_slip, seed)
 };
 
 /// The base (x ahead, y left, z up) of a rover standing at a place, in the world.
