@@ -172,8 +172,8 @@ TEST(TrackHistory, ReadingsAheadOfAClockThatWentBackAreForgotten) {
 TEST(TrackHistory, ForgetsWhatIsTooOld) {
   TrackHistory history(10);
   for (int i = 0; i <= 100; ++i) history.Add(i, i, i);
-  EXPECT_TRUE(history.Covers(90));
-  EXPECT_FALSE(history.Covers(88));
+  EXPECT_NEAR(history.At(90)->left_m, 0.090, 1e-9);
+  EXPECT_NEAR(history.At(50)->left_m, 0.089, 1e-9);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "arfm_vo/driving/pilot.h"
+#include "driving/attend.h"
 
 namespace arfm_vo {
 

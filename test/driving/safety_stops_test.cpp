@@ -9,6 +9,7 @@
 #include "arfm_vo/driving/goal_controller.h"
 #include "arfm_vo/driving/pilot.h"
 #include "arfm_vo/driving/route.h"
+#include "driving/attend.h"
 
 namespace arfm_vo {
 namespace {

@@ -211,7 +211,6 @@ TEST(StopLookGo, EndsTheStepByTheFasterTrackAndLooksAgain) {
   gate.Gate({0.1, 0}, {7, 7}, true);
   EXPECT_FALSE(gate.Gate({0.1, 0}, {7.1, 7.24}, false).IsZero());
   EXPECT_TRUE(gate.Gate({0.1, 0}, {7.1, 7.25}, false).IsZero());
-  EXPECT_TRUE(gate.IsLooking());
   EXPECT_TRUE(gate.Gate({0.1, 0}, {7.1, 7.26}, false).IsZero());
   EXPECT_FALSE(gate.Gate({0.1, 0}, {7.1, 7.26}, true).IsZero());
 }

@@ -9,6 +9,7 @@
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/mapping/map_file.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "driving/attend.h"
 #include "mapping/odometry_chain.h"
 #include "rehearsal/goal_scene.h"
 #include "rehearsal/simulated_sight.h"

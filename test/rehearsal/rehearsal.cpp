@@ -6,6 +6,7 @@
 
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
+#include "driving/attend.h"
 #include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {

@@ -82,9 +82,4 @@ class OperatorWatch {
   double round_trip_s_ = 0;
 };
 
-/// A person who answers at once, for simulations.
-inline void Attend(OperatorWatch& watch, double steady_s) {
-  if (const auto challenge = watch.Advance(steady_s, 1)) watch.ObserveAnswer(steady_s, *challenge);
-}
-
 }  // namespace arfm_vo

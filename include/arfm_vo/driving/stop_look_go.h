@@ -27,7 +27,6 @@ class StopLookGo {
 
   /// The next motion needs a look first.
   void Reset() { is_looking_ = true; }
-  bool IsLooking() const { return options_.is_on && is_looking_; }
 
  private:
   StopLookGoOptions options_;

@@ -24,10 +24,6 @@ class TrackHistory {
   /// reading, those. Nothing where there are no readings.
   std::optional<TrackWays> At(double time_s) const;
 
-  bool Covers(double time_s) const {
-    return !readings_.empty() && readings_.front().time_s <= time_s;
-  }
-
  private:
   struct Reading {
     double time_s = 0;
