@@ -1,6 +1,7 @@
 #include <iterator>
 #include <limits>
 
+#include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
@@ -136,19 +137,10 @@ sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings) {
   return message;
 }
 
-geometry_msgs::Pose ToMessage(const RoverPose& pose) {
-  geometry_msgs::Pose message;
-  message.position.x = pose.x_m;
-  message.position.y = pose.y_m;
-  message.orientation.z = std::sin(pose.heading_rad / 2);
-  message.orientation.w = std::cos(pose.heading_rad / 2);
-  return message;
-}
-
 nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMotion& motion) {
   constexpr double kPositionVariance_m2 = 1, kHeadingVariance_rad2 = 1, kUnmeasured = 9999;
   nav_msgs::Odometry message;
-  message.pose.pose = ToMessage(pose);
+  message.pose.pose = ToPoseMessage(LiftFromPlane(pose));
   for (int i = 0; i < 6; ++i) {
     message.pose.covariance[7 * i] = kUnmeasured;
     message.twist.covariance[7 * i] = kUnmeasured;

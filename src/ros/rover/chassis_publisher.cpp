@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "arfm_vo/ros/messages/conversions.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -97,7 +99,7 @@ void ChassisPublisher::PublishPlan(const geometry_msgs::PoseStamped& base, const
   for (const auto& [x_m, y_m, heading_rad] : route) {
     geometry_msgs::PoseStamped& place = path.poses.emplace_back();
     place.header = path.header;
-    place.pose = ToMessage(RoverPose{x_m, y_m, heading_rad.value_or(0)});
+    place.pose = ToPoseMessage(LiftFromPlane({x_m, y_m, heading_rad.value_or(0)}));
   }
   plan_.publish(path);
 }

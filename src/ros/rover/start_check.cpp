@@ -1,6 +1,7 @@
 #include "arfm_vo/ros/rover/start_check.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdlib>
 
@@ -19,10 +20,6 @@ constexpr double kHeadWay_deg = 15;
 constexpr double kTogether_s = 5;  // the contradiction and the head's motion
 constexpr double kRest = 0.005;    // m/s, rad/s: slower is noise
 constexpr char kCalibration[] = ": calibration", kHead[] = ": pan-tilt";
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 double SecondsSince(const ros::SteadyTime& time) { return (ros::SteadyTime::now() - time).toSec(); }
 
@@ -54,8 +51,8 @@ std::string StartCheck::Told::Value(const std::string& key) const {
 
 void StartCheck::Take(const diagnostic_msgs::DiagnosticArray& diagnostics) {
   for (const DiagnosticStatus& status : diagnostics.status) {
-    const bool is_head = EndsWith(status.name, kHead);
-    if (!is_head && !EndsWith(status.name, kCalibration)) continue;
+    const bool is_head = boost::ends_with(status.name, kHead);
+    if (!is_head && !boost::ends_with(status.name, kCalibration)) continue;
     if (told_.size() >= 64) told_.clear();  // whoever is a node of the rover tells again
     Told& told = told_[status.name];
     const std::string before = told.Value("pan (deg)");
@@ -70,7 +67,7 @@ void StartCheck::Take(const diagnostic_msgs::DiagnosticArray& diagnostics) {
 CheckLine StartCheck::CheckCalibration() const {
   CheckLine line{"calibration", {}, "no camera's node tells its baseline"};
   for (const auto& [name, told] : told_) {
-    if (!EndsWith(name, kCalibration) || SecondsSince(told.at) > kMaxAge_s) continue;
+    if (!boost::ends_with(name, kCalibration) || SecondsSince(told.at) > kMaxAge_s) continue;
     if (told.status.level != DiagnosticStatus::OK)
       return {"calibration", false, told.status.message};
     const double baseline_m = std::atof(told.Value("baseline (m)").c_str());
@@ -109,7 +106,7 @@ std::vector<CheckLine> StartCheck::List(double now_s) const {
   std::optional<double> contradicted_s = driver_.pilot().Status().contradicted_s;
   if (contradicted_s) contradicted_s = now_s - *contradicted_s;
   for (const auto& [name, told] : told_)
-    if (EndsWith(name, kHead)) lines.push_back(CheckHead(told, contradicted_s));
+    if (boost::ends_with(name, kHead)) lines.push_back(CheckHead(told, contradicted_s));
   return lines;
 }
 

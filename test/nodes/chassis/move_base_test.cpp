@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "arfm_vo/ros/rover/chassis_publisher.h"
+#include "arfm_vo/driving/route.h"
+#include "arfm_vo/ros/messages/conversions.h"
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/inbox.h"
 
@@ -208,7 +209,7 @@ TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) 
   nav_msgs::Path path;
   path.header.frame_id = "map";
   for (const double way_m : {0.6, 0.3, 0.})
-    path.poses.emplace_back().pose = ToMessage(Advance(start, way_m, 0));
+    path.poses.emplace_back().pose = ToPoseMessage(LiftFromPlane(Advance(start, way_m, 0)));
   paths.publish(path);
   const auto says = [](const std::string& text) {
     return world_->Call("drive_home").message.find(text) != std::string::npos;

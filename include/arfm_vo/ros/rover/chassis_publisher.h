@@ -31,7 +31,6 @@ OperatorChallenge ToMessage(const Challenge& challenge);
 ChassisState ToChassisMessage(const ChassisLink& link);
 /// What is not known is NaN, as the message's definition asks.
 sensor_msgs::BatteryState ToBatteryMessage(const ChassisReadings& readings);
-geometry_msgs::Pose ToMessage(const RoverPose& pose);
 /// The pose by the tracks in `header.frame_id`, with a covariance that says how little it is worth.
 nav_msgs::Odometry ToTrackOdometryMessage(const RoverPose& pose, const PlanarMotion& motion);
 
