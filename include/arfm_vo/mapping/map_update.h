@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "arfm_vo/geometry/correction_belief.h"
@@ -22,9 +23,11 @@ struct MapUpdate {
   CorrectionBelief correction;              ///< what rectification left undone
   int num_keyframes = 0;                    ///< of the map that was adjusted
 
+  static constexpr int kMostMoving = 110;  ///< more keyframes take no more time
+
   /// How many frames after its newest keyframe the odometry takes an update over: a number that
   /// does not depend on how fast the adjustment was, so that a drive can be repeated.
-  int TakeoverDelay() const { return 1 + num_keyframes / 10; }
+  int TakeoverDelay() const { return 1 + std::min(num_keyframes, kMostMoving) / 10; }
 };
 
 /// Moves keyframes and landmarks to where a global adjustment found them, against the newest
