@@ -119,6 +119,29 @@ TEST(LoopClosing, TwentyPlacesThatLookLikeOthersMoveNothing) {
     ASSERT_EQ(poses[i].translation, expected[i].translation) << i;
 }
 
+TEST(LoopClosing, TheMapTellsOfALoopAndItsLandmarksMoveWithIt) {
+  SimulatedRunOptions simulation;
+  simulation.simulator.noise_px = 1.5;
+  GlobalMapOptions options = WithLoops();
+  options.max_keyframes = 20;  // most landmarks move no more by themselves
+  PlacedMap map(options);
+  bool has_moved_old_ones = false;
+  simulation.on_keyframe = [&](const PlacedKeyframe& keyframe) {
+    map.Add(keyframe);
+    if (!map.IsAdjustmentDue()) return;
+    const auto before = map.Landmarks();
+    const std::string news = map.news();
+    ASSERT_TRUE(map.Adjust());
+    if (news == map.news()) return;
+    const auto after = map.Landmarks();
+    const size_t middle = before.size() / 2;
+    has_moved_old_ones |= before[middle].x_in_map != after[middle].x_in_map;
+  };
+  RunSimulated(kCamera, TwoRounds(), simulation, OnlineOnly());
+  EXPECT_EQ(map.news().find("a loop is closed"), 0u) << map.news();
+  EXPECT_TRUE(has_moved_old_ones);
+}
+
 TEST(LoopClosing, ACancelledAdjustmentLeavesThePathAsItWas) {
   SimulatedRunOptions simulation;
   simulation.simulator.noise_px = 1.5;

@@ -21,7 +21,7 @@ struct MapUpdate {
   std::vector<KeyframePose> keyframes;      ///< those that moved, sorted by id; the newest one
   std::vector<LandmarkPosition> landmarks;  ///< those that moved, sorted by id
   CorrectionBelief correction;              ///< what rectification left undone
-  int num_keyframes = 0;                    ///< of the map that was adjusted
+  int num_keyframes = 0;                    ///< the newest ones, that are of this correction
 
   static constexpr int kMostMoving = 110;  ///< more keyframes take no more time
 
@@ -32,8 +32,8 @@ struct MapUpdate {
 
 /// Moves keyframes and landmarks to where a global adjustment found them, against the newest
 /// keyframe that both know, which it returns: that one stays where it is. Null, and nothing moves,
-/// where there is none. Keyframes before the first of the update's are of another correction: what
-/// their right eye saw is forgotten.
+/// where there is none. Keyframes before the first of the update's, and before the newest
+/// `num_keyframes`, are of another correction: what their right eye saw is forgotten.
 const Keyframe* ApplyMapUpdate(const MapUpdate& update, LocalMap& map);
 
 }  // namespace arfm_vo

@@ -168,8 +168,7 @@ MapUpdate FromMessage(const MapUpdateStamped& message) {
     update.correction = ImportCorrection(message);
     update.num_keyframes = message.num_keyframes;
     Require(!update.keyframes.empty(), "keyframe_id is empty");
-    Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
-            "num_keyframes is less than there are");
+    Require(update.num_keyframes > 0, "num_keyframes must be positive");
     return update;
   });
 }
