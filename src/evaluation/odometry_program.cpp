@@ -16,7 +16,7 @@ namespace {
 
 struct Arguments {
   std::string input, config, output, learned_calibration;
-  bool print_config = false, print_reasons = false, close_loops = false;
+  bool print_config = false, print_reasons = false;
   PairSelection selection;
 };
 
@@ -27,8 +27,6 @@ void AddOptions(Arguments& arguments, Program& program) {
   program.Add(
       "print-reasons", arguments.print_reasons,
       "print why a pair may have no pose, or one to be wary of, and what follows, and leave");
-  program.Add("loop-closing", arguments.close_loops,
-              "know places again in the global adjustment (global.loops.enabled)");
   program.Add("learned-calibration", arguments.learned_calibration, "FILE",
               "what earlier drives told of the rectification: read where the file is there, "
               "written at the end");
@@ -48,14 +46,8 @@ std::string FormatReasons() {
   return text;
 }
 
-OdometryOptions ReadOptions(const Arguments& arguments) {
-  OdometryOptions options = ReadYamlFileOrDefaults<OdometryOptions>(arguments.config);
-  if (arguments.close_loops) options.global.loops.enabled = true;
-  return options;
-}
-
 void Run(const std::string& name, const OpenSequence& open, const Arguments& arguments) {
-  const OdometryOptions options = ReadOptions(arguments);
+  const OdometryOptions options = ReadYamlFileOrDefaults<OdometryOptions>(arguments.config);
   if (!arguments.output.empty()) CheckCanWriteRun(arguments.output);
   const auto sequence = open(arguments.input, arguments.selection);
   VisualOdometry odometry(sequence->camera(), options);
@@ -87,7 +79,8 @@ int RunOdometryProgram(int argc, const char* const* argv, Program program,
   program.inputs = {{input_name, &arguments.input}};
   AddOptions(arguments, program);
   program.answer = [&] {
-    if (arguments.print_config) std::cout << WriteYaml(ReadOptions(arguments));
+    if (arguments.print_config)
+      std::cout << WriteYaml(ReadYamlFileOrDefaults<OdometryOptions>(arguments.config));
     if (arguments.print_reasons) std::cout << FormatReasons();
     return arguments.print_config || arguments.print_reasons;
   };

@@ -12,7 +12,9 @@ const Keyframe* ApplyMapUpdate(const MapUpdate& update, LocalMap& map) {
     anchor_in_map = keyframe.camera_from_world;
   }
   if (anchor == nullptr) return nullptr;
-  map.ForgetRight(update.keyframes.front().id);
+  const size_t num_telling = std::max(1, update.num_keyframes);
+  const size_t num_moved = update.keyframes.size();
+  map.ForgetRight(update.keyframes[num_moved - std::min(num_moved, num_telling)].id);
   const Rigid3 odom_from_map = anchor->camera_from_world.Inverse() * anchor_in_map;
   const Rigid3 map_from_odom = odom_from_map.Inverse();
   for (const auto& keyframe : update.keyframes) {

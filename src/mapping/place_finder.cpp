@@ -11,8 +11,9 @@ namespace {
 
 constexpr size_t kMaxSightings = 8;
 constexpr double kProbability = 0.99;  ///< that sightings of one map agree
-/// Ground that looks alike everywhere gave down to -45 on maps of other places.
-constexpr double kMaxLogFalseAlarms = -150;
+/// Ground that looks alike everywhere gave down to -45 a view on maps of other places.
+/// What the views that agree say together, each an equal share.
+constexpr double kMaxLogFalseAlarms = -300;
 
 /// How sure the motion between two views is, and that between two places of the map: 1 % of the
 /// way, and the directions of ways in proportion.
@@ -49,19 +50,21 @@ std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,
                                             int own_frame) {
   const auto found = recogniser_.Find(
       view, [&](int place, PlacePoint&) { return known[places_[place]].frame != own_frame; });
-  if (!found || found->log_false_alarms > kMaxLogFalseAlarms) return std::nullopt;
+  has_recognised_ = found && found->log_false_alarms <= kMaxLogFalseAlarms / (num_agreeing_ + 1);
+  if (!has_recognised_) return std::nullopt;
   const size_t keyframe = places_[found->place];
   const KnownKeyframe& place = known[keyframe];
   const Sighting newest{odom_from_camera, place.frame,
                         found->pose.camera_from_world * place.map_from_camera.Inverse(),
                         found->pose.covariance};
-  const bool is_confirmed =
-      std::any_of(sightings_.begin(), sightings_.end(),
-                  [&](const Sighting& earlier) { return Agree(earlier, newest); });
+  const auto num_agreeing =
+      std::count_if(sightings_.begin(), sightings_.end(),
+                    [&](const Sighting& earlier) { return Agree(earlier, newest); });
   sightings_.push_back(newest);
   if (sightings_.size() > kMaxSightings) sightings_.pop_front();
-  if (!is_confirmed) return std::nullopt;
-  return FoundPlace{keyframe, newest.camera_from_map.Inverse()};
+  if (num_agreeing < num_agreeing_) return std::nullopt;
+  return FoundPlace{keyframe, newest.camera_from_map.Inverse(), found->pose.camera_from_world,
+                    found->pose.covariance};
 }
 
 }  // namespace arfm_vo

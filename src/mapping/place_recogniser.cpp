@@ -169,7 +169,7 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
   }
   std::vector<char> is_inlier;
   RecognisedPlace found{place, {}, 0, {}};
-  found.pose = EstimatePose(camera_, observations, std::nullopt, RecognitionPose(), &is_inlier);
+  found.pose = EstimatePose(camera_, observations, std::nullopt, pose_, &is_inlier);
   if (!found.pose.IsTracked()) return std::nullopt;
   found.log_false_alarms = LogFalseAlarms(camera_, observations, found.pose);
   found.pose.covariance.diagonal().head<3>().array() += Square(kMinSigma_rad);

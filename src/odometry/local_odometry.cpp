@@ -185,5 +185,8 @@ OdometryUpdate LocalOdometry::Process(const FrameOnRequest& frame, const StereoI
 void LocalOdometry::Apply(const MapUpdate& update) { implementation_->Apply(update); }
 void LocalOdometry::Reset() { implementation_->Reset(); }
 const LocalMap& LocalOdometry::map() const { return implementation_->map(); }
+const Eigen::Matrix<double, 6, 6>& LocalOdometry::step_covariance() const {
+  return implementation_->step_covariance();
+}
 
 }  // namespace arfm_vo

@@ -12,6 +12,7 @@ namespace arfm_vo {
 
 class LocalOdometry::Implementation {
  public:
+  using Matrix6 = PathCovariance::Matrix6;
   Implementation(const StereoCamera& camera, const LocalOdometryOptions& options,
                  const CorrectionBelief& correction);
   OdometryUpdate Process(const FrameOnRequest& frame, const StereoImages& images,
@@ -19,6 +20,7 @@ class LocalOdometry::Implementation {
   void Apply(const MapUpdate& update);
   void Reset();
   const LocalMap& map() const { return map_; }
+  const Matrix6& step_covariance() const { return covariance_.step_covariance(); }
 
  private:
   void SetCorrection(const CorrectionBelief& correction, const Keyframe* anchor = nullptr);

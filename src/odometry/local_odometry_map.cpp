@@ -90,6 +90,9 @@ void LocalOdometry::Implementation::AddKeyframe(const StereoFrame& frame,
                                               update.observations, contradicting_);
   if (const auto turn = turns_.Before(keyframe.id)) map_.Turn(*turn);
   covariance_.AddKeyframe(keyframe.id, map_.keyframes().front().id, update.doubt);
+  const size_t num_moving = options_.bundle.enabled ? options_.bundle.num_keyframes : 0;
+  const size_t num_settled = map_.keyframes().size() - 1;
+  covariance_.Settle(map_.keyframes()[num_settled - std::min(num_settled, num_moving)]);
   if (!options_.bundle.enabled || map_.keyframes().size() < 2) return;
   adjustment_.Start(camera_, correction_.mean, map_, options_.bundle);
 }

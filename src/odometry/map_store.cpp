@@ -4,23 +4,17 @@
 
 namespace arfm_vo {
 
-std::map<LandmarkId, MapStore::Point>::iterator MapStore::Find(LandmarkId id) {
-  auto found = landmarks.find(id);
-  while (found != landmarks.end() && found->second.same_as >= 0) {
-    found = landmarks.find(found->second.same_as);
-  }
-  return found;
-}
-
-std::map<LandmarkId, MapStore::Point>::const_iterator MapStore::Find(LandmarkId id) const {
-  return const_cast<MapStore*>(this)->Find(id);
+std::vector<Rigid3> MapStore::Poses() const {
+  std::vector<Rigid3> poses;
+  for (const Keyframe& keyframe : keyframes) poses.push_back(keyframe.camera_from_world);
+  return poses;
 }
 
 std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
                                             const StereoCorrection& correction) const {
   std::vector<SeenPoint> view;
   for (const LandmarkObservation& seen : keyframes.back().observations) {
-    const auto landmark = Find(seen.landmark);
+    const auto landmark = landmarks.find(seen.landmark);
     if (landmark == landmarks.end()) continue;
     auto& [id, appearance, observation] = view.emplace_back();
     id = landmark->first;
@@ -33,10 +27,18 @@ std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
 }
 
 Place MapStore::PlaceOf(int k) const {
-  if (k < static_cast<int>(settled.size())) return settled[k].points;
   Place place, seen_once;
+  if (k < static_cast<int>(settled.size())) {
+    place = settled[k].points;
+    for (PlacePoint& point : place) {
+      const auto landmark = landmarks.find(point.id);
+      if (landmark == landmarks.end()) continue;
+      point.x_in_place = keyframes[k].camera_from_world * landmark->second.x_in_world;
+    }
+    return place;
+  }
   for (const LandmarkObservation& seen : keyframes[k].observations) {
-    const auto landmark = Find(seen.landmark);
+    const auto landmark = landmarks.find(seen.landmark);
     if (landmark == landmarks.end()) continue;
     (landmark->second.num_observations < 2 ? seen_once : place)
         .push_back({landmark->first, keyframes[k].camera_from_world * landmark->second.x_in_world,
@@ -47,21 +49,24 @@ Place MapStore::PlaceOf(int k) const {
   return place;
 }
 
-void MapStore::Forget(int first_moving, int oldest, bool keep_landmarks,
-                      size_t max_settled_points) {
-  while (max_settled_points > 0 && static_cast<int>(settled.size()) < first_moving) {
+void MapStore::Settle(int first_unsettled, size_t max_points) {
+  while (static_cast<int>(settled.size()) < first_unsettled) {
+    const int k = static_cast<int>(settled.size());
     KnownKeyframe keyframe;
-    keyframe.map_from_camera = keyframes[settled.size()].camera_from_world.Inverse();
-    keyframe.SetPoints(PlaceOf(static_cast<int>(settled.size())));
+    keyframe.map_from_camera = keyframes[k].camera_from_world.Inverse();
+    keyframe.SetPoints(PlaceOf(k));
     settled.push_back(std::move(keyframe));
     KeepDistinct(settled, settled.size() - 1);
-    KeepAtMost(max_settled_points, settled);
+    KeepAtMost(max_points, settled);
   }
+}
+
+void MapStore::Forget(int first_moving, int oldest) {
   const auto is_over = [&](const LandmarkObservation& observation) {
-    const auto landmark = Find(observation.landmark);
+    const auto landmark = landmarks.find(observation.landmark);
     if (landmark == landmarks.end()) return true;
     if (landmark->second.last_keyframe >= first_moving) return false;
-    if (!keep_landmarks) landmarks.erase(landmark);
+    landmarks.erase(landmark);
     return true;
   };
   bool sees_any = false;

@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/path_covariance.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 
@@ -64,6 +65,7 @@ void PathCovariance::Begin(const Rigid3& camera_from_world, const Matrix6& covar
   newest_rotation_ = camera_from_world.RotationMatrix();
   way_ = {};
   FollowWay(camera_from_world, true);
+  settled_covariance_.setZero();
 }
 
 void PathCovariance::AddPose(const Keyframe& newest, const Rigid3& camera_from_world,
@@ -76,6 +78,18 @@ void PathCovariance::AddKeyframe(KeyframeId keyframe, KeyframeId oldest, const M
   way_.AddDoubt(newest_rotation_.transpose() * doubt.bottomRightCorner<3, 3>() * newest_rotation_);
   drift_.Add(keyframe, newest_);
   drift_.Forget(oldest);
+}
+
+void PathCovariance::Settle(const Keyframe& keyframe) {
+  const Rigid3 step = keyframe.camera_from_world * settled_from_world_.Inverse();
+  const Matrix6 covariance = OfKeyframe(keyframe);
+  // What is negative in it is an adjustment that knew more than the one before.
+  const Eigen::SelfAdjointEigenSolver<Matrix6> added(covariance -
+                                                     CarryCovariance(step, settled_covariance_));
+  step_covariance_ = added.eigenvectors() * added.eigenvalues().cwiseMax(0).asDiagonal() *
+                     added.eigenvectors().transpose();
+  settled_from_world_ = keyframe.camera_from_world;
+  settled_covariance_ = covariance;
 }
 
 void PathCovariance::Clear() {

@@ -1,8 +1,10 @@
 #include "arfm_vo/odometry/placed_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "arfm_vo/base/number_rows.h"
 #include "corrected_frame.h"
 
 namespace arfm_vo {
@@ -31,7 +33,10 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
   const Keyframe& seen = keyframe.keyframe;
   global_->Add(seen, keyframe.landmarks);
-  places_[seen.id] = {seen.stamp_s, seen.camera_from_world, keyframe.base_from_camera};
+  LandmarkId first_landmark = places_.empty() ? 0 : places_.rbegin()->second.first_landmark;
+  if (!keyframe.landmarks.empty()) first_landmark = keyframe.landmarks.front().id;
+  places_[seen.id] = {seen.stamp_s, seen.camera_from_world, keyframe.base_from_camera,
+                      first_landmark};
   for (const Landmark& landmark : keyframe.landmarks)
     first_depths_m_[landmark.id] =
         static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
@@ -84,6 +89,7 @@ void PlacedMap::Localise(const StereoFrame& frame, const Rigid3& odom_from_camer
 void PlacedMap::Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera) {
   if (!localiser_.MayLocalise(camera_)) return;
   const auto new_from_old = localiser_.Localise(view, odom_from_camera, map_from_odom());
+  if (!localiser_.found().empty()) news_ = localiser_.found();
   if (new_from_old) frame_.Move(*new_from_old);
 }
 
@@ -95,17 +101,43 @@ void PlacedMap::Move(const Rigid3& new_from_old, const StatedPose& stated) {
 
 std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
   if (!global_) return std::nullopt;
+  const bool is_bent = global_->IsToBeBent();
   std::optional<MapUpdate> update = global_->Adjust(progress);
   if (!update) return std::nullopt;
   correction_ = update->correction;
+  const std::vector<MapPose> before = BasePoses();
   frame_.Adjust(global_->MapFromOdom());
+  if (is_bent) MoveSettled(*update);
   for (const MapUpdate::KeyframePose& keyframe : update->keyframes) {
     Place& place = places_.at(keyframe.id);
     place.camera_from_world = keyframe.camera_from_world;
     place.is_adjusted = true;
   }
   TakeLandmarks(*update);
+  if (is_bent) {
+    const Eigen::Vector3d moved =
+        BasePoses().back().map_from_base.translation - before.back().map_from_base.translation;
+    news_ = "a loop is closed, and the rover's place in the map moved by " +
+            FormatNumber(std::round(100 * moved.norm()) / 100) + " m";
+  }
   return update;
+}
+
+/// Landmarks that the global map has forgotten stay where the keyframe sees them that saw them
+/// first.
+void PlacedMap::MoveSettled(const MapUpdate& update) {
+  auto moved = update.keyframes.begin();
+  for (auto place = places_.begin(); place != places_.end(); ++place) {
+    while (moved != update.keyframes.end() && moved->id < place->first) ++moved;
+    if (moved == update.keyframes.end() || moved->id != place->first) continue;
+    if (!place->second.is_adjusted) continue;
+    const auto next = std::next(place);
+    const Rigid3 shift = moved->camera_from_world.Inverse() * place->second.camera_from_world;
+    const auto end = next == places_.end() ? adjusted_.end()
+                                           : adjusted_.lower_bound(next->second.first_landmark);
+    for (auto seen = adjusted_.lower_bound(place->second.first_landmark); seen != end; ++seen)
+      seen->second = shift * seen->second;
+  }
 }
 
 /// Landmarks that the global map has forgotten stay where it left them; too many, and every second

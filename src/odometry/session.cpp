@@ -172,6 +172,7 @@ PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
   const LocalMap& map = odometry_->map();
   PlacedKeyframe newest{map.keyframes().back(),  map.NewestLandmarks(), epoch_, camera_,
                         base_.odom_from_world(), base_from_camera};
+  newest.keyframe.step_covariance = odometry_->step_covariance();
   newest.keyframe.left = cv::Mat();
   newest.keyframe.left_halved.clear();
   return newest;

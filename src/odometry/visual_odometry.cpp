@@ -44,30 +44,34 @@ SessionUpdate VisualOdometry::Process(const StereoImages& images) {
 }
 
 SessionUpdate VisualOdometry::Process(const FrameOnRequest& frame, const StereoImages& images) {
-  if (added_.valid()) TakeAdded();
+  while (added_.valid()) TakeAdded();
   if (adjustment_.valid() && session_.num_frames() >= adjusted_at_) TakeAdjustment();
   SessionUpdate pose = session_.Process(frame, camera_, images, Rigid3());
-  if (pose.keyframe && options_.adjust_globally) Add(*pose.keyframe);
+  if (pose.keyframe && options_.adjust_globally) waiting_.push_back(*pose.keyframe);
+  AddWaiting();
   return pose;
 }
 
-void VisualOdometry::Add(const PlacedKeyframe& keyframe) {
-  if (adjustment_.valid()) {
-    waiting_.push_back(keyframe);
-    return;
-  }
-  added_ = std::async(std::launch::async, [this, keyframe] {
-    map_.Add(keyframe);
-    return keyframe.keyframe.id;
+void VisualOdometry::AddWaiting() {
+  if (waiting_.empty() || added_.valid() || adjustment_.valid()) return;
+  added_ = std::async(std::launch::async, [this, batch = std::exchange(waiting_, {})]() mutable {
+    size_t num_added = 0;
+    do {
+      map_.Add(batch[num_added++]);
+    } while (num_added < batch.size() && !map_.IsAdjustmentDue());
+    const KeyframeId newest = batch[num_added - 1].keyframe.id;
+    batch.erase(batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(num_added));
+    return Added{newest, std::move(batch)};
   });
 }
 
 void VisualOdometry::TakeAdded() {
-  const KeyframeId id = added_.get();
-  if (!map_.IsAdjustmentDue()) return;
+  Added added = added_.get();
+  waiting_.insert(waiting_.begin(), added.others.begin(), added.others.end());
+  if (!map_.IsAdjustmentDue()) return AddWaiting();
   MapUpdate newest;
   newest.num_keyframes = map_.num_adjusted();
-  newest.keyframes.push_back({id, {}});
+  newest.keyframes.push_back({added.newest, {}});
   adjusted_at_ = session_.TakeoverFrame(newest);
   adjustment_ = std::async(std::launch::async, [this] { return map_.Adjust(); });
 }
@@ -75,15 +79,11 @@ void VisualOdometry::TakeAdded() {
 void VisualOdometry::TakeAdjustment() {
   if (auto update = adjustment_.get()) session_.Offer(std::move(*update), map_.epoch());
   ReturnFreeMemory();
-  for (const PlacedKeyframe& keyframe : std::exchange(waiting_, {})) {
-    Add(keyframe);
-    if (added_.valid()) TakeAdded();
-  }
+  AddWaiting();
 }
 
 Trajectory VisualOdometry::Finish() {
-  if (added_.valid()) TakeAdded();
-  while (adjustment_.valid()) TakeAdjustment();
+  while (added_.valid() || adjustment_.valid()) added_.valid() ? TakeAdded() : TakeAdjustment();
   if (options_.adjust_globally) {
     if (auto update = map_.Adjust()) session_.Offer(std::move(*update), map_.epoch());
   }

@@ -38,7 +38,7 @@ class LivePoses : public testing::Test {
     num_keyframes_ += status_.last().is_keyframe;
     num_without_features_ += !status_.last().has_features;
     if (!status_.last().is_keyframe || num_keyframes_ < next_adjustment_) return;
-    next_adjustment_ = NextAdjustment(num_keyframes_, GlobalMapOptions().NumMoving());
+    next_adjustment_ = NextAdjustment(num_keyframes_, GlobalMapOptions().max_keyframes);
     ++num_updates_;
     WaitUntil([&] { return updates_.size() >= num_updates_; }, "a map update");
   }

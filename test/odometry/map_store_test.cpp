@@ -31,19 +31,9 @@ std::vector<LandmarkId> Seen(const MapStore& store, int keyframe) {
   return seen;
 }
 
-TEST(MapStore, FindsWhatALandmarkTurnedOutToBe) {
-  MapStore store = MakeStore({0, 10, 20});
-  store.landmarks[20].same_as = 11;
-  store.landmarks[11].same_as = 2;
-  ASSERT_NE(store.Find(20), store.landmarks.end());
-  EXPECT_EQ(store.Find(20)->first, 2);
-  EXPECT_EQ(store.Find(10)->first, 10);
-  EXPECT_EQ(store.Find(13), store.landmarks.end());
-}
-
 TEST(MapStore, KeepsOfOlderKeyframesWhatTheMovingOnesSee) {
   MapStore store = MakeStore({0, 1, 2, 3});
-  store.Forget(2, 0, false);  // 2 and 3 move, and see 2 to 5
+  store.Forget(2, 0);  // 2 and 3 move, and see 2 to 5
   EXPECT_EQ(Seen(store, 0), std::vector<LandmarkId>{2});
   EXPECT_EQ(Seen(store, 1), (std::vector<LandmarkId>{2, 3}));
   EXPECT_EQ(Seen(store, 2), (std::vector<LandmarkId>{2, 3, 4}));
@@ -53,18 +43,45 @@ TEST(MapStore, KeepsOfOlderKeyframesWhatTheMovingOnesSee) {
 
 TEST(MapStore, KeyframesThatSeeNothingAnyMoreArePosesAlone) {
   MapStore store = MakeStore({0, 1, 20, 21});
-  store.Forget(2, 0, true);
+  store.Forget(2, 0);
   EXPECT_TRUE(Seen(store, 0).empty());
   EXPECT_EQ(store.first_seeing, 2);
-  EXPECT_EQ(store.landmarks.size(), 8u) << "landmarks are kept";
+  EXPECT_EQ(store.landmarks.size(), 4u) << "those that nothing sees are forgotten";
 }
 
 TEST(MapStore, ForgetsWhatKeyframesBeforeTheOldestSaw) {
   MapStore store = MakeStore({0, 1, 2, 3});
-  store.Forget(2, 1, true);
+  store.Forget(2, 1);
   EXPECT_TRUE(Seen(store, 0).empty());
   EXPECT_EQ(store.first_seeing, 1);
   EXPECT_EQ(Seen(store, 1), (std::vector<LandmarkId>{2, 3}));
+}
+
+TEST(MapStore, WhatIsSettledOutlivesTheLandmarksAndFollowsThemUntilThen) {
+  std::vector<LandmarkId> first(6, 0);
+  for (int k = 3; k < 6; ++k) first[k] = 100;
+  MapStore store;
+  for (int k = 0; k < 6; ++k) {
+    store.keyframes.push_back({k, 0, Rigid3(), {}, 0, {}});
+    for (LandmarkId id = first[k]; id < first[k] + 40; ++id) {
+      LandmarkObservation observation{};
+      observation.landmark = id;
+      store.keyframes[k].observations.push_back(observation);
+      MapStore::Point& point = store.landmarks[id];
+      point.x_in_world = Eigen::Vector3d(0, 0, 5);
+      ++point.num_observations;
+      point.last_keyframe = k;
+    }
+  }
+  store.Settle(2, 1000);
+  ASSERT_EQ(store.settled.size(), 2u);
+  EXPECT_EQ(store.settled[0].points.size(), 40u);
+  EXPECT_TRUE(store.settled[1].points.empty()) << "it sees the same from the same place";
+  store.landmarks.at(0).x_in_world.z() = 6;
+  EXPECT_EQ(store.PlaceOf(0)[0].x_in_place.z(), 6);
+  store.Forget(3, 3);
+  EXPECT_EQ(store.landmarks.count(0), 0u);
+  EXPECT_EQ(store.PlaceOf(0)[0].x_in_place.z(), 5);
 }
 
 }  // namespace

@@ -18,19 +18,18 @@ const StereoCamera kKittiCamera{718.856, 718.856, 607.1928, 185.2157, 0.5371657,
 struct Arguments {
   std::string folder, sequences = "00,01,02,03,04,05,06,07,08,09,10", config;
   int max_frames = 1 << 30, num_runs = 1;
-  bool close_loops = false;
   SimulatedRunOptions run;
 };
 
-OdometryOptions ReadOptions(const Arguments& arguments) {
-  OdometryOptions options = ReadYamlFileOrDefaults<OdometryOptions>(arguments.config);
-  if (arguments.close_loops) options.global.loops.enabled = true;
-  return options;
+double Quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 /// Means over the runs of one sequence, as they are printed.
 struct Row {
-  double lost = 0, keyframes = 0, loops = 0, odometry_s = 0, finish_s = 0;
+  double lost = 0, keyframes = 0, loops = 0, odometry_s = 0, finish_s = 0, p99_ms = 0;
   double online[3] = {}, final[3] = {};  ///< t_rel %, r_rel deg / 100 m, ATE m
   std::vector<double> nees;              ///< [frames]
 
@@ -40,6 +39,7 @@ struct Row {
     loops += share * run.num_loops;
     odometry_s += share * run.odometry_s;
     finish_s += share * run.finish_s;
+    p99_ms += share * Quantile(run.frame_ms, 0.99);
     AddErrors(run.OnlineError(), share, online);
     AddErrors(run.FinalError(), share, final);
     nees.resize(run.truth.size());
@@ -70,14 +70,15 @@ void SimulateSequence(const Arguments& arguments, const std::string& name) {
   for (int i = 0; i < arguments.num_runs; ++i) {
     SimulatedRunOptions options = arguments.run;
     options.simulator.seed += i;
-    row.Add(RunSimulated(kKittiCamera, path, options, ReadOptions(arguments)),
+    row.Add(RunSimulated(kKittiCamera, path, options,
+                         ReadYamlFileOrDefaults<OdometryOptions>(arguments.config)),
             1.0 / arguments.num_runs);
   }
-  std::printf("%s,%zu,%.1f,%.1f,%.1f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%.3f,%.1f,%.1f,%.1f,%.1f\n",
+  std::printf("%s,%zu,%.1f,%.1f,%.1f,%.4f,%.4f,%.3f,%.4f,%.4f,%.3f,%.3f,%.1f,%.1f,%.1f,%.1f,%.1f\n",
               name.c_str(), path.size(), ComputeDistances(path).back(), row.lost, row.keyframes,
               row.online[0], row.online[1], row.online[2], row.final[0], row.final[1], row.final[2],
               row.MeanNees(), row.PercentWithinBounds(arguments.num_runs), row.loops,
-              row.odometry_s, row.finish_s);
+              row.odometry_s, row.finish_s, row.p99_ms);
   std::fflush(stdout);
 }
 
@@ -87,7 +88,7 @@ void Simulate(const Arguments& arguments) {
   std::printf(
       "sequence,frames,length_m,lost,keyframes,t_rel_percent,r_rel_deg_per_100m,ate_m,"
       "final_t_rel_percent,final_r_rel_deg_per_100m,final_ate_m,nees,nees_within_percent,"
-      "loops,odometry_s,finish_s\n");
+      "loops,odometry_s,finish_s,p99_ms\n");
   std::istringstream names(arguments.sequences);
   for (std::string name; std::getline(names, name, ',');) SimulateSequence(arguments, name);
 }
@@ -106,10 +107,12 @@ int main(int argc, char** argv) {
   program.Add("sequences", arguments.sequences, "00,01", "which");
   program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
   program.Add("frames", arguments.max_frames, "N", "of each sequence, at most");
-  program.Add("loop-closing", arguments.close_loops, "switch it on");
+  program.Add("false-loops", arguments.run.num_false_loops, "N",
+              "places that look like one seen before");
   program.Add("runs", arguments.num_runs, "N",
               "of each sequence, each with another seed; means are printed");
   program.Add("noise", simulator.noise_px, "PX", "of each coordinate");
+  program.Add("paced", arguments.run.is_paced, "ten frames a second, for the time that each takes");
   program.Add("outliers", simulator.outlier_fraction, "SHARE", "of observations");
   program.Add("landmarks", simulator.landmarks_in_view, "N", "in each frame");
   program.Add("seed", simulator.seed, "S", "of landmarks and noise");

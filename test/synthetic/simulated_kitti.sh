@@ -12,7 +12,8 @@ work=${WORK:-$(mktemp -d)}
 mkdir -p "$work"
 if [ -z "${WORK:-}" ]; then trap 'rm -rf "$work"' EXIT; fi
 # The simulated right image is displaced by nothing. No limit of time, so that a busy machine finds the same.
-echo 'global: {learn_correction: false, solver: {max_time_s: 3600}}' > "$work/global.yaml"
+echo 'global: {learn_correction: false, solver: {max_time_s: 3600}}' > "$work/loops.yaml"
+sed 's/solver/loops: {enabled: false}, solver/' "$work/loops.yaml" > "$work/global.yaml"
 echo 'adjust_globally: false' > "$work/online.yaml"
 
 run() {  # NAME COMMAND...
@@ -22,7 +23,10 @@ run() {  # NAME COMMAND...
 simulate=("$programs/simulate_kitti" "$poses")
 run all "${simulate[@]}" --config "$work/global.yaml" &
 all=$!
-run loops "${simulate[@]}" --config "$work/global.yaml" --sequences 00,06 --loop-closing
+run loops "${simulate[@]}" --config "$work/loops.yaml" --sequences 00,02,05,06,07,09
+for with in global loops; do
+  run "false_$with" "${simulate[@]}" --config "$work/$with.yaml" --sequences 10 --false-loops 20
+  run "paced_$with" "${simulate[@]}" --config "$work/$with.yaml" --sequences 07 --paced; done
 run nees "${simulate[@]}" --config "$work/online.yaml" --runs 20 --frames 200
 run rest "$programs/simulate_rest"
 wait "$all"
@@ -43,6 +47,10 @@ section() { test/readme_section.py docs/simulated.md "$1"; }
            NR == FNR {online[$1] = $8; adjusted[$1] = $11; ms[$1] = 1000 * $15 / $2; next}
            {printf "| %s | %d | %d | %s | %.1f x | %.1f x | %.1f | %.1f | %s |\n", $1, $5, $14, $11,
             online[$1] / $11, adjusted[$1] / $11, 1000 * $15 / $2, ms[$1], $16}' "$work/all.csv" "$work/loops.csv"
+  awk -F, 'FNR == 2 {ate[++n] = $11; ms[n] = $17}
+           END {printf "\n20 places of sequence 10 that look like others, 20 m and more away: ATE %s m, without loops %s m. Of 07 at ten\n" \
+                       "frames a second 99 of 100 frames took no more than %s ms, without loops %s ms.\n", ate[2], ate[1], ms[4], ms[3]}' \
+    "$work"/false_{global,loops}.csv "$work"/paced_{global,loops}.csv
 } | section loops
 {
   echo "| sequence | NEES | frames within % |"

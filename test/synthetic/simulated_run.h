@@ -14,7 +14,10 @@ struct SimulatedRunOptions {
   ObservationSimulatorOptions simulator;
   double descriptor_noise = 0.3;  ///< ObservationSimulator::Describe
   double rate_hz = 10;
+  bool is_paced = false;      ///< frames come at the rate, else as soon as one is done
   bool is_calibrated = true;  ///< the odometry knows the right image's displacement
+  /// Places along the path that look like one seen before, which lies at least 20 m off.
+  int num_false_loops = 0;
   std::function<void(const PlacedKeyframe&)> on_keyframe = [](const PlacedKeyframe&) {};
 };
 
@@ -27,6 +30,7 @@ struct SimulatedRun {
   std::optional<EyeSkew> skew;          ///< as the last frame had it
   CorrectionBelief learnt;              ///< at the end
   uint32_t epoch = 0;                   ///< of the last frame; the first is 1
+  std::vector<double> frame_ms;         ///< of each
   double odometry_s = 0, finish_s = 0;  ///< wall time; without the simulation
 
   TrajectoryError OnlineError() const { return ComputeTrajectoryError(truth, online); }

@@ -20,6 +20,9 @@ struct Keyframe {
   /// The right camera has turned since the keyframe before, and older ones tell nothing of its
   /// calibration.
   std::optional<RightTurn> right_turn;
+  /// How much the path drifts from the keyframe before to this one, in the steps of
+  /// BoxPlus(camera_from_world, .), (rad, m): as the last step did that is adjusted no more.
+  Eigen::Matrix<double, 6, 6> step_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   cv::Mat left;  ///< grey, for templates of patches; the local map's alone have it
   HalvedImages left_halved;
 };

@@ -13,21 +13,28 @@ namespace arfm_vo {
 struct FoundPlace {
   size_t keyframe = 0;     ///< of the map, that showed the view
   Rigid3 map_from_camera;  ///< in that keyframe's map frame
+  Rigid3 camera_from_keyframe;
+  Eigen::Matrix<double, 6, 6> covariance;  ///< of the steps of BoxPlus(camera_from_keyframe, .)
 };
 
 /// Finds where a drive stands in a known map by what it sees alone. A place is found where a view
-/// shows it as chance never makes one look like it, and one of the views before it did so too, as
+/// shows it as chance never makes one look like it, and some of the views before it did so too, as
 /// the motion between them has it.
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const StereoCamera& camera) : recogniser_(camera) {}
+  /// So many views before one must agree with it, each verified by `pose`.
+  explicit PlaceFinder(const StereoCamera& camera, int num_agreeing = 1,
+                       const PoseEstimatorOptions& pose = RecognitionPose())
+      : recogniser_(camera, pose), num_agreeing_(num_agreeing) {}
   /// Knows those from `first` on that have points, too.
   void Add(const std::vector<KnownKeyframe>& known, size_t first);
 
-  /// Looks for a drive's next view among places of other frames than `own_frame`; `known` is what
-  /// was added, where it lies by now.
+  /// Looks for a drive's next view among places of other frames than `own_frame` (-1: of all);
+  /// `known` is what was added, where it lies by now.
   std::optional<FoundPlace> Find(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera,
-                                 const std::vector<KnownKeyframe>& known, int own_frame);
+                                 const std::vector<KnownKeyframe>& known, int own_frame = -1);
+  /// Whether the last view was recognised, confirmed or not.
+  bool has_recognised() const { return has_recognised_; }
   /// What was recognised before is of another drive, or of other frames.
   void ForgetSightings() { sightings_.clear(); }
 
@@ -42,6 +49,8 @@ class PlaceFinder {
   static bool Agree(const Sighting& earlier, const Sighting& newest);
 
   PlaceRecogniser recogniser_;
+  int num_agreeing_;
+  bool has_recognised_ = false;
   std::vector<size_t> places_;      ///< [places of recogniser_] their keyframes
   std::deque<Sighting> sightings_;  ///< the newest ones
 };

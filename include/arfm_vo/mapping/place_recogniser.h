@@ -55,7 +55,12 @@ class PlaceRecogniser {
   /// Brings a point of a place up to date; false: it is not to be looked for.
   using Revise = std::function<bool(int place, PlacePoint& point)>;
 
-  explicit PlaceRecogniser(const StereoCamera& camera) : camera_(camera) { camera.Check(); }
+  /// `pose`: how a place is verified.
+  explicit PlaceRecogniser(const StereoCamera& camera,
+                           const PoseEstimatorOptions& pose = RecognitionPose())
+      : camera_(camera), pose_(pose) {
+    camera.Check();
+  }
 
   /// The next place, which is known by its number from 0 on. Some must have 25 points.
   void Add(Place place);
@@ -70,6 +75,7 @@ class PlaceRecogniser {
                                         const Revise& revise) const;
 
   StereoCamera camera_;
+  PoseEstimatorOptions pose_;
   std::vector<Place> places_;
   std::optional<DescriptorIndex> index_;      ///< made for the first place that has enough points
   std::vector<std::pair<int, int>> indexed_;  ///< [index_] (place, point)

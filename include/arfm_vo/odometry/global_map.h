@@ -8,7 +8,7 @@
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/mapping/map_update.h"
 #include "arfm_vo/odometry/calibration_state.h"
-#include "arfm_vo/odometry/loop_detector.h"
+#include "arfm_vo/odometry/loop_closer.h"
 #include "arfm_vo/odometry/map_store.h"
 
 namespace arfm_vo {
@@ -23,8 +23,8 @@ struct GlobalMapOptions {
   /// learnt in an earlier drive, as it is.
   bool learn_correction = true;
 
-  LoopOptions loops;              ///< places known again; off unless enabled
-  size_t max_settled_points = 0;  ///< of keyframes that move no more, kept for KnownMap; 0: none
+  LoopOptions loops;
+  size_t max_settled_points = 0;  ///< of older keyframes, kept for KnownMap; 0: for loops alone
 
   static BundleOptions DefaultSolver() {
     BundleOptions options;
@@ -32,8 +32,6 @@ struct GlobalMapOptions {
     options.function_tolerance = 1e-4;
     return options;
   }
-  /// Keyframes that move in an adjustment.
-  int NumMoving() const { return loops.enabled ? loops.max_keyframes : max_keyframes; }
   void Check() const;
   ARFM_FIELDS(solver, min_observations, max_keyframes, learn_correction, loops)
 };
@@ -51,16 +49,17 @@ class GlobalMap {
             const CorrectionBelief& correction);
 
   /// Takes the next keyframe, which must be newer than all before, with the landmarks that none of
-  /// those saw, sorted by id, and looks whether it closes a loop.
+  /// those saw, sorted by id, and looks whether it closes a loop (LoopCloser).
   void Add(const Keyframe& keyframe, const std::vector<Landmark>& landmarks);
 
   /// Whether the newest keyframe calls for an adjustment: the more rarely the more there are, and
   /// where a loop contradicts the path.
   bool IsAdjustmentDue() const;
 
-  /// Adjusts everything; where a loop closed since the last time contradicts the path, it is bent
-  /// onto the loops first (pose graph). Nothing where there are fewer than two keyframes or no
-  /// solution, or where `progress`, which is called after each iteration, returns false.
+  /// Adjusts the keyframes that move; where a loop was closed since the last time, the whole path
+  /// is bent onto the loops first (pose graph). Nothing, and nothing moves, where there are
+  /// fewer than two keyframes or no solution, or where `progress`, which is called after each
+  /// iteration, returns false.
   std::optional<MapUpdate> Adjust(const BundleCallback& progress = {});
 
   /// Takes the newest keyframe's pose in odom to that in the map.
@@ -70,7 +69,10 @@ class GlobalMap {
   /// Of the correction that holds now: those before stay where they are.
   int num_adjusted() const { return num_keyframes() - calibration_.first_telling(); }
   int num_landmarks() const { return static_cast<int>(store_.landmarks.size()); }
-  int num_loops() const { return static_cast<int>(loops_.size()); }
+  int num_loops() const { return static_cast<int>(closer_.loops().size()); }
+  int num_refused_loops() const { return closer_.num_refused(); }
+  /// Whether the next adjustment bends the path onto a loop.
+  bool IsToBeBent() const { return closer_.has_news(); }
   const StereoCamera& camera() const { return camera_; }
   const MapStore& store() const { return store_; }
   const CorrectionBelief& correction() const { return calibration_.correction(); }
@@ -78,25 +80,22 @@ class GlobalMap {
   bool Knows(LandmarkId landmark) const { return store_.landmarks.count(landmark) > 0; }
 
  private:
-  LandmarkId FirstLandmark(const std::vector<Landmark>& landmarks) const;
   int FirstMoving() const;
   int FirstSeeing() const;
-  void Close(const Loop& loop);
-  void BendOntoLoops();
+  void Settle();
+  void MoveTo(const std::vector<Rigid3>& camera_from_world);
   BundleProblem MakeProblem(int first_seeing, int first_moving);
   BundleProblem MakeProblem();
   void FollowCalibration();
+  std::optional<BundleResult> Solve(const BundleCallback& progress);
   MapUpdate TakeResult(const BundleResult& result, bool is_bent);
 
   StereoCamera camera_;
   GlobalMapOptions options_;
   MapStore store_;
   Rigid3 map_from_odom_;
-  LoopDetector detector_;
-  std::vector<PoseConstraint> loops_;
-  size_t num_adjusted_loops_ = 0;  ///< the first ones, that an adjustment has taken in
-  bool is_contradicted_ = false;   ///< by a loop closed since the last adjustment
-  int next_adjustment_ = 2;        ///< at this number of keyframes
+  LoopCloser closer_;
+  int next_adjustment_ = 2;  ///< at this number of keyframes
   CalibrationState calibration_;
 };
 

@@ -60,6 +60,8 @@ class LocalOdometry {
   void Reset();
 
   const LocalMap& map() const;
+  /// Keyframe::step_covariance of the newest.
+  const Eigen::Matrix<double, 6, 6>& step_covariance() const;
 
  private:
   class Implementation;

@@ -64,6 +64,10 @@ class PathCovariance {
   /// The newest pose has become a keyframe; it, and all that follows, may stand where a step of
   /// this covariance leads. Keyframes older than `oldest` have left the map.
   void AddKeyframe(KeyframeId keyframe, KeyframeId oldest, const Matrix6& doubt = Matrix6::Zero());
+  /// A keyframe that is adjusted no more, the one after the last such one, or the same.
+  void Settle(const Keyframe& keyframe);
+  /// By how much less sure it is than the one before, carried to it: what a step of the drive adds.
+  const Matrix6& step_covariance() const { return step_covariance_; }
   /// The newest keyframes were adjusted.
   void Update(const LocalBundle& window, const PoseInformation& information) {
     drift_.Update(window.keyframes, window.problem.pose_is_fixed, information);
@@ -82,6 +86,8 @@ class PathCovariance {
   PoseDrift newest_;
   Eigen::Matrix3d newest_rotation_ = Eigen::Matrix3d::Identity();  ///< camera_from_world
   UnknownWay way_;
+  Rigid3 settled_from_world_;
+  Matrix6 settled_covariance_ = Matrix6::Zero(), step_covariance_ = Matrix6::Zero();
 };
 
 }  // namespace arfm_vo

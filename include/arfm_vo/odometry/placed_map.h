@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "arfm_vo/mapping/localiser.h"
@@ -35,6 +36,8 @@ class PlacedMap {
   /// All that is known by now: what was given to Keep, and this drive.
   KnownMap MakeKnownMap() const;
   const Localiser& localiser() const { return localiser_; }
+  /// What has moved the map last, in words: a place that was found, or a loop.
+  const std::string& news() const { return news_; }
 
   /// Takes the next keyframe. One of a new epoch ends the adjustment of the one before. Returns
   /// false where the keyframe is of a restarted odometry (its epoch or stamp is before what came):
@@ -66,6 +69,7 @@ class PlacedMap {
   int num_adjusted() const { return global_ ? global_->num_adjusted() : 0; }
   int num_landmarks() const { return global_ ? global_->num_landmarks() : 0; }  ///< of this epoch
   int num_loops() const { return global_ ? global_->num_loops() : 0; }          ///< of this epoch
+  int num_refused_loops() const { return global_ ? global_->num_refused_loops() : 0; }
 
   /// All keyframes' bases, of all epochs.
   std::vector<MapPose> BasePoses() const;
@@ -79,10 +83,12 @@ class PlacedMap {
     double stamp_s;
     Rigid3 camera_from_world;  ///< the odometry's until adjusted, then the map's
     Rigid3 base_from_camera;
+    LandmarkId first_landmark;  ///< those that it saw first have this id and those that follow
     bool is_adjusted = false;
   };
   bool IsRestarted(const PlacedKeyframe& keyframe) const;
   void StartEpoch(const PlacedKeyframe& keyframe);
+  void MoveSettled(const MapUpdate& update);
   void TakeLandmarks(const MapUpdate& update);
   std::vector<KnownKeyframe> NewestPlaces(bool with_points) const;
   void CloseEpoch();
@@ -99,6 +105,7 @@ class PlacedMap {
   std::map<LandmarkId, float> first_depths_m_;
   std::map<LandmarkId, Eigen::Vector3d> adjusted_;  // in this epoch
   Localiser localiser_;
+  std::string news_;
   std::vector<LandmarkPoint> closed_landmarks_;  ///< where what they show is not kept
 };
 

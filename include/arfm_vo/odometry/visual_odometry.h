@@ -47,8 +47,12 @@ class VisualOdometry {
   const std::optional<CorrectionBelief>& correction() const { return map_.correction(); }
 
  private:
-  void Add(const PlacedKeyframe& keyframe);
-  /// Begins an adjustment where the keyframe that was added calls for one.
+  struct Added {
+    KeyframeId newest;
+    std::vector<PlacedKeyframe> others;  ///< that came after it, and wait for its adjustment
+  };
+  void AddWaiting();
+  /// Begins an adjustment where the newest keyframe that was added calls for one.
   void TakeAdded();
   void TakeAdjustment();
 
@@ -57,9 +61,9 @@ class VisualOdometry {
   StereoFrontend frontend_;
   Session session_;
   PlacedMap map_;
-  std::vector<PlacedKeyframe> waiting_;  ///< for the end of the adjustment, to join the map
+  std::vector<PlacedKeyframe> waiting_;  ///< to join the map, in their order
   /// On a thread of their own, each of map_; what else uses it must wait.
-  std::future<KeyframeId> added_;  ///< the next pair's images are looked at meanwhile
+  std::future<Added> added_;  ///< the next pair's images are looked at meanwhile
   std::future<std::optional<MapUpdate>> adjustment_;
   size_t adjusted_at_ = 0;  ///< the frame before which the adjustment is taken over
 };

@@ -28,6 +28,15 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   return observations;
 }
 
+Eigen::Matrix<double, 6, 6> ImportCovariance(const KeyframeStamped& message) {
+  RequireFinite(message.step_covariance, "step_covariance");
+  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  const Eigen::Matrix<double, 6, 6> covariance =
+      Eigen::Map<const RowMajor>(message.step_covariance.data());
+  Require(covariance.diagonal().minCoeff() >= 0, "step_covariance has a negative variance");
+  return (covariance + covariance.transpose()) / 2;
+}
+
 std::optional<RightTurn> ImportTurn(const KeyframeStamped& message) {
   const size_t size = message.right_turn.empty() ? 0 : 3;
   RequireNumbers(message.right_turn, size, "right_turn");
@@ -82,6 +91,7 @@ KeyframeStamped ToMessage(const PlacedKeyframe& keyframe) {
   message.base_from_camera = ToTransformMessage(keyframe.base_from_camera);
   message.id = seen.id;
   message.camera_from_world = ToTransformMessage(seen.camera_from_world);
+  message.step_covariance = ToCovarianceMessage(seen.step_covariance);
   if (const auto& turn = seen.right_turn) {
     message.right_turn.assign(turn->turn_rad.data(), turn->turn_rad.data() + 3);
     message.right_turn_covariance.assign(turn->covariance.data(), turn->covariance.data() + 9);
@@ -115,6 +125,7 @@ PlacedKeyframe FromMessage(const KeyframeStamped& message) {
     keyframe.base_from_camera = FromMessage(message.base_from_camera, "base_from_camera");
     keyframe.keyframe.camera_from_world =
         FromMessage(message.camera_from_world, "camera_from_world");
+    keyframe.keyframe.step_covariance = ImportCovariance(message);
     keyframe.keyframe.right_turn = ImportTurn(message);
     keyframe.keyframe.observations = ImportObservations(message);
     keyframe.landmarks = ImportLandmarks(message);
@@ -157,8 +168,7 @@ MapUpdate FromMessage(const MapUpdateStamped& message) {
     update.correction = ImportCorrection(message);
     update.num_keyframes = message.num_keyframes;
     Require(!update.keyframes.empty(), "keyframe_id is empty");
-    Require(update.num_keyframes >= static_cast<int>(update.keyframes.size()),
-            "num_keyframes is less than there are");
+    Require(update.num_keyframes > 0, "num_keyframes must be positive");
     return update;
   });
 }

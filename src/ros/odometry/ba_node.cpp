@@ -125,6 +125,7 @@ void BaNode::Add(const KeyframeStamped& message) {
   figures_.num_keyframes = map_.num_keyframes();
   figures_.num_landmarks = map_.num_landmarks();
   figures_.num_loops = map_.num_loops();
+  figures_.num_refused_loops = map_.num_refused_loops();
   figures_.refusals.Clear();
   Tell(false);
   settles_ = ros::WallTime::now() + kSettled;

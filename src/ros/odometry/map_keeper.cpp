@@ -97,11 +97,11 @@ std::optional<MapStatus> MapKeeper::News(const PlacedMap& map, const ros::Time& 
   status.header.frame_id = map_frame_;
   status.state = static_cast<uint8_t>(map.localiser().state());
   status.state_text = ToString(map.localiser().state());
-  status.text = map.localiser().found().empty() ? refused_ : map.localiser().found();
+  status.text = map.news().empty() ? refused_ : map.news();
   const std::string told = status.state_text + (status.text.empty() ? "" : ": " + status.text);
   if (told == told_.Get()) return std::nullopt;
   told_.Set(told);
-  if (is_enabled()) ROS_INFO("map: %s", told.c_str());
+  if (is_enabled() || !status.text.empty()) ROS_INFO("map: %s", told.c_str());
   return status;
 }
 

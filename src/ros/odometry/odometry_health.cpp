@@ -146,6 +146,7 @@ void AdjustmentFigures::Report(const std::string& map, Diagnostics& status) cons
   status.add("keyframes", num_keyframes);
   status.add("landmarks", num_landmarks);
   status.add("loops closed", num_loops);
+  status.add("loops refused", num_refused_loops);
   status.add("map", map);
   status.add("adjustments", num_adjustments);
   status.add("keyframes refused", refusals.num());

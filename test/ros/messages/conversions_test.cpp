@@ -39,6 +39,7 @@ PlacedKeyframe MakeKeyframe() {
   keyframe.keyframe.id = 4;
   keyframe.keyframe.stamp_s = 12.5;
   keyframe.keyframe.camera_from_world = kMotion;
+  keyframe.keyframe.step_covariance.setConstant(0.25);
   keyframe.keyframe.observations.push_back({{{1, 2, 3, 4}, true, 0.5}, 1});
   keyframe.keyframe.observations.push_back({{{5, 6, kNaN, kNaN}, false, 1}, int64_t(1) << 40});
   Landmark landmark;
@@ -90,11 +91,8 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
     EXPECT_EQ(back.points[i].disparity_gradient, frame.points[i].disparity_gradient);
   }
   EXPECT_EQ(back.num_right_keypoints, 7);
-  EXPECT_FALSE(back.left_is_repeated);
-  EXPECT_TRUE(back.right_is_repeated);
-  EXPECT_TRUE(back.eyes_are_swapped);
-  EXPECT_EQ(back.grey.mean, 101.5);
-  EXPECT_EQ(back.grey.variance, 2500.25);
+  EXPECT_TRUE(!back.left_is_repeated && back.right_is_repeated && back.eyes_are_swapped);
+  EXPECT_EQ(std::tie(back.grey.mean, back.grey.variance), std::make_tuple(101.5, 2500.25));
   EXPECT_EQ(back.ratio_threshold, 0.8125);
 }
 
@@ -118,6 +116,7 @@ TEST(Conversions, AKeyframeSurvives) {
   EXPECT_EQ(back.keyframe.id, 4);
   EXPECT_EQ(back.keyframe.stamp_s, 12.5);
   ExpectEqual(back.keyframe.camera_from_world, keyframe.keyframe.camera_from_world);
+  EXPECT_EQ(back.keyframe.step_covariance, keyframe.keyframe.step_covariance);
   ExpectEqual(back.odom_from_world, keyframe.odom_from_world);
   ExpectEqual(back.base_from_camera, keyframe.base_from_camera);
   ASSERT_EQ(back.keyframe.observations.size(), 2u);
@@ -213,10 +212,11 @@ TEST(Conversions, AMalformedKeyframeIsRefusedByName) {
                 [](auto& m) { m.observation_landmark[1] = 1; });
   ExpectRefused(good, "observation_sigma[0] is not positive",
                 [](auto& m) { m.observation_sigma[0] = 0; });
+  ExpectRefused(good, "step_covariance[7] is not", [](auto& m) { m.step_covariance[7] = kNaN; });
+  ExpectRefused(good, "step_covariance has a neg", [](auto& m) { m.step_covariance[7] = -1; });
   ExpectRefused(good, "right_turn holds 1 values, 3 expected", [](auto& m) { m.right_turn = {1}; });
   ExpectRefused(good, "right_turn_covariance holds 0 values, 9 expected", [](auto& m) {
     m.right_turn = {0, 0, 0};
-    m.right_turn_covariance.clear();
   });
   ExpectRefused(good, "right_turn_covariance has a variance that is not positive", [](auto& m) {
     m.right_turn = {0, 0, 0};

@@ -72,7 +72,8 @@ class OdometryHealth {
 
 /// How ba_node's adjusting fares.
 struct AdjustmentFigures {
-  int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_adjustments = 0, num_failed = 0;
+  int num_keyframes = 0, num_landmarks = 0, num_loops = 0, num_refused_loops = 0;
+  int num_adjustments = 0, num_failed = 0;
   Refusals refusals{"keyframe"};
   bool is_adjusting = false;
   int iteration = 0;
