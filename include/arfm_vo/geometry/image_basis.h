@@ -45,13 +45,14 @@ struct RadialBasis {
   /// What the terms displace at a squared distance of r2 from the centre, over the distance; r is 1
   /// in the corners.
   static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2, 1}; }
+  /// Their derivatives by r, over r.
+  static Eigen::Matrix<double, kNumTerms, 1> Slopes(double r2) { return {2, 4 * r2 - 2, 0}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
     const double inverse = 1 / CornerPx(camera);
     const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
     const double r2 = p.squaredNorm();
-    const auto gain = Gains(r2);
-    const double slope[kNumTerms] = {2, 4 * r2 - 2, 0};
+    const auto gain = Gains(r2), slope = Slopes(r2);
     for (int i = 0; i < kNumTerms; ++i) {
       values.col(i) = gain[i] * p;
       by_pixel[i] =
