@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 
 #include "arfm_vo/geometry/stereo_camera.h"
@@ -33,9 +32,8 @@ struct ImageBasis {
 /// is another focal length.
 struct RadialBasis {
   static constexpr int kNumTerms = 3;
-  static constexpr int kFocalLength = 2;            ///< the term by r
-  Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
-  std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
+  static constexpr int kFocalLength = 2;       ///< the term by r
+  Eigen::Matrix<double, 2, kNumTerms> values;  ///< (u, v) by the coefficients
 
   /// Distance of the corners from the centre, px: where r is 1.
   static double CornerPx(const StereoCamera& camera) {
@@ -49,15 +47,9 @@ struct RadialBasis {
   static Eigen::Matrix<double, kNumTerms, 1> Slopes(double r2) { return {2, 4 * r2 - 2, 0}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-    const double inverse = 1 / CornerPx(camera);
-    const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
-    const double r2 = p.squaredNorm();
-    const auto gain = Gains(r2), slope = Slopes(r2);
-    for (int i = 0; i < kNumTerms; ++i) {
-      values.col(i) = gain[i] * p;
-      by_pixel[i] =
-          inverse * (gain[i] * Eigen::Matrix2d::Identity() + slope[i] * p * p.transpose());
-    }
+    const double unit = 1 / CornerPx(camera);
+    const Eigen::Vector2d p = unit * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
+    values = p * Gains(p.squaredNorm()).transpose();
   }
 };
 
