@@ -117,7 +117,13 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
   const int size = equations.reduced_size();
   const CornerMatrix corner = equations.InverseColumns(size - num_coefficients, num_coefficients)
                                   .bottomRows(num_coefficients);
-  result.correction_covariance = factor * (corner + corner.transpose()) / 2;
+  const CornerMatrix covariance = factor * (corner + corner.transpose()) / 2;
+  if (problem.correction_turns) {
+    const CorrectionBelief::Turns& turns = *problem.correction_turns;
+    result.correction_covariance = turns * covariance * turns.transpose();
+  } else {
+    result.correction_covariance = covariance;
+  }
 }
 
 }  // namespace

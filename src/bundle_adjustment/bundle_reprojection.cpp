@@ -36,8 +36,8 @@ ReprojectionModel::ReprojectionModel(const StereoCamera& camera, const StereoCor
                                      bool with_correction)
     : camera_(camera),
       correction_(correction),
-      is_rectified_(correction.IsZero()),
-      with_correction_(with_correction) {}
+      is_displaced_(with_correction || !correction.IsZero()),
+      radial_unit_(1 / RadialBasis::CornerPx(camera)) {}
 
 bool ReprojectionModel::Evaluate(const BundleObservation& observation,
                                  const Eigen::Matrix3d& rotation,
@@ -49,11 +49,11 @@ bool ReprojectionModel::Evaluate(const BundleObservation& observation,
   const double inverse_sigma = 1 / observation.sigma_px;
   const Eigen::Vector3d rectified = camera_.ProjectStereo(x);
   Eigen::Vector2d left = rectified.head<2>();
-  if (!is_rectified_) left += correction_.AtLeft(camera_, left);
+  if (is_displaced_) left += correction_.AtLeft(camera_, left);
   residual.head<2>() = inverse_sigma * (left - observation.pixels.head<2>());
   if (!observation.has_right) return true;
   Eigen::Vector2d right(rectified.z(), rectified.y());
-  if (!is_rectified_) right += correction_.AtRight(camera_, right);
+  if (is_displaced_) right += correction_.AtRight(camera_, right);
   residual.tail<2>() = inverse_sigma * (right - observation.pixels.tail<2>());
   return true;
 }
@@ -68,50 +68,57 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
   term.by_radial.setZero();
   term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(term.x.z() > kMinDepth)) return false;
-  const double fx = camera_.fx / observation.sigma_px, fy = camera_.fy / observation.sigma_px;
-  const double inverse_z = 1 / term.x.z();
+  const double inverse_sigma = 1 / observation.sigma_px, inverse_z = 1 / term.x.z();
+  const double fx = camera_.fx * inverse_sigma, fy = camera_.fy * inverse_sigma;
   const double x_z = term.x.x() * inverse_z, y_z = term.x.y() * inverse_z;
   const Eigen::Vector4d& pixels = observation.pixels;
-  term.residual[0] = fx * x_z - (pixels[0] - camera_.cx) / observation.sigma_px;
-  term.residual[1] = fy * y_z - (pixels[1] - camera_.cy) / observation.sigma_px;
-  term.by_x.topRows<2>() << fx * inverse_z, 0, -fx * inverse_z * x_z,  //
-      0, fy * inverse_z, -fy * inverse_z * y_z;
-  const bool is_displaced = !is_rectified_ || with_correction_;
-  if (is_displaced) DisplaceRadially({x_z, y_z}, 0, observation.sigma_px, term);
+  term.residual[0] = fx * x_z - (pixels[0] - camera_.cx) * inverse_sigma;
+  term.residual[1] = fy * y_z - (pixels[1] - camera_.cy) * inverse_sigma;
+  term.by_x(0, 0) = fx * inverse_z;
+  term.by_x(0, 2) = -fx * inverse_z * x_z;
+  term.by_x(1, 1) = fy * inverse_z;
+  term.by_x(1, 2) = -fy * inverse_z * y_z;
+  if (is_displaced_) DisplaceRadially({x_z, y_z}, 0, inverse_sigma, term);
   if (!observation.has_right) return true;
 
   const double xr_z = x_z - camera_.baseline_m * inverse_z;
-  term.residual[2] = fx * xr_z - (pixels[2] - camera_.cx) / observation.sigma_px;
-  term.residual[3] = fy * y_z - (pixels[3] - camera_.cy) / observation.sigma_px;
-  term.by_x.bottomRows<2>() << fx * inverse_z, 0, -fx * inverse_z * xr_z,  //
-      0, fy * inverse_z, -fy * inverse_z * y_z;
-  if (!is_displaced) return true;
+  term.residual[2] = fx * xr_z - (pixels[2] - camera_.cx) * inverse_sigma;
+  term.residual[3] = fy * y_z - (pixels[3] - camera_.cy) * inverse_sigma;
+  term.by_x(2, 0) = fx * inverse_z;
+  term.by_x(2, 2) = -fx * inverse_z * xr_z;
+  term.by_x(3, 1) = fy * inverse_z;
+  term.by_x(3, 2) = -fy * inverse_z * y_z;
+  if (!is_displaced_) return true;
 
-  const Eigen::Matrix<double, 2, 3> nominal_by_x = term.by_x.bottomRows<2>();
-  DisplaceRadially({xr_z, y_z}, 2, observation.sigma_px, term);
+  constexpr int kNumField = StereoCorrection::kNumField;
+  Eigen::Matrix<double, kNumField, 2> field;
+  field << correction_.coefficients_px.head<kNumField>(),
+      correction_.coefficients_px.tail<kNumField>();
   const ImageBasis basis(camera_, {camera_.fx * xr_z + camera_.cx, camera_.fy * y_z + camera_.cy});
-  Eigen::Matrix<double, StereoCorrection::kNumField, 2> field;
-  field << correction_.coefficients_px.head<StereoCorrection::kNumField>(),
-      correction_.coefficients_px.tail<StereoCorrection::kNumField>();
-  term.right_by_field = basis.values / observation.sigma_px;
-  term.residual.tail<2>() += field.transpose() * term.right_by_field;
-  const Eigen::Matrix2d by_pixel = field.transpose() * basis.by_pixel;
-  term.by_x.bottomRows<2>() += by_pixel * nominal_by_x;
+  const Eigen::Matrix2d by_pixel = field.transpose().lazyProduct(basis.by_pixel);
+  const Eigen::Matrix<double, 2, 3> nominal_by_x = term.by_x.bottomRows<2>();
+  DisplaceRadially({xr_z, y_z}, 2, inverse_sigma, term);
+  term.right_by_field = basis.values * inverse_sigma;
+  term.residual.tail<2>() += field.transpose().lazyProduct(term.right_by_field);
+  term.by_x.bottomRows<2>() += by_pixel.lazyProduct(nominal_by_x);
   return true;
 }
 
-void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, double sigma_px,
+void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, double inverse_sigma,
                                          ReprojectionTerm& term) const {
   constexpr int kNumRadial = StereoCorrection::kNumRadial;
-  const RadialBasis basis(camera_,
-                          {camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy});
   const auto coefficients =
       correction_.coefficients_px.segment<kNumRadial>(StereoCorrection::kNumField);
-  Eigen::Matrix2d by_pixel = Eigen::Matrix2d::Identity();
-  for (int i = 0; i < kNumRadial; ++i) by_pixel += coefficients[i] * basis.by_pixel[i];
-  term.by_radial.middleRows<2>(row) = basis.values / sigma_px;
-  term.residual.segment<2>(row) += term.by_radial.middleRows<2>(row) * coefficients;
-  term.by_x.middleRows<2>(row) = by_pixel * term.by_x.middleRows<2>(row).eval();
+  const Eigen::Vector2d p = radial_unit_ * Eigen::Vector2d(camera_.fx * ray.x(), camera_.fy * ray.y());
+  const double r2 = p.squaredNorm();
+  const auto gains = RadialBasis::Gains(r2);
+  const double gain = gains.dot(coefficients), slope = RadialBasis::Slopes(r2).dot(coefficients);
+  term.by_radial.middleRows<2>(row) = inverse_sigma * p * gains.transpose();
+  term.residual.segment<2>(row) += inverse_sigma * gain * p;
+  // The displacement's derivative by the pixel is radial_unit (gain I + slope p p^T).
+  const Eigen::RowVector3d along = radial_unit_ * slope * p.transpose() * term.by_x.middleRows<2>(row);
+  term.by_x.middleRows<2>(row) *= 1 + radial_unit_ * gain;
+  term.by_x.middleRows<2>(row) += p * along;
 }
 
 ConstraintTerm LinearizeConstraint(const PoseConstraint& constraint, const Rigid3& first_from_world,

@@ -84,7 +84,9 @@ BundleSelection::BundleSelection(const BundleProblem& problem)
     observation_is_used[i] &= point_is_used[problem.observations[i].point];
   }
   pose_is_free = FindFreePoses(problem, *this);
-  num_free_coefficients = problem.correction_prior ? StereoCorrection::kSize : 0;
+  if (!problem.correction_prior) return;
+  num_free_coefficients = problem.correction_turns ? CorrectionBelief::Turns::ColsAtCompileTime
+                                                   : StereoCorrection::kSize;
 }
 
 }  // namespace arfm_vo

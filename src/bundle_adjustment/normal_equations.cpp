@@ -93,12 +93,11 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
     const double weight = loss.Weight(s);
 
     // With A the derivative by x, J_point = A R and J_pose = A (-[x]x, I).
-    const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
-    const Eigen::Matrix3d m = weighted.transpose() * term.by_x;
-    const Eigen::Vector3d pull = -(weighted.transpose() * term.residual);
-    const Eigen::Matrix3d m_r = m * rotation;
-    point_blocks_[track].noalias() += rotation.transpose() * m_r;
-    point_rights_[track].noalias() += rotation.transpose() * pull;
+    const Eigen::Matrix3d m = weight * (term.by_x.transpose().lazyProduct(term.by_x));
+    const Eigen::Vector3d pull = -weight * term.by_x.transpose().lazyProduct(term.residual);
+    const Eigen::Matrix3d m_r = m.lazyProduct(rotation);
+    point_blocks_[track] += rotation.transpose().lazyProduct(m_r);
+    point_rights_[track] += rotation.transpose().lazyProduct(pull);
     if (free_pose != BundleStructure::kFixed) {
       const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
       Matrix6d& block = piece.sum.blocks[structure_.blocks.row_begin[free_pose]];
@@ -110,9 +109,31 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
       sighting_blocks_[index].topRows<3>() += CrossColumns(term.x, m_r);
       sighting_blocks_[index].bottomRows<3>() += m_r;
     }
-    if (num_coefficients_ > 0)
+    if (num_coefficients_ == 0) continue;
+    if (problem_.correction_turns) {
+      LinearizeByTurns(term, weight, rotation, track, free_pose, piece);
+    } else {
       LinearizeByCorrection(term, weight, rotation, track, free_pose, piece);
+    }
   }
+}
+
+void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weight,
+                                       const Eigen::Matrix3d& rotation, int track, int free_pose,
+                                       Piece& piece) {
+  constexpr int kNumField = StereoCorrection::kNumField;
+  const CorrectionBelief::Turns& turns = *problem_.correction_turns;
+  Eigen::Matrix<double, 3, 2> by_turn;  // of (u_right, v_right), transposed
+  by_turn.col(0).noalias() = turns.topRows<kNumField>().transpose() * term.right_by_field;
+  by_turn.col(1).noalias() = turns.bottomRows<kNumField>().transpose() * term.right_by_field;
+  const Eigen::Matrix<double, 3, 2> weighted = weight * by_turn;
+  const Eigen::Matrix3d by_x = term.by_x.bottomRows<2>().transpose() * weighted.transpose();
+  point_borders_[track].leftCols<3>().noalias() += rotation.transpose() * by_x;
+  piece.sum.corner.topLeftCorner<3, 3>().noalias() += weighted * by_turn.transpose();
+  piece.sum.corner_right.head<3>().noalias() -= weighted * term.residual.tail<2>();
+  if (free_pose == BundleStructure::kFixed) return;
+  piece.sum.border[free_pose].block<3, 3>(0, 0) += CrossColumns(term.x, by_x);
+  piece.sum.border[free_pose].block<3, 3>(3, 0) += by_x;
 }
 
 void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double weight,
@@ -170,9 +191,16 @@ double NormalEquations::AddPrior(const BundleState& state) {
   if (!problem_.correction_prior) return 0;
   const StereoCorrection::Coefficients off =
       state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
-  held_.corner += prior_information_.topLeftCorner(num_coefficients_, num_coefficients_);
-  held_.corner_right -= prior_information_.topRows(num_coefficients_) * off;
-  return off.dot(prior_information_ * off);
+  const StereoCorrection::Coefficients pull = prior_information_ * off;
+  if (problem_.correction_turns) {
+    const CorrectionBelief::Turns& turns = *problem_.correction_turns;
+    held_.corner += turns.transpose() * prior_information_ * turns;
+    held_.corner_right -= turns.transpose() * pull;
+  } else {
+    held_.corner += prior_information_;
+    held_.corner_right -= pull;
+  }
+  return off.dot(pull);
 }
 
 }  // namespace arfm_vo

@@ -57,6 +57,8 @@ class NormalEquations {
   void LinearizePiece(const BundleState& state, Piece& piece);
   void LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
                          int index, Piece& piece);
+  void LinearizeByTurns(const ReprojectionTerm& term, double weight,
+                        const Eigen::Matrix3d& rotation, int track, int free_pose, Piece& piece);
   void LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                              const Eigen::Matrix3d& rotation, int track, int free_pose,
                              Piece& piece);

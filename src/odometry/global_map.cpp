@@ -116,6 +116,7 @@ void GlobalMap::FollowCalibration() {
   const int first = num_keyframes() - CalibrationState::kWindow;
   BundleProblem window = MakeProblem(first, first + 1);
   window.correction_prior = prior;
+  window.correction_turns = CorrectionBelief::ByTurn(camera_);
   calibration_.Follow(AdjustBundle(std::move(window), options_.solver), num_keyframes());
 }
 

@@ -68,6 +68,32 @@ TEST(SelfCalibration, FindsTheDisplacementOfTheRightImageFromNoisyImagesAlone) {
   }
 }
 
+/// A turn of the right camera by 0.4, 0.8 and -0.6 mrad, and all else held by the prior.
+TEST(SelfCalibration, FindsTheSameTurnWhereTheCorrectionMayNotMoveOtherwise) {
+  const CorrectionBelief::Turns turns = CorrectionBelief::ByTurn(kBundleCamera);
+  const Eigen::Vector3d turn_rad(4e-4, 8e-4, -6e-4);
+  BundleProblem problem = MakeCorridor(MakeOptions(turns * turn_rad)).problem;
+  problem.correction_prior = CorrectionBelief::Isotropic(1e-3);
+  problem.correction_prior->covariance += 1e-6 * turns * turns.transpose();
+  BundleOptions options;
+  options.function_tolerance = 1e-10;
+  const BundleResult whole = AdjustBundle(problem, options);
+  problem.correction_turns = turns;
+  const BundleResult alone = AdjustBundle(problem, options);
+  const Eigen::Matrix3d px2_by_turn = turns.transpose() * turns;
+  const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
+      px2_by_turn.ldlt().solve(turns.transpose());
+  const auto turn = [&](const BundleResult& result) -> Eigen::Vector3d {
+    return turn_of * result.correction.coefficients_px;
+  };
+  const auto variance = [&](const BundleResult& result) {
+    return (turn_of * result.correction_covariance * turn_of.transpose()).trace();
+  };
+  EXPECT_LT((turn(alone) - turn(whole)).norm(), 1e-5);
+  EXPECT_LT((turn(alone) - turn_rad).norm(), 1e-4);
+  EXPECT_NEAR(variance(alone), variance(whole), 0.05 * variance(whole));
+}
+
 TEST(SelfCalibration, StatesAnHonestCovarianceWithAndWithoutADisplacement) {
   constexpr int kTrials = 60, kSize = StereoCorrection::kSize;
   for (const double share : {0.0, 1.0}) {

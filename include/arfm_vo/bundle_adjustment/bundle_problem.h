@@ -36,6 +36,8 @@ struct BundleProblem {
   StereoCorrection correction;  ///< where to start
   /// What is known of the correction without these observations; nothing: it stays where it starts.
   std::optional<CorrectionBelief> correction_prior;
+  /// Where the prior holds all else, the only ways in which the correction may move: less to solve.
+  std::optional<CorrectionBelief::Turns> correction_turns;
 
   /// Throws std::invalid_argument naming what is wrong: sizes that differ, an index out of range,
   /// a value that is not finite, a sigma that is not positive, no observation or no fixed pose.

@@ -45,13 +45,13 @@ class ReprojectionModel {
 
  private:
   /// Adds the radial displacement to the two rows of `term` from `row` on, whose ray is (x/z, y/z).
-  void DisplaceRadially(const Eigen::Vector2d& ray, int row, double sigma_px,
+  void DisplaceRadially(const Eigen::Vector2d& ray, int row, double inverse_sigma,
                         ReprojectionTerm& term) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;
-  bool is_rectified_;  ///< the correction is zero
-  bool with_correction_;
+  bool is_displaced_;   ///< the correction is not zero, or derivatives by it are wanted
+  double radial_unit_;  ///< px^-1, of RadialBasis
 };
 
 /// The error of a pose constraint, (rotation rad, translation m), and its derivatives by the steps

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 
 #include "arfm_vo/geometry/stereo_camera.h"
@@ -33,9 +32,8 @@ struct ImageBasis {
 /// is another focal length.
 struct RadialBasis {
   static constexpr int kNumTerms = 3;
-  static constexpr int kFocalLength = 2;            ///< the term by r
-  Eigen::Matrix<double, 2, kNumTerms> values;       ///< (u, v) by the coefficients
-  std::array<Eigen::Matrix2d, kNumTerms> by_pixel;  ///< derivative of each term, px^-1
+  static constexpr int kFocalLength = 2;       ///< the term by r
+  Eigen::Matrix<double, 2, kNumTerms> values;  ///< (u, v) by the coefficients
 
   /// Distance of the corners from the centre, px: where r is 1.
   static double CornerPx(const StereoCamera& camera) {
@@ -45,18 +43,13 @@ struct RadialBasis {
   /// What the terms displace at a squared distance of r2 from the centre, over the distance; r is 1
   /// in the corners.
   static Eigen::Matrix<double, kNumTerms, 1> Gains(double r2) { return {r2, r2 * r2 - r2, 1}; }
+  /// Their derivatives by r, over r.
+  static Eigen::Matrix<double, kNumTerms, 1> Slopes(double r2) { return {2, 4 * r2 - 2, 0}; }
 
   RadialBasis(const StereoCamera& camera, const Eigen::Vector2d& pixel) {
-    const double inverse = 1 / CornerPx(camera);
-    const Eigen::Vector2d p = inverse * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
-    const double r2 = p.squaredNorm();
-    const auto gain = Gains(r2);
-    const double slope[kNumTerms] = {2, 4 * r2 - 2, 0};
-    for (int i = 0; i < kNumTerms; ++i) {
-      values.col(i) = gain[i] * p;
-      by_pixel[i] =
-          inverse * (gain[i] * Eigen::Matrix2d::Identity() + slope[i] * p * p.transpose());
-    }
+    const double unit = 1 / CornerPx(camera);
+    const Eigen::Vector2d p = unit * (pixel - Eigen::Vector2d(camera.cx, camera.cy));
+    values = p * Gains(p.squaredNorm()).transpose();
   }
 };
 
