@@ -52,6 +52,7 @@ class Intruder {
 
 struct Drift {
   double metres = 0, degrees = 0;
+  int num_degraded = 0;
 };
 
 /// The farthest that the pose went from where it was, over noisy pictures of one place.
@@ -75,8 +76,12 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
     for (cv::Mat* image : {&images.left, &images.right}) {
       AddNoise(*image, arguments.noise_grey_levels, random);
     }
-    const PoseEstimate pose = odometry.Process(images).update.pose;
-    if (!pose.IsTracked()) throw std::runtime_error("pair " + std::to_string(pair) + " is lost");
+    const SessionUpdate update = odometry.Process(images);
+    const PoseEstimate& pose = update.update.pose;
+    if (!pose.HasPose()) {
+      throw std::runtime_error("pair " + std::to_string(pair) + ": " + update.text);
+    }
+    drift.num_degraded += !pose.IsTracked();
     drift.metres = std::max(drift.metres, pose.camera_from_world.translation.norm());
     drift.degrees = std::max(drift.degrees, pose.camera_from_world.Angle() * 180 / M_PI);
   }
@@ -84,7 +89,7 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
 }
 
 void Print(const char* what, const Drift& drift) {
-  std::printf("%s,%.6f,%.6f\n", what, drift.metres, drift.degrees);
+  std::printf("%s,%.6f,%.6f,%d\n", what, drift.metres, drift.degrees, drift.num_degraded);
   std::fflush(stdout);
 }
 
@@ -103,7 +108,7 @@ int main(int argc, char** argv) {
               "standard deviation of the grey values");
   program.Add("seed", arguments.seed, "S", "of place and noise");
   program.run = [&] {
-    std::printf("what,farthest_m,farthest_deg\n");
+    std::printf("what,farthest_m,farthest_deg,degraded\n");
     Print("alone", Rest(arguments, false));
     arguments.intruder_share = 1.0 / 3;
     Print("vehicle", Rest(arguments, false));

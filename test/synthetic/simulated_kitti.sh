@@ -59,7 +59,7 @@ section() { test/readme_section.py docs/simulated.md "$1"; }
            END {printf "| mean | %.2f | %.1f |\n", e / n, w / n}' "$work/nees.csv"
 } | section nees
 {
-  echo "| | m | deg |"
-  echo "|---|---|---|"
-  awk -F, 'NR > 1 {printf "| %s | %s | %s |\n", $1, $2, $3}' "$work/rest.csv"
+  echo "| | m | deg | degraded |"
+  echo "|---|---|---|---|"
+  awk -F, 'NR > 1 {printf "| %s | %s | %s | %s |\n", $1, $2, $3, $4}' "$work/rest.csv"
 } | section rest
