@@ -33,7 +33,7 @@ wait "$all"
 
 section() { test/readme_section.py docs/simulated.md "$1"; }
 {
-  echo "| sequence | frames | length m | lost | t_rel % | r_rel deg/100 m | ATE | adjusted t_rel % | ATE | NEES | ms a frame |"
+  echo "| sequence | frames | length m | not tracked | t_rel % | r_rel deg/100 m | ATE | adjusted t_rel % | ATE | NEES | ms a frame |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|"
   awk -F, 'NR > 1 {printf "| %s | %s | %s | %d | %s | %s | %s | %s | %s | %s | %.1f |\n",
                    $1, $2, $3, $4, $6, $7, $8, $9, $11, $12, 1000 * $15 / $2
