@@ -45,16 +45,4 @@ bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
   return Median(std::move(parallax)) >= options.min_parallax_px;
 }
 
-bool WillNeedKeyframe(const StereoCamera& camera, const LocalMap& map,
-                      const Rigid3& camera_from_world, const KeyframePolicyOptions& options) {
-  LandmarkObservations expected;
-  for (const Landmark* landmark : map.LandmarksInView(camera_from_world, 0)) {
-    LandmarkObservation observation;
-    observation.landmark = landmark->id;
-    observation.pixels << camera.Project(camera_from_world * landmark->x_in_world), 0, 0;
-    expected.push_back(observation);
-  }
-  return NeedsKeyframe(camera, map.keyframes().back(), camera_from_world, expected, options);
-}
-
 }  // namespace arfm_vo

@@ -71,8 +71,7 @@ OdometryUpdate LocalOdometry::Implementation::Process(
 
 std::optional<int> LocalOdometry::Implementation::LevelOfPatches(
     const std::optional<PredictedPose>& predicted) const {
-  if (map_.keyframes().empty() || !predicted || verdict_.right_fault() != Reason::kNone ||
-      WillNeedKeyframe(camera_, map_, predicted->camera_from_world, options_.keyframes)) {
+  if (map_.keyframes().empty() || !predicted || verdict_.right_fault() != Reason::kNone) {
     return std::nullopt;
   }
   return tracker_.LevelOfPatches(map_, verdict_.Expect(predicted));

@@ -28,8 +28,5 @@ struct KeyframePolicyOptions {
 bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
                    const Rigid3& camera_from_world, const LandmarkObservations& observations,
                    const KeyframePolicyOptions& options);
-/// The same of a frame to come, where its camera is at this pose and sees what it should.
-bool WillNeedKeyframe(const StereoCamera& camera, const LocalMap& map,
-                      const Rigid3& camera_from_world, const KeyframePolicyOptions& options);
 
 }  // namespace arfm_vo
