@@ -111,19 +111,15 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
       }
     }
   }
-  const int num_coefficients = selection.num_free_coefficients;
+  const BundleSelection::Directions& directions = selection.correction_directions;
+  const int num_coefficients = static_cast<int>(directions.cols());
   if (num_coefficients == 0) return;
   if (!FactorizeHardlyDamped(equations)) return;
   const int size = equations.reduced_size();
   const CornerMatrix corner = equations.InverseColumns(size - num_coefficients, num_coefficients)
                                   .bottomRows(num_coefficients);
   const CornerMatrix covariance = factor * (corner + corner.transpose()) / 2;
-  if (problem.correction_turns) {
-    const CorrectionBelief::Turns& turns = *problem.correction_turns;
-    result.correction_covariance = turns * covariance * turns.transpose();
-  } else {
-    result.correction_covariance = covariance;
-  }
+  result.correction_covariance = directions * covariance * directions.transpose();
 }
 
 }  // namespace
@@ -144,7 +140,7 @@ void AssessBundle(const BundleProblem& problem, const BundleSelection& selection
     result.is_inlier[i] =
         selection.point_is_used[observation.point] && squared[i] <= bounds[observation.has_right];
   }
-  if (options.with_point_covariance || selection.num_free_coefficients > 0) {
+  if (options.with_point_covariance || selection.correction_directions.cols() > 0) {
     result.covariance_factor = CovarianceFactor(problem, selection, options, freedom, squared);
     FindCovariances(problem, selection, structure, options, equations, result);
   }

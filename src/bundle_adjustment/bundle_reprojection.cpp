@@ -72,22 +72,21 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
   const double fx = camera_.fx * inverse_sigma, fy = camera_.fy * inverse_sigma;
   const double x_z = term.x.x() * inverse_z, y_z = term.x.y() * inverse_z;
   const Eigen::Vector4d& pixels = observation.pixels;
-  term.residual[0] = fx * x_z - (pixels[0] - camera_.cx) * inverse_sigma;
-  term.residual[1] = fy * y_z - (pixels[1] - camera_.cy) * inverse_sigma;
-  term.by_x(0, 0) = fx * inverse_z;
-  term.by_x(0, 2) = -fx * inverse_z * x_z;
-  term.by_x(1, 1) = fy * inverse_z;
-  term.by_x(1, 2) = -fy * inverse_z * y_z;
+  // The two rows from `row` on, of the image whose ray is (ray_x, y_z).
+  const auto project = [&](double ray_x, int row) {
+    term.residual[row] = fx * ray_x - (pixels[row] - camera_.cx) * inverse_sigma;
+    term.residual[row + 1] = fy * y_z - (pixels[row + 1] - camera_.cy) * inverse_sigma;
+    term.by_x(row, 0) = fx * inverse_z;
+    term.by_x(row, 2) = -fx * inverse_z * ray_x;
+    term.by_x(row + 1, 1) = fy * inverse_z;
+    term.by_x(row + 1, 2) = -fy * inverse_z * y_z;
+  };
+  project(x_z, 0);
   if (is_displaced_) DisplaceRadially({x_z, y_z}, 0, inverse_sigma, term);
   if (!observation.has_right) return true;
 
   const double xr_z = x_z - camera_.baseline_m * inverse_z;
-  term.residual[2] = fx * xr_z - (pixels[2] - camera_.cx) * inverse_sigma;
-  term.residual[3] = fy * y_z - (pixels[3] - camera_.cy) * inverse_sigma;
-  term.by_x(2, 0) = fx * inverse_z;
-  term.by_x(2, 2) = -fx * inverse_z * xr_z;
-  term.by_x(3, 1) = fy * inverse_z;
-  term.by_x(3, 2) = -fy * inverse_z * y_z;
+  project(xr_z, 2);
   if (!is_displaced_) return true;
 
   constexpr int kNumField = StereoCorrection::kNumField;
@@ -109,14 +108,16 @@ void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, do
   constexpr int kNumRadial = StereoCorrection::kNumRadial;
   const auto coefficients =
       correction_.coefficients_px.segment<kNumRadial>(StereoCorrection::kNumField);
-  const Eigen::Vector2d p = radial_unit_ * Eigen::Vector2d(camera_.fx * ray.x(), camera_.fy * ray.y());
+  const Eigen::Vector2d p(radial_unit_ * (camera_.fx * ray.x()),
+                          radial_unit_ * (camera_.fy * ray.y()));
   const double r2 = p.squaredNorm();
   const auto gains = RadialBasis::Gains(r2);
   const double gain = gains.dot(coefficients), slope = RadialBasis::Slopes(r2).dot(coefficients);
   term.by_radial.middleRows<2>(row) = inverse_sigma * p * gains.transpose();
   term.residual.segment<2>(row) += inverse_sigma * gain * p;
   // The displacement's derivative by the pixel is radial_unit (gain I + slope p p^T).
-  const Eigen::RowVector3d along = radial_unit_ * slope * p.transpose() * term.by_x.middleRows<2>(row);
+  const Eigen::RowVector3d along =
+      radial_unit_ * slope * p.transpose() * term.by_x.middleRows<2>(row);
   term.by_x.middleRows<2>(row) *= 1 + radial_unit_ * gain;
   term.by_x.middleRows<2>(row) += p * along;
 }

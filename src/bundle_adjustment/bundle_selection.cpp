@@ -85,8 +85,11 @@ BundleSelection::BundleSelection(const BundleProblem& problem)
   }
   pose_is_free = FindFreePoses(problem, *this);
   if (!problem.correction_prior) return;
-  num_free_coefficients = problem.correction_turns ? CorrectionBelief::Turns::ColsAtCompileTime
-                                                   : StereoCorrection::kSize;
+  if (problem.correction_turns) {
+    correction_directions = *problem.correction_turns;
+  } else {
+    correction_directions.setIdentity(StereoCorrection::kSize, StereoCorrection::kSize);
+  }
 }
 
 }  // namespace arfm_vo

@@ -11,7 +11,10 @@ struct BundleSelection {
   std::vector<char> observation_is_used;  ///< its point is used and in front of the camera
   std::vector<char> point_is_used;        ///< seen in stereo, or by two poses
   std::vector<char> pose_is_free;         ///< not fixed, and tied to a fixed pose
-  int num_free_coefficients = 0;          ///< of the correction, the first ones; or its turns
+  /// [coefficients x N] the directions in which the correction is free.
+  using Directions = Eigen::Matrix<double, StereoCorrection::kSize, Eigen::Dynamic, Eigen::ColMajor,
+                                   StereoCorrection::kSize, StereoCorrection::kSize>;
+  Directions correction_directions = Directions(StereoCorrection::kSize, 0);
 
   BundleSelection() = default;
   /// The correction is free where it has a prior.

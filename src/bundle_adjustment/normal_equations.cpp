@@ -30,7 +30,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
               RobustLoss(options.loss, kBundleLossThreshold, 4)},
       num_threads_(options.num_threads),
       max_time_share_(options.max_time_share),
-      num_coefficients_(selection.num_free_coefficients),
+      num_coefficients_(static_cast<int>(selection.correction_directions.cols())),
       solver_(structure.blocks, num_coefficients_),
       sighting_blocks_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
@@ -192,14 +192,9 @@ double NormalEquations::AddPrior(const BundleState& state) {
   const StereoCorrection::Coefficients off =
       state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
   const StereoCorrection::Coefficients pull = prior_information_ * off;
-  if (problem_.correction_turns) {
-    const CorrectionBelief::Turns& turns = *problem_.correction_turns;
-    held_.corner += turns.transpose() * prior_information_ * turns;
-    held_.corner_right -= turns.transpose() * pull;
-  } else {
-    held_.corner += prior_information_;
-    held_.corner_right -= pull;
-  }
+  const BundleSelection::Directions& directions = selection_.correction_directions;
+  held_.corner += directions.transpose() * prior_information_ * directions;
+  held_.corner_right -= directions.transpose() * pull;
   return off.dot(pull);
 }
 

@@ -11,7 +11,8 @@ BundleSelection SelectAll(const BundleProblem& problem, const BundleResult& resu
   BundleSelection selection;
   selection.point_is_used = result.point_is_used;
   selection.pose_is_free.assign(problem.camera_from_world.size(), 1);
-  selection.num_free_coefficients = StereoCorrection::kNumPlacing;
+  selection.correction_directions.setIdentity(StereoCorrection::kSize,
+                                              StereoCorrection::kNumPlacing);
   for (const BundleObservation& observation : problem.observations) {
     selection.observation_is_used.push_back(result.point_is_used[observation.point]);
   }

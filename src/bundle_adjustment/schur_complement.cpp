@@ -152,12 +152,8 @@ void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
                                     old[host.pose].rotation * step.points[track];
     point = state.camera_from_world[host.pose].Inverse() * moved_x;
   }
-  const auto correction = step.reduced.tail(num_coefficients_);
-  if (problem_.correction_turns) {
-    state.correction.coefficients_px += *problem_.correction_turns * correction;
-  } else {
-    state.correction.coefficients_px.head(num_coefficients_) += correction;
-  }
+  state.correction.coefficients_px +=
+      selection_.correction_directions * step.reduced.tail(num_coefficients_);
 }
 
 Eigen::MatrixXd NormalEquations::InverseColumns(int first, int count) const {

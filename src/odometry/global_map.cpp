@@ -174,7 +174,7 @@ std::optional<MapUpdate> GlobalMap::Adjust(const BundleCallback& progress) {
       calibration_.first_telling() + NextAdjustment(num_adjusted(), options_.max_keyframes);
   const Rigid3 newest_from_odom = store_.keyframes.back().camera_from_world * map_from_odom_;
   const bool is_bent = IsToBeBent();
-  const std::vector<Rigid3> before = store_.Poses();
+  const std::vector<Rigid3> before = is_bent ? store_.Poses() : std::vector<Rigid3>();
   if (is_bent) MoveTo(closer_.Bend(store_));
   const auto result = Solve(progress);
   if (!result) {

@@ -105,7 +105,8 @@ std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
   std::optional<MapUpdate> update = global_->Adjust(progress);
   if (!update) return std::nullopt;
   correction_ = update->correction;
-  const std::vector<MapPose> before = BasePoses();
+  const auto newest_place = [&] { return BasePoses().back().map_from_base.translation; };
+  const Eigen::Vector3d before = is_bent ? newest_place() : Eigen::Vector3d::Zero();
   frame_.Adjust(global_->MapFromOdom());
   if (is_bent) MoveSettled(*update);
   for (const MapUpdate::KeyframePose& keyframe : update->keyframes) {
@@ -115,10 +116,9 @@ std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
   }
   TakeLandmarks(*update);
   if (is_bent) {
-    const Eigen::Vector3d moved =
-        BasePoses().back().map_from_base.translation - before.back().map_from_base.translation;
+    const double moved_m = (newest_place() - before).norm();
     news_ = "a loop is closed, and the rover's place in the map moved by " +
-            FormatNumber(std::round(100 * moved.norm()) / 100) + " m";
+            FormatNumber(std::round(100 * moved_m) / 100) + " m";
   }
   return update;
 }

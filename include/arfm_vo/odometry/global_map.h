@@ -18,7 +18,7 @@ struct GlobalMapOptions {
   int min_observations = 2;  ///< keyframes that must see a landmark for it to take part
   /// The newest so many move. Older ones are held where they are, poses alone but for what they saw
   /// of the same landmarks: this bounds the memory and the time that an adjustment takes.
-  int max_keyframes = 110;
+  int max_keyframes = MapUpdate::kMostMoving;
   /// Learn what rectification left undone, and follow it; false: take the calibration, or what was
   /// learnt in an earlier drive, as it is.
   bool learn_correction = true;
