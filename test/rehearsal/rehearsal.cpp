@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
+#include <utility>
 
 #include "arfm_vo/hardware/chassis_driver.h"
 #include "arfm_vo/simulation/simulated_chassis.h"
@@ -19,15 +21,17 @@ constexpr uint32_t kEpoch = 1;
 /// Slowest sensible drive: a limit for runs that never end.
 constexpr double kMaxSecondsPerMetre = 60, kMaxSeconds = 300;
 
+using Sight = std::function<Glimpse(double now_s, const Rigid3& world_from_base)>;
+
 class Stage {
  public:
-  Stage(const GoalScene& scene, const RehearsalOptions& options)
+  Stage(const GoalScene& scene, const RehearsalOptions& options, Sight sight)
       : goal_(scene.GoalInMap()),
         map_from_world_(scene.Ground()(scene.start()).Inverse()),
         listener_(bus_.OpenEnd()),
         chassis_(bus_.OpenEnd(), TrackedPlant(options.plant, scene.start(), scene.Ground())),
         driver_(options.pilot, bus_.OpenEnd()),
-        sight_(options.sight, options.odometry, options.shape, scene.terrain()),
+        sight_(std::move(sight)),
         pair_period_ms_(std::lround(1000 * options.sight.pair_period_s)) {
     drive_.goal = goal_;
   }
@@ -37,6 +41,7 @@ class Stage {
     while (drive_.outcome.empty() && 0.001 * now_ms_ < limit_s) Step();
     if (drive_.outcome.empty()) drive_.outcome = "not there in time";
     Judge();
+    drive_.sight = RecordSight(seen_, map_from_base_);
     return std::move(drive_);
   }
 
@@ -75,8 +80,12 @@ class Stage {
 
   void Look() {
     const Rigid3 world_from_base = Plant().WorldFromBase();
-    const Glimpse glimpse = sight_.Look(Now(), world_from_base);
+    const Glimpse glimpse = sight_(Now(), world_from_base);
     glimpses_.push_back(glimpse);
+    seen_.push_back(glimpse);
+    map_from_base_.push_back(map_from_world_ * world_from_base);
+    ++drive_.num_pairs;
+    drive_.num_lost += !glimpse.map_from_base;
     TrackPoint point;
     point.time_s = Now();
     point.truth = ProjectToPlane(map_from_world_ * world_from_base);
@@ -119,8 +128,6 @@ class Stage {
         std::abs(WrapAngle(*goal_.heading_rad - truth.heading_rad)) * 180 / M_PI;
     drive_.driven_m = Plant().DrivenDistance();
     drive_.duration_s = Now();
-    drive_.num_pairs = sight_.num_pairs();
-    drive_.num_lost = sight_.num_lost();
     const double track_m = (Plant().Ways().left_m + Plant().Ways().right_m) / 2;
     drive_.slip_ratio = track_m > 0 ? 1 - Plant().DrivenDistance() / track_m : 0;
   }
@@ -132,8 +139,10 @@ class Stage {
   std::unique_ptr<CanBus> listener_;
   SimulatedChassis chassis_;
   ChassisDriver driver_;
-  SimulatedSight sight_;
-  std::deque<Glimpse> glimpses_;
+  Sight sight_;
+  std::deque<Glimpse> glimpses_;  ///< that are to be told
+  std::vector<Glimpse> seen_;
+  std::vector<Rigid3> map_from_base_;  ///< [seen_] true
   DriveState state_ = DriveState::kStandby;
   long pair_period_ms_, now_ms_ = 0;
 };
@@ -150,7 +159,19 @@ void RehearsalOptions::Check() const {
 
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options) {
   options.Check();
-  return Stage(scene, options).Run();
+  SimulatedSight sight(options.sight, options.odometry, options.shape, scene.terrain());
+  return Stage(scene, options, [&](double now_s, const Rigid3& base) {
+           return sight.Look(now_s, base);
+         }).Run();
+}
+
+RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options,
+                        const std::vector<SightRecord>& records) {
+  options.Check();
+  DrawnSight sight(records, options.sight.latency_s, options.plant.seed);
+  return Stage(scene, options, [&](double now_s, const Rigid3& base) {
+           return sight.Look(now_s, base);
+         }).Run();
 }
 
 }  // namespace arfm_vo

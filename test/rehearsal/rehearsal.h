@@ -5,8 +5,8 @@
 #include "arfm_vo/odometry/visual_odometry.h"
 #include "arfm_vo/simulation/drive_picture.h"
 #include "arfm_vo/simulation/tracked_plant.h"
+#include "rehearsal/drawn_sight.h"
 #include "rehearsal/goal_scene.h"
-#include "rehearsal/simulated_sight.h"
 
 namespace arfm_vo {
 
@@ -29,6 +29,7 @@ struct RehearsedDrive : Drive {
   int num_pairs = 0, num_lost = 0;
   int num_stops = 0;      ///< on the way: pauses and blocks
   double slip_ratio = 0;  ///< of the tracks over the whole way ahead, true
+  std::vector<SightRecord> sight;
 
   bool IsGood() const { return has_arrived && final_error_m <= AllowedError(); }
 };
@@ -37,5 +38,9 @@ struct RehearsedDrive : Drive {
 /// speak over a CAN bus in memory, the plant slips on the terrain, the odometry sees rendered
 /// pairs. The same options give the same drive to the last bit.
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options);
+/// The same without rendering: the poses by sight err as those of a rendered drive did
+/// (RehearsedDrive::sight), drawn by the plant's seed.
+RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options,
+                        const std::vector<SightRecord>& records);
 
 }  // namespace arfm_vo

@@ -63,6 +63,28 @@ TEST(Rehearsal, TheSameSeedsGiveTheSameDrive) {
   EXPECT_EQ(first.track.back().sight.x_m, second.track.back().sight.x_m);
 }
 
+TEST(Rehearsal, DrawnPosesDriveAsRenderedOnesDo) {
+  const RehearsalOptions options = ShortDrive().options;
+  const std::vector<SightRecord> records = Rehearse(NearScene(), options).sight;
+  ASSERT_GT(records.size(), 10U);
+  const RehearsedDrive drive = Rehearse(NearScene(), options, records),
+                       again = Rehearse(NearScene(), options, records);
+  EXPECT_TRUE(drive.IsGood()) << drive.outcome;
+  EXPECT_EQ(drive.num_stops, 0);
+  EXPECT_GT(drive.num_pairs, 10);
+  EXPECT_NE(drive.track.back().sight.x_m, drive.track.back().truth.x_m) << "they err";
+  EXPECT_EQ(drive.final_error_m, again.final_error_m);
+}
+
+TEST(Rehearsal, DrawnPosesThatLeapStopTheRover) {
+  SightRecord leap;
+  leap.step_error.translation.x() = 0.3;
+  leap.uncertainty = {0, 0.001, 0.001};
+  const RehearsedDrive drive = Rehearse(NearScene(), ShortDrive().options, {leap});
+  EXPECT_FALSE(drive.has_arrived);
+  EXPECT_THROW(Rehearse(NearScene(), ShortDrive().options, {}), std::invalid_argument);
+}
+
 TEST(Rehearsal, ABlindRoverStaysWhereItIs) {
   RehearsalOptions options = ShortDrive().options;
   options.sight.render.sensor.gain = 0.01;  // night

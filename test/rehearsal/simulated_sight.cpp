@@ -24,18 +24,15 @@ SimulatedSight::SimulatedSight(const SimulatedSightOptions& options,
 }
 
 Glimpse SimulatedSight::Look(double now_s, const Rigid3& world_from_base) {
-  images_ = renderer_.RenderPair(camera_, world_from_base * base_from_camera_, num_pairs_, now_s);
-  ++num_pairs_;
-  const PoseEstimate estimate = odometry_.Process(images_).update.pose;
+  const StereoImages images =
+      renderer_.RenderPair(camera_, world_from_base * base_from_camera_, num_pairs_++, now_s);
+  const PoseEstimate estimate = odometry_.Process(images).update.pose;
   Glimpse glimpse;
   glimpse.taken_s = now_s;
   glimpse.told_s = now_s + options_.latency_s;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   glimpse.uncertainty = {now_s, nan, nan};
-  if (!estimate.IsMeasured()) {
-    ++num_lost_;
-    return glimpse;
-  }
+  if (!estimate.IsMeasured()) return glimpse;
   glimpse.map_from_base =
       base_from_camera_ * estimate.camera_from_world.Inverse() * base_from_camera_.Inverse();
   glimpse.uncertainty.position_sigma_m =

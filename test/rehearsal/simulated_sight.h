@@ -41,18 +41,13 @@ class SimulatedSight {
   /// Takes a pair; times must rise.
   Glimpse Look(double now_s, const Rigid3& world_from_base);
 
-  int num_pairs() const { return num_pairs_; }
-  int num_lost() const { return num_lost_; }
-  const StereoImages& last_images() const { return images_; }
-
  private:
   SimulatedSightOptions options_;
   StereoCamera camera_;
   Rigid3 base_from_camera_;
   TerrainRenderer renderer_;
   VisualOdometry odometry_;
-  StereoImages images_;
-  int num_pairs_ = 0, num_lost_ = 0;
+  int num_pairs_ = 0;
 };
 
 }  // namespace arfm_vo
