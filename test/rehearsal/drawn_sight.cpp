@@ -24,7 +24,8 @@ DrawnSight::DrawnSight(std::vector<SightRecord> records, double latency_s, int s
 }
 
 Glimpse DrawnSight::Look(double now_s, const Rigid3& world_from_base) {
-  const auto drawn = static_cast<size_t>(RandomUnit(engine_) * static_cast<double>(records_.size()));
+  const auto drawn =
+      static_cast<size_t>(RandomUnit(engine_) * static_cast<double>(records_.size()));
   const SightRecord& record = records_[std::min(drawn, records_.size() - 1)];
   if (world_from_base_) {
     map_from_base_ =

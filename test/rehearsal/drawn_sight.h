@@ -9,8 +9,8 @@ namespace arfm_vo {
 
 /// What the odometry made of one pair.
 struct SightRecord {
-  Rigid3 step_error;            ///< the base where it is, from where the step since the pair before led
-  PoseUncertainty uncertainty;  ///< as it was told
+  Rigid3 step_error;  ///< from where the true step since the pair before led to the pose by sight
+  PoseUncertainty uncertainty;
 };
 
 /// What the odometry made of the pairs of a drive whose true poses are known too. Pairs without a

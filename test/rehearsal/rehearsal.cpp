@@ -160,18 +160,16 @@ void RehearsalOptions::Check() const {
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options) {
   options.Check();
   SimulatedSight sight(options.sight, options.odometry, options.shape, scene.terrain());
-  return Stage(scene, options, [&](double now_s, const Rigid3& base) {
-           return sight.Look(now_s, base);
-         }).Run();
+  const auto look = [&](double now_s, const Rigid3& base) { return sight.Look(now_s, base); };
+  return Stage(scene, options, look).Run();
 }
 
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options,
                         const std::vector<SightRecord>& records) {
   options.Check();
   DrawnSight sight(records, options.sight.latency_s, options.plant.seed);
-  return Stage(scene, options, [&](double now_s, const Rigid3& base) {
-           return sight.Look(now_s, base);
-         }).Run();
+  const auto look = [&](double now_s, const Rigid3& base) { return sight.Look(now_s, base); };
+  return Stage(scene, options, look).Run();
 }
 
 }  // namespace arfm_vo
