@@ -15,12 +15,15 @@ Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from
   return base_from_step * camera_covariance * base_from_step.transpose();
 }
 
-Matrix6 GapCovariance(const Twist& twist, double gap_s) {
+Matrix6 GapCovariance(const std::optional<Twist>& twist, double gap_s) {
   // A base that stood may have begun to move as fast.
-  constexpr double kUnknownSpeed_m_s = 0.1, kUnknownTurn_rad_s = 0.1;
+  constexpr double kFromRest_m_s = 0.1, kFromRest_rad_s = 0.1;
+  constexpr double kUnknown_m_s = 5, kUnknown_rad_s = 1;
   const double change = std::min(gap_s, 1.0);
-  const double way_m = (twist.head<3>().norm() * change + kUnknownSpeed_m_s) * gap_s;
-  const double turn_rad = (twist.tail<3>().norm() * change + kUnknownTurn_rad_s) * gap_s;
+  const double speed_m_s = twist ? twist->head<3>().norm() * change + kFromRest_m_s : kUnknown_m_s;
+  const double turn_rad_s =
+      twist ? twist->tail<3>().norm() * change + kFromRest_rad_s : kUnknown_rad_s;
+  const double way_m = speed_m_s * gap_s, turn_rad = turn_rad_s * gap_s;
   Matrix6 covariance = Matrix6::Zero();
   covariance.diagonal() << Eigen::Vector3d::Constant(way_m * way_m),
       Eigen::Vector3d::Constant(turn_rad * turn_rad);

@@ -98,7 +98,7 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
     pose.covariance = carried.At(pose.odom_from_base, by_senses->covariance);
     gap_by_senses_ = pose.covariance - last_->covariance;
   }
-  pose.twist = last_->twist;
+  pose.twist = last_->twist.value_or(Twist::Zero());
 }
 
 /// Whether the map has not known some good pairs in a row, and the base has moved on.
@@ -106,6 +106,7 @@ bool Session::IsOnNewGround(const FrameOnRequest& frame, const SessionUpdate& po
   if (pose.update.reason == Reason::kGroundHidden) return false;  // and is still there behind
   if (!last_ || ++num_unknown_ < kMaxUnknownPairs) return false;
   if (pose.update.reason == Reason::kFixed) return true;  // the new map is made without it
+  if (!last_->twist) return true;                         // nor is it known to have stayed
   std::vector<double> depths;
   for (const StereoPoint& point : frame.Whole().points) depths.push_back(point.x_in_camera.z());
   const Rigid3 gone = last_->odom_from_base.Inverse() * pose.odom_from_base;
@@ -141,17 +142,23 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
       const double gap_s = pose.update.stamp_s - last_->stamp_s;
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         gap_by_senses_.value_or(GapCovariance(last_->twist, gap_s)));
-      if (is_map_doubtful_) {
-        new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, last_->twist}};
+      if (is_map_doubtful_ && last_->twist) {
+        new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, *last_->twist}};
       }
     }
   }
   DoubtNewMap(pose);
   pose.covariance = drift_.At(pose.odom_from_base,
                               BaseCovariance(pose.update.covariance_from_start, base_from_camera));
-  if (!is_new_epoch) SetTwist(BaseCovariance(estimate.covariance, base_from_camera), pose);
+  const auto twist = is_new_epoch ? std::nullopt : TwistSinceLast(pose);
+  const double interval_s = last_ ? pose.update.stamp_s - last_->stamp_s : 0;
+  if (twist && interval_s <= kMaxTwistInterval_s) {
+    pose.twist = *twist;
+    pose.twist_covariance =
+        BaseCovariance(estimate.covariance, base_from_camera) * (2 / (interval_s * interval_s));
+  }
   if (pose.update.is_keyframe) pose.keyframe = NewestKeyframe(base_from_camera);
-  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, pose.twist};
+  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, twist};
   gap_by_senses_.reset();
 }
 
@@ -178,12 +185,13 @@ PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
   return newest;
 }
 
-void Session::SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const {
+std::optional<Twist> Session::TwistSinceLast(const SessionUpdate& pose) const {
   const double interval_s = pose.update.stamp_s - last_->stamp_s;
-  if (interval_s <= 0 || interval_s > kMaxTwistInterval_s) return;
+  if (interval_s <= 0) return std::nullopt;
   const Rigid3 motion = last_->odom_from_base.Inverse() * pose.odom_from_base;
-  pose.twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
-  pose.twist_covariance = base_covariance * (2 / (interval_s * interval_s));
+  Twist twist;
+  twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
+  return twist;
 }
 
 void Session::Offer(MapUpdate update, uint32_t epoch) {

@@ -257,6 +257,20 @@ TEST_F(SessionTest, BeginsAnewOnGroundThatTheMapDoesNotKnow) {
   EXPECT_NEAR(pose.odom_from_base.translation.x(), 0.3 * 8, 0.1);
 }
 
+TEST_F(SessionTest, OfABaseWhoseSpeedWasNeverSeenItIsNotSureWhereItHasGone) {
+  Step(0);
+  const TexturedWall elsewhere(2);
+  SessionUpdate pose;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(pose.epoch, i == 0 ? 0u : 1u);
+    pose = Step(0, 0, false,
+                [&](StereoImages& images) { images = elsewhere.Render(images.stamp_s, Rigid3()); });
+  }
+  ASSERT_TRUE(pose.IsTracked()) << pose.text;
+  EXPECT_EQ(pose.epoch, 2u);
+  EXPECT_GT(std::sqrt(pose.covariance(0, 0)), 1) << "0.3 s at any speed";
+}
+
 TEST_F(SessionTest, RowsThatTheCalibrationHasElsewhereDoNotTiltThePose) {
   const auto shift_rows = [](StereoImages& images) {
     const cv::Matx23f two_down(1, 0, 0, 0, 1, 2);

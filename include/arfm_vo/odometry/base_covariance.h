@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "arfm_vo/geometry/rigid3.h"
 
@@ -17,8 +18,9 @@ constexpr double kUnknownVariance = 9999;
 Matrix6 BaseCovariance(const Matrix6& camera_covariance, const Rigid3& base_from_camera);
 
 /// Covariance (of DriftCovariance) of how far a base may be from where `twist` would have brought
-/// it without a picture: it may stop, or go twice as fast, within a second.
-Matrix6 GapCovariance(const Twist& twist, double gap_s);
+/// it without a picture: it may stop, or go twice as fast, within a second. Where its speed was
+/// never seen it may have any that a vehicle has.
+Matrix6 GapCovariance(const std::optional<Twist>& twist, double gap_s);
 
 /// How sure the odometry is of where the base stands in odom, over worlds that follow one another:
 /// what was unsure when a world began stays, and an unsure heading makes the place unsure with the

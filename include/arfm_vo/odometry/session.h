@@ -76,7 +76,7 @@ class Session {
     double stamp_s;
     Rigid3 odom_from_base;
     Matrix6 covariance;
-    Twist twist;
+    std::optional<Twist> twist;  ///< since the pose before, where that was in the same map
   };
   struct NewMap {
     Tracked before;  ///< the last pose in the map before
@@ -91,7 +91,7 @@ class Session {
   bool IsOnNewGround(const FrameOnRequest& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
   PlacedKeyframe NewestKeyframe(const Rigid3& base_from_camera) const;
-  void SetTwist(const Matrix6& base_covariance, SessionUpdate& pose) const;
+  std::optional<Twist> TwistSinceLast(const SessionUpdate& pose) const;
 
   LocalOdometryOptions options_;
   uint32_t epoch_;
