@@ -138,7 +138,7 @@ void LocalOdometry::Implementation::Continue(const StereoFrame& frame, const Ste
     update.pose = tracked.pose;
     standstill_.Reset();
     skew_.Interrupt();
-    Recover(frame, update);
+    Recover(frame, predicted, update);
     return;
   }
   Accept(std::move(tracked), predicted, update);

@@ -47,7 +47,8 @@ class LocalOdometry::Implementation {
   /// much to be chance.
   void RemoveFixed(const Rigid3& camera_from_world, StereoFrame& frame);
   /// Looks for a frame that the map does not know among older keyframes, and goes on from there.
-  void Recover(const StereoFrame& frame, OdometryUpdate& update);
+  void Recover(const StereoFrame& frame, const std::optional<PredictedPose>& predicted,
+               OdometryUpdate& update);
   void Retire(const Keyframe& keyframe);
   void AddKeyframe(const StereoFrame& frame, const StereoImages& images,
                    const OdometryUpdate& update);

@@ -52,10 +52,12 @@ void LocalOdometry::Implementation::Start(const StereoFrame& frame, OdometryUpda
   update.is_keyframe = true;
 }
 
-void LocalOdometry::Implementation::Recover(const StereoFrame& frame, OdometryUpdate& update) {
+void LocalOdometry::Implementation::Recover(const StereoFrame& frame,
+                                            const std::optional<PredictedPose>& predicted,
+                                            OdometryUpdate& update) {
   if (!update.can_start) return;
   const auto place = archive_.Find(frame, correction_.mean);
-  if (!place) return;
+  if (!place || (predicted && !predicted->IsWithinGap(place->pose.camera_from_world))) return;
   for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
   map_.Clear();
   update.pose = place->pose;

@@ -1,5 +1,6 @@
 #include "arfm_vo/odometry/session.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -58,9 +59,12 @@ SessionUpdate Session::Process(const FrameOnRequest& frame, const StereoCamera& 
 
 void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
                     const Rigid3& base_from_camera, SessionUpdate& pose) {
-  if (last_ && frame.stamp_s() - last_->stamp_s > kMaxBridge_s) motion_.ForgetSpeed();
   std::optional<PredictedPose> predicted;
   if (options_.predict_motion) predicted = motion_.Predict(frame.stamp_s(), base_from_camera);
+  if (predicted && last_) {
+    const double gap_s = frame.stamp_s() - last_->stamp_s;
+    predicted->gap_sigma_m = std::sqrt(GapCovariance(last_->twist, gap_s)(0, 0));
+  }
   pose.epoch = epoch_;
   pose.odom_from_base = base_.odom_from_base();
   pose.update = odometry_->Process(frame, images, predicted);
@@ -83,8 +87,9 @@ void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
   gap_by_senses_.reset();
   if (!last_ || !base_.has_world()) return;
   const double stamp_s = pose.update.stamp_s;
-  const auto by_senses = motion_.BySenses(stamp_s);
-  if (!by_senses && !motion_.KnowsSpeed()) return;
+  const bool keeps_speed = motion_.KnowsSpeed() && stamp_s - last_->stamp_s <= kMaxBridge_s;
+  const auto by_senses = motion_.BySenses(stamp_s, keeps_speed);
+  if (!by_senses && !keeps_speed) return;
   PoseEstimate& estimate = pose.update.pose;
   estimate.status = PoseStatus::kDegraded;
   estimate.num_inliers = 0;

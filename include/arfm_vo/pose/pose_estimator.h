@@ -40,11 +40,19 @@ struct PredictedPose {
   /// How far it is as a rule.
   double sigma_shift_m = std::numeric_limits<double>::infinity();
   double sigma_turn_rad = std::numeric_limits<double>::infinity();
+  /// How far the centre may have gone from there, along each axis, whatever has happened since a
+  /// picture told last: standard deviation, m.
+  double gap_sigma_m = std::numeric_limits<double>::infinity();
 
   PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
   bool Allows(const Rigid3& other_camera_from_world) const {
     const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
     return between.translation.norm() <= max_shift_m && between.Angle() <= max_turn_rad;
+  }
+  /// Whether the centre may have come to that of `other` (three axes: with 99.9 %).
+  bool IsWithinGap(const Rigid3& other_camera_from_world) const {
+    const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
+    return between.translation.norm() <= 4 * gap_sigma_m;
   }
   /// How much likelier `other` is by the motion before than an unusual change of it, in logarithms;
   /// 0 where that motion is not known.

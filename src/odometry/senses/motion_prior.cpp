@@ -56,11 +56,11 @@ std::optional<RelativeMotion> MotionPrior::SinceLast(double stamp_s) const {
                          speed_sigma_m_s);
 }
 
-std::optional<RelativeMotion> MotionPrior::BySenses(double stamp_s) const {
+std::optional<RelativeMotion> MotionPrior::BySenses(double stamp_s, bool keeps_speed) const {
   auto motion = SinceLast(stamp_s);
   if (!motion) return std::nullopt;
   const bool is_whole =
-      motion->is_way_measured ? motion->way_m <= senses_.options().max_blind_m : KnowsSpeed();
+      motion->is_way_measured ? motion->way_m <= senses_.options().max_blind_m : keeps_speed;
   return is_whole ? motion : std::nullopt;
 }
 

@@ -109,7 +109,7 @@ TEST(Senses, TracksThatAreTooLongAreNamed) {
 
 TEST(Senses, BiasAndSlipAreLearnt) {
   Rover rover(SensedDriveOptions::WithSeed(1));
-  EXPECT_FALSE(rover.prior().BySenses(0));
+  EXPECT_FALSE(rover.prior().BySenses(0, true));
   rover.DriveFar(20);
   const Senses& senses = rover.prior().senses();
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(senses.gyro().state().mean()[axis], 0.01, 1e-3);
@@ -134,7 +134,7 @@ Blind DriveBlind(const SensesOptions& use) {
       const Rigid3 before = rover.drive().WorldFromBase();
       const double driven_m = rover.drive().driven_m();
       rover.DriveOn(5);
-      const auto motion = rover.prior().BySenses(rover.drive().now_s());
+      const auto motion = rover.prior().BySenses(rover.drive().now_s(), true);
       if (!motion) return {1e9, 1e9};
       const Rigid3 error =
           motion->before_from_now.Inverse() * before.Inverse() * rover.drive().WorldFromBase();
@@ -164,7 +164,7 @@ TEST(Senses, TracksCarryThePoseForABoundedWay) {
   const double driven_m = rover.drive().driven_m();
   do {
     rover.DriveOn(kPairPeriod_s);
-  } while (rover.prior().BySenses(rover.drive().now_s()));
+  } while (rover.prior().BySenses(rover.drive().now_s(), true));
   EXPECT_NEAR(rover.drive().driven_m() - driven_m, 2, 0.15);
   EXPECT_TRUE(rover.prior().Predict(rover.drive().now_s(), {}));  // where to look, all the same
 }
@@ -173,7 +173,7 @@ TEST(Senses, AGyroAloneTurnsTheLastSpeed) {
   Rover rover(SensedDriveOptions::WithSeed(1), Use(false, true));
   rover.DriveFar(5);
   rover.DriveOn(0.5);
-  const auto motion = rover.prior().BySenses(rover.drive().now_s());
+  const auto motion = rover.prior().BySenses(rover.drive().now_s(), true);
   ASSERT_TRUE(motion);
   EXPECT_FALSE(motion->is_way_measured);
   EXPECT_STREQ(motion->by, "the gyro tells the turn, and the last speed is kept");

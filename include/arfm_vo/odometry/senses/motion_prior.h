@@ -21,8 +21,6 @@ class MotionPrior {
 
   /// A pose that a picture told, with the covariance of BaseCovariance.
   void Add(double stamp_s, const Rigid3& base_from_world, const Matrix6& covariance);
-  /// The speed of before is too old to go on with.
-  void ForgetSpeed() { model_.Reset(); }
   /// How the base comes to the next pose is not known.
   void Reset() {
     model_.Reset();
@@ -36,8 +34,8 @@ class MotionPrior {
 
   bool KnowsSpeed() const { return model_.KnowsSpeed(); }
   /// The motion since the last pose by the senses, where these tell all of it: tracks, or a gyro
-  /// and the speed before.
-  std::optional<RelativeMotion> BySenses(double stamp_s) const;
+  /// where the base `keeps_speed`.
+  std::optional<RelativeMotion> BySenses(double stamp_s, bool keeps_speed) const;
   /// Where a camera on the base may be.
   std::optional<PredictedPose> Predict(double stamp_s, const Rigid3& base_from_camera) const;
 
