@@ -21,12 +21,12 @@ constexpr int kLoopInterval = 3;
 constexpr double kMinVariance = 1e-10;
 
 /// A loop is seen from many keyframes: one in which most of what looks alike does not agree can be
-/// left out, which costs a sixteenth of the samples. How many must agree the false alarms decide.
+/// left out, which costs an eighth of the samples. How many must agree the false alarms decide.
 PoseEstimatorOptions LoopPose() {
   PoseEstimatorOptions options = RecognitionPose();
   options.min_inliers = PoseEstimatorOptions().min_inliers;
   options.min_inlier_share = 0.5;
-  options.ransac.max_iterations = 110;
+  options.ransac.max_iterations = 52;
   return options;
 }
 
