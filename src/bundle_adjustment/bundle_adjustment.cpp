@@ -15,7 +15,6 @@ void BundleOptions::Check() const {
   Require(max_iterations >= 1, "bundle.max_iterations must be at least 1");
   Require(function_tolerance >= 0, "bundle.function_tolerance must not be negative");
   Require(max_time_s > 0, "bundle.max_time_s must be positive");
-  Require(num_threads >= 1, "bundle.num_threads must be at least 1");
   Require(max_time_share > 0 && max_time_share <= 1, "bundle.max_time_share must be in (0, 1]");
 }
 

@@ -46,15 +46,16 @@ bool ReprojectionModel::Evaluate(const BundleObservation& observation,
   const Eigen::Vector3d x = rotation * point + translation;
   residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(x.z() > kMinDepth)) return false;
-  const double inverse_sigma = 1 / observation.sigma_px;
+  const double inverse_sigma = 1 / double{observation.sigma_px};
+  const Eigen::Vector4d pixels = observation.Pixels();
   const Eigen::Vector3d rectified = camera_.ProjectStereo(x);
   Eigen::Vector2d left = rectified.head<2>();
   if (is_displaced_) left += correction_.AtLeft(camera_, left);
-  residual.head<2>() = inverse_sigma * (left - observation.pixels.head<2>());
+  residual.head<2>() = inverse_sigma * (left - pixels.head<2>());
   if (!observation.has_right) return true;
   Eigen::Vector2d right(rectified.z(), rectified.y());
   if (is_displaced_) right += correction_.AtRight(camera_, right);
-  residual.tail<2>() = inverse_sigma * (right - observation.pixels.tail<2>());
+  residual.tail<2>() = inverse_sigma * (right - pixels.tail<2>());
   return true;
 }
 
@@ -68,10 +69,10 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
   term.by_radial.setZero();
   term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(term.x.z() > kMinDepth)) return false;
-  const double inverse_sigma = 1 / observation.sigma_px, inverse_z = 1 / term.x.z();
+  const double inverse_sigma = 1 / double{observation.sigma_px}, inverse_z = 1 / term.x.z();
   const double fx = camera_.fx * inverse_sigma, fy = camera_.fy * inverse_sigma;
   const double x_z = term.x.x() * inverse_z, y_z = term.x.y() * inverse_z;
-  const Eigen::Vector4d& pixels = observation.pixels;
+  const Eigen::Vector4d pixels = observation.Pixels();
   // The two rows from `row` on, of the image whose ray is (ray_x, y_z).
   const auto project = [&](double ray_x, int row) {
     term.residual[row] = fx * ray_x - (pixels[row] - camera_.cx) * inverse_sigma;

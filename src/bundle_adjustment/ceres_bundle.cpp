@@ -77,7 +77,6 @@ class CeresBundle {
     options.max_num_iterations = options_.max_iterations;
     options.function_tolerance = options_.function_tolerance;
     options.max_solver_time_in_seconds = options_.max_time_s;
-    options.num_threads = options_.num_threads;
     options.logging_type = ceres::SILENT;
     options.linear_solver_ordering = ordering_;
     ProgressCallback progress(callback);

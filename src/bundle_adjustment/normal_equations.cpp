@@ -4,23 +4,6 @@
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
-namespace {
-
-/// Below this many tracks the pieces are not worth their sums.
-constexpr int kMinTracksToSplit = 4000;
-constexpr int kNumPieces = 4;
-
-/// [x]x m
-Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& x, const Eigen::Matrix3d& m) {
-  Eigen::Matrix3d product;
-  product.row(0) = x.y() * m.row(2) - x.z() * m.row(1);
-  product.row(1) = x.z() * m.row(0) - x.x() * m.row(2);
-  product.row(2) = x.x() * m.row(1) - x.y() * m.row(0);
-  return product;
-}
-
-}  // namespace
-
 NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelection& selection,
                                  const BundleStructure& structure, const BundleOptions& options)
     : problem_(problem),
@@ -28,60 +11,43 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       structure_(structure),
       losses_{RobustLoss(options.loss, kBundleLossThreshold, 2),
               RobustLoss(options.loss, kBundleLossThreshold, 4)},
-      num_threads_(options.num_threads),
       max_time_share_(options.max_time_share),
       num_coefficients_(static_cast<int>(selection.correction_directions.cols())),
       solver_(structure.blocks, num_coefficients_),
-      sighting_blocks_(structure.sightings.size()),
+      sighting_terms_(structure.sightings.size()),
       point_blocks_(structure.tracks.size()),
       point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
-      point_rights_(structure.tracks.size()),
-      point_inverses_(structure.tracks.size()) {
+      point_rights_(structure.tracks.size()) {
   if (problem.correction_prior) prior_information_ = problem.correction_prior->Information();
-  const int64_t num_tracks = static_cast<int64_t>(structure.tracks.size());
-  pieces_.resize(num_tracks < kMinTracksToSplit ? 1 : kNumPieces);
-  const int64_t count = static_cast<int64_t>(pieces_.size());
-  for (int64_t i = 0; i < count; ++i) {
-    pieces_[i].first_track = static_cast<int>(i * num_tracks / count);
-    pieces_[i].last_track = static_cast<int>((i + 1) * num_tracks / count);
-  }
 }
 
 double NormalEquations::Linearize(const BundleState& state) {
   rotations_.clear();
   for (const Rigid3& pose : state.camera_from_world) rotations_.push_back(pose.RotationMatrix());
-  ForEachPiece([&](Piece& piece) { LinearizePiece(state, piece); });
+  const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
   held_.SetZero(structure_.blocks, num_coefficients_);
   double cost = 0;
-  for (const Piece& piece : pieces_) {
-    held_ += piece.sum;
-    cost += piece.cost;
-  }
-  return cost + AddConstraints(state) + AddPrior(state);
-}
-
-void NormalEquations::LinearizePiece(const BundleState& state, Piece& piece) {
-  const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
-  piece.sum.SetZero(structure_.blocks, num_coefficients_);
-  piece.cost = 0;
   Pacer pacer(max_time_share_);
-  for (int track = piece.first_track; track < piece.last_track; ++track) {
+  for (int track = 0; track < static_cast<int>(structure_.tracks.size()); ++track) {
     pacer.Pause();
     point_blocks_[track].setZero();
     if (num_coefficients_ > 0) point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
-      LinearizeSighting(model, state, track, i, piece);
+      cost += LinearizeSighting(model, state, track, i);
     }
   }
+  return cost + AddConstraints(state) + AddPrior(state);
 }
 
-void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const BundleState& state,
-                                        int track, int index, Piece& piece) {
+double NormalEquations::LinearizeSighting(const ReprojectionModel& model, const BundleState& state,
+                                          int track, int index) {
   const BundleStructure::Sighting& sighting = structure_.sightings[index];
   const Eigen::Matrix3d& rotation = rotations_[sighting.pose];
   const int free_pose = sighting.free_pose;
-  sighting_blocks_[index].setZero();
+  SightingTerm& tie = sighting_terms_[index];
+  tie = {};
+  double cost = 0;
   for (int i = sighting.first; i < sighting.last; ++i) {
     const BundleObservation& observation = structure_.observations[i];
     ReprojectionTerm term;
@@ -89,7 +55,7 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
                     state.points[observation.point], term);
     const RobustLoss& loss = losses_[observation.has_right];
     const double s = term.residual.squaredNorm();
-    piece.cost += loss.Rho(s);
+    cost += loss.Rho(s);
     const double weight = loss.Weight(s);
 
     // With A the derivative by x, J_point = A R and J_pose = A (-[x]x, I).
@@ -100,27 +66,27 @@ void NormalEquations::LinearizeSighting(const ReprojectionModel& model, const Bu
     point_rights_[track] += rotation.transpose().lazyProduct(pull);
     if (free_pose != BundleStructure::kFixed) {
       const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
-      Matrix6d& block = piece.sum.blocks[structure_.blocks.row_begin[free_pose]];
+      Matrix6d& block = held_.blocks[structure_.blocks.row_begin[free_pose]];
       block.topLeftCorner<3, 3>() += CrossColumns(term.x, x_m.transpose());
       block.topRightCorner<3, 3>() += x_m;
       block.bottomRightCorner<3, 3>() += m;
-      piece.sum.right[free_pose].head<3>() += term.x.cross(pull);
-      piece.sum.right[free_pose].tail<3>() += pull;
-      sighting_blocks_[index].topRows<3>() += CrossColumns(term.x, m_r);
-      sighting_blocks_[index].bottomRows<3>() += m_r;
+      held_.right[free_pose].head<3>() += term.x.cross(pull);
+      held_.right[free_pose].tail<3>() += pull;
     }
+    tie.x = term.x;
+    tie.Add(m);
     if (num_coefficients_ == 0) continue;
     if (problem_.correction_turns) {
-      LinearizeByTurns(term, weight, rotation, track, free_pose, piece);
+      LinearizeByTurns(term, weight, rotation, track, free_pose);
     } else {
-      LinearizeByCorrection(term, weight, rotation, track, free_pose, piece);
+      LinearizeByCorrection(term, weight, rotation, track, free_pose);
     }
   }
+  return cost;
 }
 
 void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weight,
-                                       const Eigen::Matrix3d& rotation, int track, int free_pose,
-                                       Piece& piece) {
+                                       const Eigen::Matrix3d& rotation, int track, int free_pose) {
   constexpr int kNumField = StereoCorrection::kNumField;
   const CorrectionBelief::Turns& turns = *problem_.correction_turns;
   Eigen::Matrix<double, 3, 2> by_turn;  // of (u_right, v_right), transposed
@@ -129,16 +95,16 @@ void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weig
   const Eigen::Matrix<double, 3, 2> weighted = weight * by_turn;
   const Eigen::Matrix3d by_x = term.by_x.bottomRows<2>().transpose() * weighted.transpose();
   point_borders_[track].leftCols<3>().noalias() += rotation.transpose() * by_x;
-  piece.sum.corner.topLeftCorner<3, 3>().noalias() += weighted * by_turn.transpose();
-  piece.sum.corner_right.head<3>().noalias() -= weighted * term.residual.tail<2>();
+  held_.corner.topLeftCorner<3, 3>().noalias() += weighted * by_turn.transpose();
+  held_.corner_right.head<3>().noalias() -= weighted * term.residual.tail<2>();
   if (free_pose == BundleStructure::kFixed) return;
-  piece.sum.border[free_pose].block<3, 3>(0, 0) += CrossColumns(term.x, by_x);
-  piece.sum.border[free_pose].block<3, 3>(3, 0) += by_x;
+  held_.border[free_pose].block<3, 3>(0, 0) += CrossColumns(term.x, by_x);
+  held_.border[free_pose].block<3, 3>(3, 0) += by_x;
 }
 
 void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                                             const Eigen::Matrix3d& rotation, int track,
-                                            int free_pose, Piece& piece) {
+                                            int free_pose) {
   constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
   const auto& field = term.right_by_field;
   const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
@@ -149,27 +115,26 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
     const Eigen::Vector3d by_x = weighted.row(row);
     point_borders_[track].middleCols<kNumField>(first).noalias() +=
         (rotation.transpose() * by_x) * field.transpose();
-    piece.sum.corner.block<kNumField, kNumField>(first, first) += corner;
-    piece.sum.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
+    held_.corner.block<kNumField, kNumField>(first, first) += corner;
+    held_.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
     const Eigen::Matrix<double, kNumField, kNumRadial> mixed =
         weight * field * term.by_radial.row(row);
-    piece.sum.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
-    piece.sum.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
+    held_.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
+    held_.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
     if (free_pose == BundleStructure::kFixed) continue;
     Vector6d by_pose;
     by_pose << term.x.cross(by_x), by_x;
-    piece.sum.border[free_pose].middleCols<kNumField>(first).noalias() +=
-        by_pose * field.transpose();
+    held_.border[free_pose].middleCols<kNumField>(first).noalias() += by_pose * field.transpose();
   }
   const Eigen::Matrix<double, 3, kNumRadial> by_x = weighted.transpose() * term.by_radial;
   point_borders_[track].middleCols<kNumRadial>(kNumField).noalias() += rotation.transpose() * by_x;
-  piece.sum.corner.block<kNumRadial, kNumRadial>(kNumField, kNumField) +=
+  held_.corner.block<kNumRadial, kNumRadial>(kNumField, kNumField) +=
       weight * term.by_radial.transpose() * term.by_radial;
-  piece.sum.corner_right.segment<kNumRadial>(kNumField) -=
+  held_.corner_right.segment<kNumRadial>(kNumField) -=
       weight * term.by_radial.transpose() * term.residual;
   if (free_pose == BundleStructure::kFixed) return;
-  piece.sum.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
-  piece.sum.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
+  held_.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
+  held_.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
 }
 
 double NormalEquations::AddConstraints(const BundleState& state) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
@@ -17,6 +16,15 @@ struct BundleState {
   StereoCorrection correction;
 };
 
+/// [x]x m
+inline Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& x, const Eigen::Matrix3d& m) {
+  Eigen::Matrix3d product;
+  product.row(0) = x.y() * m.row(2) - x.z() * m.row(1);
+  product.row(1) = x.z() * m.row(0) - x.x() * m.row(2);
+  product.row(2) = x.x() * m.row(1) - x.y() * m.row(0);
+  return product;
+}
+
 /// The step of all unknowns, and what the linear model promises of it.
 struct BundleStep {
   Eigen::VectorXd reduced;              ///< six a free pose, then the correction's
@@ -25,8 +33,7 @@ struct BundleStep {
 };
 
 /// Gauss-Newton equations of a bundle with robust weights (IRLS), solved by eliminating the points
-/// (the Schur complement; Triggs et al. 2000, 6.1). Points are dealt out to threads in pieces that
-/// do not depend on the number of threads, so the result does not either.
+/// (the Schur complement; Triggs et al. 2000, 6.1).
 class NormalEquations {
  public:
   NormalEquations(const BundleProblem& problem, const BundleSelection& selection,
@@ -48,45 +55,53 @@ class NormalEquations {
   const std::vector<Eigen::Matrix3d>& point_blocks() const { return point_blocks_; }
 
  private:
-  struct Piece {
-    int first_track = 0, last_track = 0;
-    double cost = 0;
-    ReducedSystem sum;
+  /// What ties a pose to a point that it sees: J_pose^T W J_point = ([x]x, I) m R, with m the sum
+  /// of A^T W A over the observations, A their derivatives by x = R X + t.
+  struct SightingTerm {
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< m, camera frame
+    Vector6d upper = Vector6d::Zero();            ///< of m: xx, xy, yy, xz, yz, zz
+
+    void Add(const Eigen::Matrix3d& m) {
+      upper += (Vector6d() << m(0, 0), m(0, 1), m(1, 1), m(0, 2), m(1, 2), m(2, 2)).finished();
+    }
+    Eigen::Matrix3d M() const {
+      Eigen::Matrix3d m;
+      m << upper[0], upper[1], upper[3], upper[1], upper[2], upper[4], upper[3], upper[4], upper[5];
+      return m;
+    }
   };
-  void ForEachPiece(const std::function<void(Piece&)>& work);
-  void LinearizePiece(const BundleState& state, Piece& piece);
-  void LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
-                         int index, Piece& piece);
+  using PoseByPoint = Eigen::Matrix<double, 6, 3>;
+
+  double LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
+                           int index);
   void LinearizeByTurns(const ReprojectionTerm& term, double weight,
-                        const Eigen::Matrix3d& rotation, int track, int free_pose, Piece& piece);
+                        const Eigen::Matrix3d& rotation, int track, int free_pose);
   void LinearizeByCorrection(const ReprojectionTerm& term, double weight,
-                             const Eigen::Matrix3d& rotation, int track, int free_pose,
-                             Piece& piece);
-  void EliminatePiece(double damping, Piece& piece);
+                             const Eigen::Matrix3d& rotation, int track, int free_pose);
+  void EliminatePoint(int track, double damping);
   double AddConstraints(const BundleState& state);
   double AddPrior(const BundleState& state);
   void Damp(double damping);
-  void FindPointSteps(BundleStep& step) const;
+  Eigen::Matrix3d DampedInverse(int track, double damping) const;
+  void FindPointSteps(double damping, BundleStep& step) const;
   void MeasureStep(double damping, BundleStep& step) const;
 
   const BundleProblem& problem_;
   const BundleSelection& selection_;
   const BundleStructure& structure_;
   const RobustLoss losses_[2];  ///< without and with a right pixel
-  const int num_threads_;
   const double max_time_share_;
   const int num_coefficients_;  ///< of the correction that are free
   CorrectionBelief::Matrix prior_information_ = CorrectionBelief::Matrix::Zero();
   ReducedSolver solver_;
-  std::vector<Piece> pieces_;
-  std::vector<Eigen::Matrix3d> rotations_;                    ///< [poses]
-  ReducedSystem held_;                                        ///< equations with the points held
-  ReducedSystem reduced_;                                     ///< with the points eliminated
-  std::vector<Eigen::Matrix<double, 6, 3>> sighting_blocks_;  ///< poses by points
-  std::vector<Eigen::Matrix3d> point_blocks_;                 ///< points by points
-  std::vector<BorderMatrix<3>> point_borders_;   ///< points by correction, where it is free
-  std::vector<Eigen::Vector3d> point_rights_;    ///< of b
-  std::vector<Eigen::Matrix3d> point_inverses_;  ///< of the damped point blocks
+  std::vector<Eigen::Matrix3d> rotations_;      ///< [poses]
+  ReducedSystem held_;                          ///< equations with the points held
+  ReducedSystem reduced_;                       ///< with the points eliminated
+  std::vector<SightingTerm> sighting_terms_;    ///< poses by points
+  std::vector<Eigen::Matrix3d> point_blocks_;   ///< points by points
+  std::vector<BorderMatrix<3>> point_borders_;  ///< points by correction, where it is free
+  std::vector<Eigen::Vector3d> point_rights_;   ///< of b
+  std::vector<PoseByPoint> track_blocks_;       ///< of the point that is being eliminated
 };
 
 }  // namespace arfm_vo

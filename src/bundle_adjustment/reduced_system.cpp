@@ -1,19 +1,6 @@
 #include "reduced_system.h"
 
 namespace arfm_vo {
-namespace {
-
-template <class Operation>
-void ForEachPart(ReducedSystem& a, const ReducedSystem& b, Operation&& operation) {
-  for (size_t i = 0; i < a.blocks.size(); ++i) operation(a.blocks[i], b.blocks[i]);
-  for (size_t i = 0; i < a.right.size(); ++i) operation(a.right[i], b.right[i]);
-  for (size_t i = 0; i < a.border.size(); ++i) operation(a.border[i], b.border[i]);
-  operation(a.corner, b.corner);
-  operation(a.corner_right, b.corner_right);
-}
-
-}  // namespace
-
 void ReducedSystem::SetZero(const BlockPattern& pattern, int num_coefficients) {
   blocks.assign(pattern.columns.size(), Matrix6d::Zero());
   right.assign(pattern.num_rows(), Vector6d::Zero());
@@ -34,16 +21,6 @@ void ReducedSystem::Add(const ConstraintTerm& term, const Matrix6d& information,
           jacobians[i]->transpose() * information * *jacobians[j];
     }
   }
-}
-
-ReducedSystem& ReducedSystem::operator+=(const ReducedSystem& other) {
-  ForEachPart(*this, other, [](auto& a, const auto& b) { a += b; });
-  return *this;
-}
-
-ReducedSystem& ReducedSystem::operator-=(const ReducedSystem& other) {
-  ForEachPart(*this, other, [](auto& a, const auto& b) { a -= b; });
-  return *this;
 }
 
 ReducedSolver::ReducedSolver(const BlockPattern& pattern, int num_coefficients)

@@ -31,8 +31,6 @@ struct ReducedSystem {
   /// Adds what a constraint between the poses of two rows says; a row below 0: its pose is fixed.
   void Add(const ConstraintTerm& term, const Matrix6d& information, const std::array<int, 2>& rows,
            const BlockPattern& pattern);
-  ReducedSystem& operator+=(const ReducedSystem& other);
-  ReducedSystem& operator-=(const ReducedSystem& other);
 };
 
 /// Factorises reduced systems of one pattern, the correction after the poses.

@@ -1,6 +1,5 @@
 #include <Eigen/LU>
 #include <algorithm>
-#include <thread>
 
 #include "arfm_vo/base/pacer.h"
 #include "arfm_vo/geometry/screw_motion.h"
@@ -20,23 +19,14 @@ void DampDiagonal(double damping, Block& block) {
 
 }  // namespace
 
-void NormalEquations::ForEachPiece(const std::function<void(Piece&)>& work) {
-  const int num_pieces = static_cast<int>(pieces_.size());
-  const int num_threads = std::min(num_threads_, num_pieces);
-  const auto run = [&](int thread) {
-    for (int i = thread; i < num_pieces; i += num_threads) work(pieces_[i]);
-  };
-  std::vector<std::thread> others;
-  for (int thread = 1; thread < num_threads; ++thread) others.emplace_back(run, thread);
-  run(0);
-  for (std::thread& other : others) other.join();
-}
-
 const ReducedSystem& NormalEquations::EliminatePoints(double damping) {
-  ForEachPiece([&](Piece& piece) { EliminatePiece(damping, piece); });
   reduced_ = held_;
   Damp(damping);
-  for (const Piece& piece : pieces_) reduced_ -= piece.sum;
+  Pacer pacer(max_time_share_);
+  for (int track = 0; track < static_cast<int>(structure_.tracks.size()); ++track) {
+    pacer.Pause();
+    EliminatePoint(track, damping);
+  }
   return reduced_;
 }
 
@@ -47,7 +37,7 @@ bool NormalEquations::Solve(double damping, BundleStep& step) {
   pacer.Pause();
   step.reduced = solver_.SolveFor(reduced_);
   if (!step.reduced.allFinite()) return false;
-  FindPointSteps(step);
+  FindPointSteps(damping, step);
   MeasureStep(damping, step);
   pacer.Pause();
   return true;
@@ -60,51 +50,58 @@ void NormalEquations::Damp(double damping) {
   DampDiagonal(damping, reduced_.corner);
 }
 
-void NormalEquations::EliminatePiece(double damping, Piece& piece) {
-  piece.sum.SetZero(structure_.blocks, num_coefficients_);
-  const bool with_correction = num_coefficients_ > 0;
-  Pacer pacer(max_time_share_);
-  for (int track = piece.first_track; track < piece.last_track; ++track) {
-    pacer.Pause();
-    Eigen::Matrix3d damped = point_blocks_[track];
-    DampDiagonal(damping, damped);
-    const Eigen::Matrix3d inverse = damped.inverse();
-    point_inverses_[track] = inverse;
-    const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
-    const int last = structure_.tracks[track].last;
-    for (int i = structure_.tracks[track].first; i < last; ++i) {
-      const int row = structure_.sightings[i].free_pose;
-      if (row == BundleStructure::kFixed) continue;
-      piece.sum.right[row].noalias() += sighting_blocks_[i] * inverse_right;
-      const Eigen::Matrix<double, 6, 3> product = sighting_blocks_[i] * inverse;
-      int block = structure_.blocks.row_begin[row];
-      for (int j = i; j < last; ++j) {
-        const int column = structure_.sightings[j].free_pose;
-        if (column == BundleStructure::kFixed) continue;
-        block = structure_.blocks.Find(row, column, block);
-        piece.sum.blocks[block].noalias() += product * sighting_blocks_[j].transpose();
-      }
-      if (with_correction) piece.sum.border[row] += product.lazyProduct(point_borders_[track]);
-    }
-    if (!with_correction) continue;
-    const BorderMatrix<3> product = inverse * point_borders_[track];
-    piece.sum.corner += point_borders_[track].transpose().lazyProduct(product);
-    piece.sum.corner_right.noalias() += point_borders_[track].transpose() * inverse_right;
-  }
+Eigen::Matrix3d NormalEquations::DampedInverse(int track, double damping) const {
+  Eigen::Matrix3d damped = point_blocks_[track];
+  DampDiagonal(damping, damped);
+  return damped.inverse();
 }
 
-void NormalEquations::FindPointSteps(BundleStep& step) const {
+void NormalEquations::EliminatePoint(int track, double damping) {
+  const bool with_correction = num_coefficients_ > 0;
+  const auto& [point, first, last] = structure_.tracks[track];
+  const Eigen::Matrix3d inverse = DampedInverse(track, damping);
+  const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
+  track_blocks_.resize(std::max<size_t>(track_blocks_.size(), last - first));
+  for (int i = first; i < last; ++i) {
+    const SightingTerm& term = sighting_terms_[i];
+    const Eigen::Matrix3d m_r = term.M().lazyProduct(rotations_[structure_.sightings[i].pose]);
+    track_blocks_[i - first] << CrossColumns(term.x, m_r), m_r;
+  }
+  for (int i = first; i < last; ++i) {
+    const int row = structure_.sightings[i].free_pose;
+    if (row == BundleStructure::kFixed) continue;
+    reduced_.right[row].noalias() -= track_blocks_[i - first] * inverse_right;
+    const PoseByPoint product = track_blocks_[i - first] * inverse;
+    int block = structure_.blocks.row_begin[row];
+    for (int j = i; j < last; ++j) {
+      const int column = structure_.sightings[j].free_pose;
+      if (column == BundleStructure::kFixed) continue;
+      block = structure_.blocks.Find(row, column, block);
+      reduced_.blocks[block].noalias() -= product * track_blocks_[j - first].transpose();
+    }
+    if (with_correction) reduced_.border[row] -= product.lazyProduct(point_borders_[track]);
+  }
+  if (!with_correction) return;
+  const BorderMatrix<3> product = inverse * point_borders_[track];
+  reduced_.corner -= point_borders_[track].transpose().lazyProduct(product);
+  reduced_.corner_right.noalias() -= point_borders_[track].transpose() * inverse_right;
+}
+
+void NormalEquations::FindPointSteps(double damping, BundleStep& step) const {
   step.points.resize(structure_.tracks.size());
   const CornerVector correction = step.reduced.tail(num_coefficients_);
-  for (size_t track = 0; track < structure_.tracks.size(); ++track) {
+  for (int track = 0; track < static_cast<int>(structure_.tracks.size()); ++track) {
     Eigen::Vector3d right = point_rights_[track];
     if (num_coefficients_ > 0) right -= point_borders_[track] * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
-      const int pose = structure_.sightings[i].free_pose;
-      if (pose == BundleStructure::kFixed) continue;
-      right.noalias() -= sighting_blocks_[i].transpose() * step.reduced.segment<6>(6 * pose);
+      const auto& [pose, free_pose, from, to] = structure_.sightings[i];
+      if (free_pose == BundleStructure::kFixed) continue;
+      const Eigen::Vector3d turn = step.reduced.segment<3>(6 * free_pose);
+      const Eigen::Vector3d shift = step.reduced.segment<3>(6 * free_pose + 3);
+      const SightingTerm& term = sighting_terms_[i];
+      right.noalias() -= rotations_[pose].transpose() * (term.M() * (shift + turn.cross(term.x)));
     }
-    step.points[track] = point_inverses_[track] * right;
+    step.points[track] = DampedInverse(track, damping) * right;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -78,25 +79,16 @@ std::string FormatRun(const OdometryRun& run) {
 }
 
 std::string FormatTiming(const OdometryRun& run) {
-  std::vector<std::string> stages;
-  for (const StageTimes& times : run.stage_ms) {
-    for (const auto& [stage, ms] : times) {
-      if (std::find(stages.begin(), stages.end(), stage) == stages.end()) stages.push_back(stage);
-    }
-  }
   std::string text = "frame,stamp_s,total_ms,memory_mb,state,reason,log_odds,matches,inliers";
-  for (const std::string& stage : stages) text += "," + stage;
+  for (const auto& [stage, times_ms] : run.stage_ms) text += "," + stage;
   for (size_t i = 0; i < run.pair_ms.size(); ++i) {
     text += "\n" + std::to_string(i) + "," + FormatNumber(run.online[i].stamp_s, true);
     const PairState& state = run.states[i];
     text += Format(",%.3f,%.2f,%s,\"%s\",%.1f,%d,%d", run.pair_ms[i], run.memory_mb[i],
                    ToString(state.status), ToString(state.reason), state.log_odds,
                    state.num_matches, state.num_inliers);
-    for (const std::string& stage : stages) {
-      const auto found = std::find_if(run.stage_ms[i].begin(), run.stage_ms[i].end(),
-                                      [&](const auto& time) { return time.first == stage; });
-      text += found == run.stage_ms[i].end() ? "," : Format(",%.3f", found->second);
-    }
+    for (const auto& [stage, times_ms] : run.stage_ms)
+      text += std::isnan(times_ms[i]) ? "," : Format(",%.3f", times_ms[i]);
   }
   return text + "\n";
 }

@@ -116,7 +116,8 @@ std::optional<LandmarkObservation> LandmarkAligner::Align(const Landmark& landma
   }
   right.position -= shift;
   observation.pixels << left.position.x, left.position.y, right.position.x, right.position.y;
-  observation.sigma_px = std::max(options_.min_sigma_px, std::sqrt(0.5 * variance));
+  observation.sigma_px =
+      static_cast<float>(std::max(options_.min_sigma_px, std::sqrt(0.5 * variance)));
   return observation;
 }
 
@@ -140,7 +141,7 @@ std::optional<LandmarkObservation> LandmarkAligner::AlignCoarsely(
   observation.has_right = false;
   observation.pixels << size * found.position.x, size * found.position.y, 0, 0;
   const double sigma_px = std::sqrt(0.5 * (found.covariance[0] + found.covariance[2]));
-  observation.sigma_px = size * std::max(options_.min_sigma_px, sigma_px);
+  observation.sigma_px = static_cast<float>(size * std::max(options_.min_sigma_px, sigma_px));
   return observation;
 }
 

@@ -111,10 +111,10 @@ Landmark& LocalMap::AddLandmark(const StereoFrame& frame, const StereoPoint& poi
 
   LandmarkObservation observation;
   observation.landmark = landmark.id;
-  observation.pixels << point.observation.x(), point.observation.y(), point.observation.z(),
-      point.observation.y() + point.row_residual_px;
+  observation.pixels << point.observation.cast<float>(),
+      static_cast<float>(point.observation.y() + point.row_residual_px);
   observation.has_right = point.has_right;
-  observation.sigma_px = point.sigma_px;
+  observation.sigma_px = static_cast<float>(point.sigma_px);
   keyframe.observations.push_back(observation);
   return landmarks_.emplace_hint(landmarks_.end(), landmark.id, landmark)->second;
 }

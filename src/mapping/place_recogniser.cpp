@@ -56,7 +56,7 @@ double LogFalseAlarms(const StereoCamera& camera, const std::vector<PointObserva
                       const PoseEstimate& pose) {
   const double bounds[] = {ChiSquareQuantile(2, kInlierProbability),
                            ChiSquareQuantile(3, kInlierProbability)};
-  const int num_matches = static_cast<int>(matches.size()), size = RecognitionPose().sample_size;
+  const int num_matches = static_cast<int>(matches.size()), size = kSamplePoints;
   double num_alike = 1;
   for (const PointObservation& match : matches) {
     const Eigen::Vector3d x = pose.camera_from_world * match.x_in_world;
@@ -76,8 +76,7 @@ PoseEstimatorOptions RecognitionPose() {
   PoseEstimatorOptions options;
   options.min_inliers = 25;
   options.min_inlier_share = 0.25;
-  options.sample_size = 4;
-  options.ransac.max_iterations = 1800;  // finds a quarter that agrees at a probability of 0.999
+  options.ransac.max_iterations = 450;  // finds a quarter that agrees at a probability of 0.999
   return options;
 }
 

@@ -38,7 +38,7 @@ double MedianRowResidual(const StereoPoints& points) {
 double MedianRowResidual(const LandmarkObservations& observations) {
   std::vector<double> residuals;
   for (const LandmarkObservation& observation : observations) {
-    const Eigen::Vector4d& seen = observation.pixels;
+    const Eigen::Vector4d seen = observation.Pixels();
     if (observation.has_right) residuals.push_back(seen.w() - seen.y());
   }
   return Median(std::move(residuals));

@@ -68,7 +68,7 @@ void EyeSkewEstimator::Add(const LocalMap& map, const OdometryUpdate& update) {
     const Eigen::Vector3d now = camera_from_world * x, before = last_->camera_from_world * x;
     if (std::min(now.z(), before.z()) < kMinDepth_m) continue;
     const double row_step_px = (camera_.Project(now) - camera_.Project(before)).y();
-    AddRow(observation.pixels, row_step_px / interval_s, observation.sigma_px);
+    AddRow(observation.Pixels(), row_step_px / interval_s, observation.sigma_px);
   }
   scatter_ += score_ * score_.transpose();
   Solve();

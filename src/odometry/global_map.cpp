@@ -40,14 +40,13 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
   Require(store_.keyframes.empty() || keyframe.id > store_.keyframes.back().id,
           "global map: keyframe " + std::to_string(keyframe.id) + " is not newer than the last");
   const int newest = num_keyframes();
-  Keyframe kept = keyframe;
-  kept.camera_from_world = keyframe.camera_from_world * map_from_odom_.Inverse();
+  const Rigid3 camera_from_map = keyframe.camera_from_world * map_from_odom_.Inverse();
   if (newest > 0) {
     const Rigid3& before = store_.keyframes.back().camera_from_world;
-    calibration_.AddTurn((kept.camera_from_world * before.Inverse()).Angle());
+    calibration_.AddTurn((camera_from_map * before.Inverse()).Angle());
   }
-  if (kept.right_turn) calibration_.Turn(*kept.right_turn, newest);
-  store_.keyframes.push_back(std::move(kept));
+  if (keyframe.right_turn) calibration_.Turn(*keyframe.right_turn, newest);
+  store_.keyframes.push_back({keyframe.id, camera_from_map, keyframe.observations});
   for (const Landmark& landmark : landmarks) {
     MapStore::Point& point = store_.landmarks[landmark.id];
     point.x_in_world = map_from_odom_ * landmark.x_in_world;
@@ -61,7 +60,8 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
     landmark->second.last_keyframe = newest;
   }
   Settle();
-  if (options_.loops.enabled) closer_.Add(store_, calibration_.correction().mean);
+  if (options_.loops.enabled)
+    closer_.Add(store_, keyframe.step_covariance, calibration_.correction().mean);
   FollowCalibration();
   const int first_moving = FirstMoving();
   if (num_keyframes() > options_.max_keyframes)
@@ -72,11 +72,11 @@ void GlobalMap::Add(const Keyframe& keyframe, const std::vector<Landmark>& landm
 void GlobalMap::Settle() {
   const LoopOptions& loops = options_.loops;
   const bool is_kept = options_.max_settled_points > 0;
-  if (!is_kept && !loops.enabled) return;
   int first_unsettled = num_keyframes() - loops.min_gap_keyframes;
   if (num_keyframes() > options_.max_keyframes)
     first_unsettled = std::max(first_unsettled, FirstMoving());
-  store_.Settle(first_unsettled, is_kept ? options_.max_settled_points : loops.max_points);
+  const size_t for_loops = loops.enabled ? loops.max_points : 0;
+  store_.Settle(first_unsettled, is_kept ? options_.max_settled_points : for_loops);
 }
 
 int NextAdjustment(int num_keyframes, int num_moving) {
@@ -138,6 +138,10 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
     point.row = static_cast<int>(problem.points.size());
     problem.points.push_back(point.x_in_world);
   }
+  size_t num_observations = 0;
+  for (int k = first_seeing; k < num_keyframes(); ++k)
+    num_observations += store_.keyframes[k].observations.size();
+  problem.observations.reserve(num_observations);
   for (int k = first_seeing; k < num_keyframes(); ++k) {
     const int pose = k - first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_world);
@@ -146,10 +150,7 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
       const auto landmark = store_.landmarks.find(observation.landmark);
       if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
       is_tied |= landmark->second.first_keyframe < k;
-      problem.observations.push_back(
-          {{observation.pixels, observation.has_right, observation.sigma_px},
-           pose,
-           landmark->second.row});
+      problem.observations.push_back({observation, pose, landmark->second.row});
     }
     problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
@@ -210,7 +211,7 @@ MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   update.correction = calibration_.correction();
   const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
   for (int k = 0; k < num_keyframes(); ++k) {
-    Keyframe& keyframe = store_.keyframes[k];
+    MapStore::Keyframe& keyframe = store_.keyframes[k];
     if (k >= FirstSeeing()) {
       keyframe.camera_from_world = result.camera_from_world[k - FirstSeeing()];
     }

@@ -38,7 +38,7 @@ bool NeedsKeyframe(const StereoCamera& camera, const Keyframe& newest,
     while (seen != newest.observations.end() && seen->landmark < observation.landmark) ++seen;
     if (seen == newest.observations.end()) break;
     if (seen->landmark != observation.landmark) continue;
-    parallax.push_back(Parallax(camera, frame_from_newest, seen->pixels, observation.pixels));
+    parallax.push_back(Parallax(camera, frame_from_newest, seen->Pixels(), observation.Pixels()));
   }
   if (static_cast<int>(parallax.size()) < options.min_shared_fraction * num_newest) return true;
   if (parallax.empty()) return true;

@@ -13,16 +13,18 @@ namespace {
 /// not of the point.
 constexpr double kMaxRowPx = 1, kMaxRowSigmas = 5;
 
-/// The observation's pixels, the right row where the correction has it if it is far from there.
-Eigen::Vector4d PixelsOf(const StereoCamera& camera, const StereoCorrection& correction,
-                         const LandmarkObservation& observation) {
-  Eigen::Vector4d pixels = observation.pixels;
-  if (!observation.has_right) return pixels;
+/// The observation, its right row where the correction has it if it is far from there.
+StereoObservation WithRow(const StereoCamera& camera, const StereoCorrection& correction,
+                          StereoObservation observation) {
+  if (!observation.has_right) return observation;
+  const Eigen::Vector4d pixels = observation.Pixels();
   const double expected = pixels.y() + correction.AtRight(camera, pixels.tail<2>()).y() -
                           correction.AtLeft(camera, pixels.head<2>()).y();
   const double most = kMaxRowPx + kMaxRowSigmas * observation.sigma_px;
-  if (std::abs(pixels.w() - expected) > most) pixels.w() = expected;
-  return pixels;
+  if (std::abs(pixels.w() - expected) > most) {
+    observation.pixels.w() = static_cast<float>(expected);
+  }
+  return observation;
 }
 
 }  // namespace
@@ -60,9 +62,7 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& 
       if (row == rows.end()) continue;
       sees_any = true;
       bundle.problem.observations.push_back(
-          {{PixelsOf(camera, correction, observation), observation.has_right, observation.sigma_px},
-           pose,
-           row->second});
+          {WithRow(camera, correction, observation), pose, row->second});
     }
     if (!sees_any) continue;
     bundle.keyframes.push_back(keyframes[k].id);

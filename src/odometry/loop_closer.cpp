@@ -21,12 +21,12 @@ constexpr int kLoopInterval = 3;
 constexpr double kMinVariance = 1e-10;
 
 /// A loop is seen from many keyframes: one in which most of what looks alike does not agree can be
-/// left out, which costs a sixteenth of the samples. How many must agree the false alarms decide.
+/// left out, which costs an eighth of the samples. How many must agree the false alarms decide.
 PoseEstimatorOptions LoopPose() {
   PoseEstimatorOptions options = RecognitionPose();
   options.min_inliers = PoseEstimatorOptions().min_inliers;
   options.min_inlier_share = 0.5;
-  options.ransac.max_iterations = 110;
+  options.ransac.max_iterations = 52;
   return options;
 }
 
@@ -45,19 +45,19 @@ void LoopOptions::Check() const {
   Require(max_points >= 1, "loops.max_points must be at least 1");
 }
 
-void LoopCloser::Add(const MapStore& map, const StereoCorrection& correction) {
-  AddStep(map);
+void LoopCloser::Add(const MapStore& map, const Matrix6& step_covariance,
+                     const StereoCorrection& correction) {
+  AddStep(map, step_covariance);
   if (const auto loop = Find(map, correction)) Close(map, *loop);
 }
 
-void LoopCloser::AddStep(const MapStore& map) {
+void LoopCloser::AddStep(const MapStore& map, const Matrix6& covariance) {
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
   if (newest == 0) return;
-  const Keyframe& keyframe = map.keyframes[newest];
-  steps_.push_back(
-      {newest - 1, newest,
-       keyframe.camera_from_world * map.keyframes[newest - 1].camera_from_world.Inverse(),
-       (keyframe.step_covariance + kMinVariance * Matrix6::Identity()).inverse()});
+  steps_.push_back({newest - 1, newest,
+                    map.keyframes[newest].camera_from_world *
+                        map.keyframes[newest - 1].camera_from_world.Inverse(),
+                    (covariance + kMinVariance * Matrix6::Identity()).inverse()});
 }
 
 void LoopCloser::TakeSteps(const MapStore& map, int first) {

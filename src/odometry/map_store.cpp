@@ -19,7 +19,7 @@ std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
     auto& [id, appearance, observation] = view.emplace_back();
     id = landmark->first;
     appearance = landmark->second.appearance;
-    observation.pixels = NominalPixels(camera, correction, seen.pixels);
+    observation.pixels = NominalPixels(camera, correction, seen.Pixels());
     observation.has_right = seen.has_right;
     observation.sigma_px = seen.sigma_px;
   }
@@ -56,25 +56,31 @@ void MapStore::Settle(int first_unsettled, size_t max_points) {
     keyframe.map_from_camera = keyframes[k].camera_from_world.Inverse();
     keyframe.SetPoints(PlaceOf(k));
     settled.push_back(std::move(keyframe));
+    Forget(k, [](const Point& point) { return point.num_observations < 2; });
     KeepDistinct(settled, settled.size() - 1);
     KeepAtMost(max_points, settled);
   }
 }
 
-void MapStore::Forget(int first_moving, int oldest) {
-  const auto is_over = [&](const LandmarkObservation& observation) {
+void MapStore::Forget(int k, const std::function<bool(const Point&)>& is_over) {
+  const auto is_forgotten = [&](const LandmarkObservation& observation) {
     const auto landmark = landmarks.find(observation.landmark);
     if (landmark == landmarks.end()) return true;
-    if (landmark->second.last_keyframe >= first_moving) return false;
+    if (!is_over(landmark->second)) return false;
     landmarks.erase(landmark);
     return true;
   };
+  LandmarkObservations& seen = keyframes[k].observations;
+  const auto kept_end = std::remove_if(seen.begin(), seen.end(), is_forgotten);
+  if (kept_end != seen.end()) seen = {seen.begin(), kept_end};
+}
+
+void MapStore::Forget(int first_moving, int oldest) {
   bool sees_any = false;
   for (int k = first_seeing; k < first_moving; ++k) {
     LandmarkObservations& seen = keyframes[k].observations;
-    seen.erase(std::remove_if(seen.begin(), seen.end(), is_over), seen.end());
-    if (k < oldest) seen.clear();
-    if (seen.empty()) seen.shrink_to_fit();
+    Forget(k, [&](const Point& point) { return point.last_keyframe < first_moving; });
+    if (k < oldest) seen = {};
     sees_any |= !seen.empty();
     if (!sees_any) first_seeing = k + 1;
   }

@@ -10,8 +10,8 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kMaxSettledLandmarks = 20000;  ///< for display
-constexpr int kLookInterval = 3;             ///< keyframes, between looking for further frames
+constexpr size_t kMaxSettledLandmarks = 20000;  ///< for display
+constexpr int kLookInterval = 3;                ///< keyframes, between looking for further frames
 
 }  // namespace
 
@@ -37,9 +37,6 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
   if (!keyframe.landmarks.empty()) first_landmark = keyframe.landmarks.front().id;
   places_[seen.id] = {seen.stamp_s, seen.camera_from_world, keyframe.base_from_camera,
                       first_landmark};
-  for (const Landmark& landmark : keyframe.landmarks)
-    first_depths_m_[landmark.id] =
-        static_cast<float>((seen.camera_from_world * landmark.x_in_world).z());
   if (localiser_.state() == MapState::kLocalised && num_keyframes() % kLookInterval == 1)
     Localise(global_->store().NewestView(camera_, global_->correction().mean),
              keyframe.odom_from_world * seen.camera_from_world.Inverse());
@@ -48,7 +45,6 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
 
 void PlacedMap::StartEpoch(const PlacedKeyframe& keyframe) {
   CloseEpoch();
-  first_depths_m_.clear();
   adjusted_.clear();
   epoch_ = keyframe.epoch;
   if (!correction_ || !(camera_ == keyframe.camera)) {
@@ -126,6 +122,11 @@ std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
 /// Landmarks that the global map has forgotten stay where the keyframe sees them that saw them
 /// first.
 void PlacedMap::MoveSettled(const MapUpdate& update) {
+  const auto first_from = [&](LandmarkId id) {
+    return std::lower_bound(
+        adjusted_.begin(), adjusted_.end(), id,
+        [](const auto& landmark, LandmarkId other) { return landmark.id < other; });
+  };
   auto moved = update.keyframes.begin();
   for (auto place = places_.begin(); place != places_.end(); ++place) {
     while (moved != update.keyframes.end() && moved->id < place->first) ++moved;
@@ -133,44 +134,36 @@ void PlacedMap::MoveSettled(const MapUpdate& update) {
     if (!place->second.is_adjusted) continue;
     const auto next = std::next(place);
     const Rigid3 shift = moved->camera_from_world.Inverse() * place->second.camera_from_world;
-    const auto end = next == places_.end() ? adjusted_.end()
-                                           : adjusted_.lower_bound(next->second.first_landmark);
-    for (auto seen = adjusted_.lower_bound(place->second.first_landmark); seen != end; ++seen)
-      seen->second = shift * seen->second;
+    const auto end =
+        next == places_.end() ? adjusted_.end() : first_from(next->second.first_landmark);
+    for (auto seen = first_from(place->second.first_landmark); seen != end; ++seen)
+      seen->x_in_world = shift * seen->x_in_world;
   }
 }
 
 /// Landmarks that the global map has forgotten stay where it left them; too many, and every second
 /// one goes.
 void PlacedMap::TakeLandmarks(const MapUpdate& update) {
-  int num_settled = 0;
-  for (auto landmark = adjusted_.begin(); landmark != adjusted_.end();) {
-    const bool is_known = global_->Knows(landmark->first);
-    num_settled += !is_known;
-    landmark = is_known ? adjusted_.erase(landmark) : std::next(landmark);
+  std::vector<MapUpdate::LandmarkPosition> settled;
+  std::copy_if(adjusted_.begin(), adjusted_.end(), std::back_inserter(settled),
+               [&](const auto& landmark) { return !global_->Knows(landmark.id); });
+  if (settled.size() > kMaxSettledLandmarks) {
+    bool is_second = true;
+    settled.erase(std::remove_if(settled.begin(), settled.end(),
+                                 [&](const auto&) { return is_second = !is_second; }),
+                  settled.end());
   }
-  if (num_settled > kMaxSettledLandmarks) {
-    bool is_second = false;
-    for (auto landmark = adjusted_.begin(); landmark != adjusted_.end(); is_second = !is_second)
-      landmark = is_second ? adjusted_.erase(landmark) : std::next(landmark);
-  }
-  for (const MapUpdate::LandmarkPosition& landmark : update.landmarks)
-    adjusted_[landmark.id] = landmark.x_in_world;
-  for (auto depth = first_depths_m_.begin(); depth != first_depths_m_.end();) {
-    const bool is_needed = global_->Knows(depth->first) || adjusted_.count(depth->first) > 0;
-    depth = is_needed ? std::next(depth) : first_depths_m_.erase(depth);
-  }
+  adjusted_.resize(settled.size() + update.landmarks.size());
+  std::merge(settled.begin(), settled.end(), update.landmarks.begin(), update.landmarks.end(),
+             adjusted_.begin(), [](const auto& a, const auto& b) { return a.id < b.id; });
 }
 
 std::vector<KnownKeyframe> PlacedMap::NewestPlaces(bool with_points) const {
-  const Rigid3 world_from_adjusted = AdjustedFromWorld().Inverse();
   std::vector<KnownKeyframe> places;
   for (const auto& [id, place] : places_) {
-    const Rigid3 camera_from_adjusted =
-        place.is_adjusted ? place.camera_from_world : place.camera_from_world * world_from_adjusted;
     KnownKeyframe& keyframe = places.emplace_back();
     keyframe.stamp_s = place.stamp_s;
-    keyframe.map_from_camera = frame_.map_from_world() * camera_from_adjusted.Inverse();
+    keyframe.map_from_camera = frame_.map_from_world() * CameraFromAdjusted(place).Inverse();
     keyframe.base_from_camera = place.base_from_camera;
     keyframe.frame = localiser_.own_frame();
     if (with_points)
@@ -201,8 +194,14 @@ std::vector<LandmarkPoint> PlacedMap::Landmarks() const {
       points.push_back({keyframe.map_from_camera * x, static_cast<float>(x.z())});
     }
   }
-  for (const auto& [id, x_in_world] : adjusted_)
-    points.push_back({frame_.map_from_world() * x_in_world, first_depths_m_.at(id)});
+  auto place = places_.begin(), next = place;  // that saw the landmark first
+  for (const auto& [id, x_in_world] : adjusted_) {
+    for (; next != places_.end() && next->second.first_landmark <= id; ++next) {
+      if (next->second.first_landmark > place->second.first_landmark) place = next;
+    }
+    const double depth_m = (CameraFromAdjusted(place->second) * x_in_world).z();
+    points.push_back({frame_.map_from_world() * x_in_world, static_cast<float>(depth_m)});
+  }
   return points;
 }
 

@@ -40,7 +40,7 @@ bool StandstillLock::PointsRest(const LandmarkObservations& observations) const 
     if (anchor == anchor_.end()) break;
     if (anchor->landmark != observation.landmark) continue;
     ++num_shared;
-    const Eigen::Vector2d shift = (observation.pixels - anchor->pixels).head<2>();
+    const Eigen::Vector2f shift = (observation.pixels - anchor->pixels).head<2>();
     num_resting += shift.norm() < options_.max_point_shift_px;
   }
   return num_shared >= kMinSharedPoints &&

@@ -4,10 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "arfm_vo/pose/chi_square.h"
-#include "arfm_vo/pose/epnp.h"
-#include "arfm_vo/pose/reprojection.h"
-#include "point_spread.h"
+#include "pose_consensus.h"
 
 namespace arfm_vo {
 namespace {
@@ -18,75 +15,6 @@ constexpr double kImplausible = 0.25;
 constexpr double kLeastRival = 0.15;
 /// Fewer agree by chance.
 constexpr int kMinRival = 10;
-
-/// Generates and scores the hypotheses of RANSAC.
-class Consensus {
- public:
-  Consensus(const StereoCamera& camera, const std::vector<PointObservation>& observations,
-            const PoseEstimatorOptions& options)
-      : camera_(camera),
-        observations_(observations),
-        min_inliers_(options.min_inliers),
-        bounds_{ChiSquareQuantile(2, kInlierProbability),
-                ChiSquareQuantile(3, kInlierProbability)} {
-    spreads_.reserve(observations.size());
-    for (const PointObservation& observation : observations) {
-      spreads_.emplace_back(observation.x_covariance);
-    }
-  }
-
-  std::optional<Rigid3> Solve(const std::vector<int>& sample) const {
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxSample> points(3, sample.size());
-    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxSample> rays(2, sample.size());
-    for (size_t i = 0; i < sample.size(); ++i) {
-      const PointObservation& observation = observations_[sample[i]];
-      points.col(i) = observation.x_in_world;
-      rays.col(i) << (observation.pixels.x() - camera_.cx) / camera_.fx,
-          (observation.pixels.y() - camera_.cy) / camera_.fy;
-    }
-    return SolveEpnp(points, rays);
-  }
-
-  /// The squared error of an observation in units of its standard deviation.
-  double SquaredError(int i, const Eigen::Matrix3d& rotation,
-                      const Eigen::Vector3d& translation) const {
-    const PointObservation& observation = observations_[i];
-    const Eigen::Vector3d x = rotation * observation.x_in_world + translation;
-    if (!(x.z() > kMinDepth)) return 1e12;
-    const Eigen::Vector3d error = ReprojectionError(camera_, observation, x);
-    const double px_per_m = camera_.fx / x.z();
-    const double variance =
-        observation.sigma_px * observation.sigma_px + spreads_[i].rest * px_per_m * px_per_m;
-    // S = variance I + g g^T, inverted by Sherman and Morrison's formula.
-    Eigen::Vector3d g = ProjectionJacobian(camera_, x) * (rotation * spreads_[i].axis);
-    if (!observation.has_right) g.z() = 0;
-    const double along = g.dot(error);
-    return (error.squaredNorm() - along * along / (variance + g.squaredNorm())) / variance;
-  }
-
-  double Classify(const Rigid3& camera_from_world, std::vector<char>& is_inlier) const {
-    const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
-    double score = 0;
-    int num_inliers = 0;
-    for (size_t i = 0; i < observations_.size(); ++i) {
-      const double ratio =
-          SquaredError(static_cast<int>(i), rotation, camera_from_world.translation) /
-          bounds_[observations_[i].has_right];
-      is_inlier[i] = ratio <= 1;
-      num_inliers += is_inlier[i];
-      if (ratio <= 1) score += observations_[i].votes * (1 - ratio);
-    }
-    // However many votes they have, a few agree by chance.
-    return num_inliers < min_inliers_ ? score * num_inliers / (10.0 * min_inliers_) : score;
-  }
-
- private:
-  const StereoCamera& camera_;
-  const std::vector<PointObservation>& observations_;
-  const int min_inliers_;
-  const double bounds_[2];
-  std::vector<PointSpread> spreads_;
-};
 
 /// A pose, and who agrees with it.
 struct Hypothesis {
@@ -122,16 +50,14 @@ std::optional<Rigid3> Sample(const StereoCamera& camera,
   PoseRefinementOptions briefly = options.refinement;
   briefly.max_rounds = 1;
   const auto consent = Ransac<Rigid3>(
-      static_cast<int>(observations.size()), options.sample_size, options.ransac,
+      static_cast<int>(observations.size()), kSamplePoints, options.ransac,
       [&](const std::vector<int>& sample) { return consensus.Solve(sample); },
       [&](const Rigid3& model, std::vector<char>& flags) {
         return consensus.Classify(model, flags);
       },
       // A few noisy points would else lose against a refined prediction with fewer friends.
-      [&](const Rigid3& model, const std::vector<char>& flags) -> std::optional<Rigid3> {
-        const PoseRefinement refined = RefinePose(camera, observations, model, briefly, flags);
-        if (refined.status != RefinementStatus::kConverged) return std::nullopt;
-        return refined.camera_from_world;
+      [&](const Rigid3&, const std::vector<char>& flags) {
+        return consensus.Improve(flags, briefly);
       });
   if (!consent) return std::nullopt;
   return consent->model;
@@ -234,7 +160,7 @@ class Election {
       const double share = std::max<double>(kMinRival, kLeastRival * CountBest()) /
                            static_cast<double>(rest.size() + 1);
       options.ransac.max_iterations =
-          CountSamples(std::min(1., share), options.sample_size, options.ransac);
+          CountSamples(std::min(1., share), kSamplePoints, options.ransac);
     }
     if (const auto sampled = Sample(camera_, rest, options)) Propose(*sampled);
   }

@@ -7,9 +7,6 @@
 
 namespace arfm_vo {
 
-/// Points of a sample, at most.
-constexpr int kMaxSample = 8;
-
 /// The pose with the most votes, refined, and the last one that it was preferred to.
 struct Agreement {
   PoseRefinement refinement;

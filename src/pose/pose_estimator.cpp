@@ -28,9 +28,7 @@ double PredictedPose::LogOdds(const Rigid3& other_camera_from_world) const {
 void PoseEstimatorOptions::Check() const {
   ransac.Check();
   refinement.Check();
-  Require(sample_size >= 4 && sample_size <= kMaxSample,
-          "pose_estimator.sample_size must be in 4..8");
-  Require(min_inliers >= sample_size, "pose_estimator.min_inliers must be at least sample_size");
+  Require(min_inliers >= 4, "pose_estimator.min_inliers must be at least 4");
   Require(min_inlier_share >= 0 && min_inlier_share <= 1,
           "pose_estimator.min_inlier_share must be in 0..1");
 }

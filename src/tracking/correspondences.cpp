@@ -130,7 +130,7 @@ void Correspondences::Add(const StereoCamera& camera, const StereoCorrection& co
   PointObservation point;
   point.x_in_world = landmark.x_in_world;
   point.x_covariance = landmark.covariance;
-  point.pixels = NominalPixels(camera, correction, observation.pixels);
+  point.pixels = NominalPixels(camera, correction, observation.Pixels());
   point.has_right = observation.has_right;
   point.sigma_px = observation.sigma_px;
   point.votes = Votes(landmark, arrived);

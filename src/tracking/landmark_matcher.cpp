@@ -102,10 +102,10 @@ Correspondences LandmarkMatcher::Correspond(const StereoFrame& frame, double arr
     observation.has_right = point != nullptr;
     observation.pixels << keypoint.x, keypoint.y, 0, 0;
     if (point != nullptr) {
-      observation.pixels.tail<2>() << point->observation.z(),
-          point->observation.y() + point->row_residual_px;
+      observation.pixels[2] = static_cast<float>(point->observation.z());
+      observation.pixels[3] = static_cast<float>(point->observation.y() + point->row_residual_px);
     }
-    observation.sigma_px = options_.keypoint_sigma * keypoint.scale;
+    observation.sigma_px = static_cast<float>(options_.keypoint_sigma * keypoint.scale);
     correspondences.Add(camera_, correction_, *landmarks[match.first], observation,
                         !frame.is_still.empty() && frame.is_still[match.second], arrived);
   }

@@ -57,7 +57,7 @@ class Solver {
     Eigen::Matrix<double, 4, 9> jacobian = Eigen::Matrix<double, 4, 9>::Zero();
     jacobian.leftCols<6>() = projection * moved;
     jacobian.bottomRightCorner<2, 3>() = of_right;
-    Eigen::Vector4d error = observation.pixels - seen;
+    Eigen::Vector4d error = observation.Pixels() - seen;
     error.tail<2>() -= of_right * turn_;
     const Eigen::Matrix<double, 4, 3> by_world = projection * camera_from_world_.RotationMatrix();
     Eigen::Matrix4d covariance = by_world * landmark.covariance * by_world.transpose();

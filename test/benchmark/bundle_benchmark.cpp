@@ -1,5 +1,5 @@
 // Time and memory of bundle adjustment: a window as after each keyframe, and a whole path.
-// Usage: bundle_benchmark [window | global | all] [--threads N] [--ceres]
+// Usage: bundle_benchmark [window | global | all] [--ceres]
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -111,12 +111,9 @@ bool RunGlobals(const BundleOptions& options) {
 int main(int argc, char** argv) {
   std::string what = "all";
   arfm_vo::BundleOptions options;
-  options.num_threads = 2;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--ceres") == 0) {
       options.solver = arfm_vo::BundleSolver::kCeres;
-    } else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
-      options.num_threads = std::max(1, std::atoi(argv[++i]));
     } else {
       what = argv[i];
     }

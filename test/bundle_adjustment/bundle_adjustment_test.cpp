@@ -47,7 +47,7 @@ TEST(BundleAdjustment, ReturnsToTheTruthWithoutNoise) {
     EXPECT_LT(WorstPoseError(scene, result), 1e-6);
     EXPECT_LT(WorstPointError(scene, result), 1e-4);
     EXPECT_GT(result.initial_cost, 1e3);
-    EXPECT_LT(result.final_cost, 1e-3);
+    EXPECT_LT(result.final_cost, 2);  // pixels are rounded, by 0.015 sigma
   }
 }
 
@@ -186,7 +186,7 @@ TEST(BundleAdjustment, PointCovarianceIsThatOfStereoForAPointSeenOnce) {
   problem.pose_is_fixed = {1};
   problem.points = {{0.27, 0, 10}};  // half way between the eyes
   BundleObservation observation{
-      {ProjectStereo4(kBundleCamera, {}, problem.points[0]), true, 0.5}, 0, 0};
+      {ProjectStereo4(kBundleCamera, {}, problem.points[0]).cast<float>(), true, 0.5}, 0, 0};
   problem.observations = {observation};
   BundleOptions options;
   options.with_point_covariance = true;
@@ -230,22 +230,14 @@ TEST(BundleAdjustment, StopsWhereIterationsOrTimeRunOut) {
   EXPECT_LE(result.num_iterations, 1);
 }
 
-TEST(BundleAdjustment, GivesTheSameBytesWithAnyNumberOfThreads) {
-  CorridorOptions corridor;
-  corridor.num_poses = 60;
-  corridor.num_points = 5000;  // enough to be dealt out to threads
-  CorridorScene scene = MakeCorridor(corridor);
+TEST(BundleAdjustment, GivesTheSameBytesAgain) {
+  CorridorScene scene = MakeCorridor({});
   scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
-  BundleOptions options;
-  const BundleResult one = AdjustBundle(scene.problem, options);
-  options.num_threads = 2;
-  for (int run = 0; run < 2; ++run) {
-    const BundleResult two = AdjustBundle(scene.problem, options);
-    for (size_t i = 0; i < one.camera_from_world.size(); ++i) {
-      EXPECT_EQ(one.camera_from_world[i].Matrix(), two.camera_from_world[i].Matrix());
-    }
-    EXPECT_EQ(one.correction_covariance, two.correction_covariance);
+  const BundleResult one = AdjustBundle(scene.problem, {}), two = AdjustBundle(scene.problem, {});
+  for (size_t i = 0; i < one.camera_from_world.size(); ++i) {
+    EXPECT_EQ(one.camera_from_world[i].Matrix(), two.camera_from_world[i].Matrix());
   }
+  EXPECT_EQ(one.correction_covariance, two.correction_covariance);
 }
 
 TEST(BundleAdjustment, LeavesAPointSeenOnceByTheLeftEyeAlone) {
@@ -330,9 +322,6 @@ TEST(BundleAdjustment, OptionsNameTheBadKey) {
   };
   BundleOptions options;
   EXPECT_EQ(complaint(options), "");
-  options.num_threads = 0;
-  EXPECT_NE(complaint(options).find("num_threads"), std::string::npos);
-  options.num_threads = 1;
   options.max_time_share = 0;
   EXPECT_NE(complaint(options).find("max_time_share"), std::string::npos);
 }

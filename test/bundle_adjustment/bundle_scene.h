@@ -82,13 +82,12 @@ inline void AddObservations(const CorridorOptions& options, int first_pose, int 
   for (int pose = first_pose; pose < last; ++pose) {
     const Eigen::Vector3d x = scene.camera_from_world[pose] * scene.points[point];
     if (!IsInView(options.correction, x)) break;
-    BundleObservation observation{{ProjectStereo4(kBundleCamera, options.correction, x), true,
-                                   std::max(options.noise_px, 1e-3)},
-                                  pose,
-                                  point};
-    for (int i = 0; i < 4; ++i) {
-      observation.pixels[i] += options.noise_px * RandomGaussian(engine);
-    }
+    Eigen::Vector4d pixels = ProjectStereo4(kBundleCamera, options.correction, x);
+    for (int i = 0; i < 4; ++i) pixels[i] += options.noise_px * RandomGaussian(engine);
+    BundleObservation observation{
+        {pixels.cast<float>(), true, static_cast<float>(std::max(options.noise_px, 1e-3))},
+        pose,
+        point};
     const bool is_outlier = RandomUnit(engine) < options.outlier_share;
     if (is_outlier)
       observation.pixels[RandomBelow(4, engine)] += RandomUnit(engine) < 0.5 ? 20 : -30;

@@ -162,7 +162,8 @@ TEST(SelfCalibration, PointsTooFarToBePlacedDoNotTakeTheCovarianceAway) {
     problem.points.push_back(star);
     for (const int pose : {0, 1, 2}) {
       const Eigen::Vector3d x = scene.camera_from_world[pose].rotation * star;
-      BundleObservation seen{{ProjectStereo4(kBundleCamera, {}, x), false, 0.2}, pose, point};
+      BundleObservation seen{
+          {ProjectStereo4(kBundleCamera, {}, x).cast<float>(), false, 0.2}, pose, point};
       problem.observations.push_back(seen);
     }
   }

@@ -26,7 +26,6 @@ TEST(ShippedConfig, ThePapersIsAsThePaperSays) {
   EXPECT_FALSE(options.frontend.stereo.guided);
   EXPECT_EQ(options.frontend.stereo.matcher.strategy, MatchStrategy::kSurfFlannRansac);
   EXPECT_EQ(options.frontend.stereo.threshold.rule, ThresholdRule::kVariance);
-  EXPECT_EQ(options.odometry.tracker.pose.sample_size, 4);
   EXPECT_EQ(options.odometry.tracker.pose.refinement.step, StepKind::kGaussNewton);
   EXPECT_EQ(options.global.solver.solver, BundleSolver::kCeres);
   EXPECT_FALSE(options.global.learn_correction);

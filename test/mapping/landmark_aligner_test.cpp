@@ -48,7 +48,7 @@ TEST_F(LandmarkAlignerTest, MeasuresThePlaceInBothImagesToAFractionOfAPixel) {
     EXPECT_TRUE(seen->has_right);
     const Eigen::Vector3d truth = camera_.ProjectStereo(pose * landmark.x_in_world);
     const Eigen::Vector4d pixels(truth.x(), truth.y(), truth.z(), truth.y());
-    if ((seen->pixels - pixels).cwiseAbs().maxCoeff() < 0.15) ++num_accurate;
+    if ((seen->Pixels() - pixels).cwiseAbs().maxCoeff() < 0.15) ++num_accurate;
   }
   EXPECT_GE(num_aligned, 32);  // of 41
   EXPECT_GE(num_accurate, 0.9 * num_aligned);

@@ -28,7 +28,7 @@ TEST(LocalMap, PutsNewLandmarksWhereTheStereoPointsAre) {
   for (const LandmarkObservation& observation : keyframe.observations) {
     const Landmark& landmark = map.landmarks().at(observation.landmark);
     const Eigen::Vector3d seen = kCamera.ProjectStereo(camera_from_world * landmark.x_in_world);
-    EXPECT_LT((seen - observation.pixels.head<3>()).norm(), 1e-9);
+    EXPECT_LT((seen - observation.Pixels().head<3>()).norm(), 1e-4);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(LocalMap, TransformKeepsWhatTheKeyframesSee) {
   for (const auto& observation : map.keyframes().back().observations) {
     const Eigen::Vector3d x = map.keyframes().back().camera_from_world *
                               map.landmarks().at(observation.landmark).x_in_world;
-    EXPECT_LT((kCamera.ProjectStereo(x) - observation.pixels.head<3>()).norm(), 1e-9);
+    EXPECT_LT((kCamera.ProjectStereo(x) - observation.Pixels().head<3>()).norm(), 1e-4);
   }
 }
 

@@ -180,7 +180,7 @@ TEST_F(PlaceRecogniserTest, PointsAreLookedForWhereTheyAreNow) {
 /// The bound that a pose must reach can be reached: a sample of points that agree is drawn.
 TEST(RecognitionPose, DrawsEnoughSamplesForTheShareThatItAccepts) {
   const PoseEstimatorOptions options = RecognitionPose();
-  const double good_sample = std::pow(options.min_inlier_share, options.sample_size);
+  const double good_sample = std::pow(options.min_inlier_share, kSamplePoints);
   EXPECT_GE(1 - std::pow(1 - good_sample, options.ransac.max_iterations), 0.99);
 }
 

@@ -63,10 +63,11 @@ class LoopCloserTest : public ::testing::Test {
     const Rigid3 believed = camera_from_place * PlaceFromWorld(number) * drift;
     const int keyframe = static_cast<int>(map_.keyframes.size());
     if (!goes_on) first_of_place_ = next_landmark_;
-    Keyframe& added = map_.keyframes.emplace_back();
+    MapStore::Keyframe& added = map_.keyframes.emplace_back();
     added.id = keyframe;
     added.camera_from_world = believed;
-    added.step_covariance.diagonal() << Eigen::Vector3d::Constant(1e-6),
+    Eigen::Matrix<double, 6, 6> step_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    step_covariance.diagonal() << Eigen::Vector3d::Constant(1e-6),
         Eigen::Vector3d::Constant(sigma_m_ * sigma_m_);
     for (int i = 0; i < kPoints; ++i) {
       const Eigen::Vector3d x = camera_from_place * place[i].x_in_place;
@@ -90,7 +91,7 @@ class LoopCloserTest : public ::testing::Test {
       added.observations.push_back(observation);
     }
     map_.Settle(keyframe + 1 - options_.min_gap_keyframes, options_.max_points);
-    closer.Add(map_, {});
+    closer.Add(map_, step_covariance, {});
   }
 
   /// Past all places: keyframes 0 to 9.

@@ -9,7 +9,7 @@ namespace {
 MapStore MakeStore(const std::vector<LandmarkId>& first) {
   MapStore store;
   for (int k = 0; k < static_cast<int>(first.size()); ++k) {
-    store.keyframes.push_back({k, 0, Rigid3(), {}, first[k], {}});
+    store.keyframes.push_back({k, Rigid3(), {}});
     for (LandmarkId id = first[k]; id < first[k] + 3; ++id) {
       LandmarkObservation observation{};
       observation.landmark = id;
@@ -57,12 +57,20 @@ TEST(MapStore, ForgetsWhatKeyframesBeforeTheOldestSaw) {
   EXPECT_EQ(Seen(store, 1), (std::vector<LandmarkId>{2, 3}));
 }
 
+TEST(MapStore, ForgetsWhatASettledKeyframeAloneHasSeen) {
+  MapStore store = MakeStore({0, 1, 2, 3});
+  store.Settle(2, 1000);
+  EXPECT_EQ(Seen(store, 0), (std::vector<LandmarkId>{1, 2})) << "0 was seen once";
+  EXPECT_EQ(store.landmarks.count(0), 0u);
+  EXPECT_EQ(Seen(store, 3), (std::vector<LandmarkId>{3, 4, 5})) << "it may be seen again";
+}
+
 TEST(MapStore, WhatIsSettledOutlivesTheLandmarksAndFollowsThemUntilThen) {
   std::vector<LandmarkId> first(6, 0);
   for (int k = 3; k < 6; ++k) first[k] = 100;
   MapStore store;
   for (int k = 0; k < 6; ++k) {
-    store.keyframes.push_back({k, 0, Rigid3(), {}, 0, {}});
+    store.keyframes.push_back({k, Rigid3(), {}});
     for (LandmarkId id = first[k]; id < first[k] + 40; ++id) {
       LandmarkObservation observation{};
       observation.landmark = id;

@@ -143,7 +143,7 @@ inline KeyframeStamped ValidKeyframe() {
   keyframe.keyframe.id = 4;
   keyframe.keyframe.stamp_s = 12.5;
   for (int i = 0; i < 3; ++i) {
-    keyframe.keyframe.observations.push_back({{{20. + i, 20, 10. + i, 20}, true, 0.5}, i});
+    keyframe.keyframe.observations.push_back({{{20.f + i, 20, 10.f + i, 20}, true, 0.5}, i});
     keyframe.landmarks.emplace_back();
     keyframe.landmarks.back().id = i;
     keyframe.landmarks.back().x_in_world = {0.1 * i, 0, 2.5};

@@ -23,7 +23,7 @@ class LandmarkMatcherTest : public ::testing::Test {
 
   double DistancePx(const Correspondences& found, size_t i, const Rigid3& pose) const {
     const Eigen::Vector2d uv = camera_.Project(pose * found.landmarks[i]->x_in_world);
-    return (uv - found.observed[i].pixels.head<2>()).norm();
+    return (uv - found.observed[i].Pixels().head<2>()).norm();
   }
 
   /// Nearly all are where the truth has them, each landmark is of the map and told once.

@@ -35,8 +35,9 @@ class RightTurnTest : public ::testing::Test {
     for (const Landmark& landmark : landmarks_) {
       LandmarkObservation observation;
       observation.landmark = landmark.id;
-      observation.pixels = ProjectStereo4(kCamera, turned, kPose * landmark.x_in_world);
-      for (double& pixel : observation.pixels) pixel += noise(random);
+      observation.pixels =
+          ProjectStereo4(kCamera, turned, kPose * landmark.x_in_world).cast<float>();
+      for (float& pixel : observation.pixels) pixel += static_cast<float>(noise(random));
       observation.has_right = landmark.id % 5 != 0;
       observation.sigma_px = 0.2;
       seen.push_back(&landmark);

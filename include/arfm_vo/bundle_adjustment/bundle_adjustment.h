@@ -36,12 +36,11 @@ struct BundleOptions {
   int max_iterations = 20;                                    ///< of the adjustment
   double function_tolerance = 1e-5;    ///< stop where the cost falls by a smaller share
   double max_time_s = 60;              ///< stop after the iteration that passes it
-  int num_threads = 1;                 ///< that adjust
   double max_time_share = 1;           ///< of the wall time; a thread sleeps in between (Pacer)
   bool with_point_covariance = false;  ///< of the landmarks, as a result
 
   void Check() const;
-  ARFM_FIELDS(solver, strategy, loss, max_iterations, function_tolerance, max_time_s, num_threads,
+  ARFM_FIELDS(solver, strategy, loss, max_iterations, function_tolerance, max_time_s,
               max_time_share)
 };
 
@@ -89,7 +88,7 @@ struct BundleResult {
 ///   sum_i rho(|r_i|^2) + sum_c e_c^T Omega_c e_c + |k|^2 / sigma^2
 /// with r the reprojection errors (ReprojectionTerm), e the errors of the constraints with
 /// information Omega. Points that cannot be placed (seen once and by the left eye alone) take no
-/// part. Repeatable to the last bit for a given num_threads.
+/// part. Repeatable to the last bit.
 /// Throws std::invalid_argument for wrong options and by BundleProblem::Check.
 BundleResult AdjustBundle(BundleProblem problem, const BundleOptions& options,
                           const BundleCallback& callback = {});

@@ -15,6 +15,7 @@ namespace arfm_vo {
 struct BundleObservation : StereoObservation {
   int pose = 0, point = 0;  ///< indices into the problem
 };
+static_assert(sizeof(BundleObservation) == 32);
 
 /// What is known of the motion between two poses without points, such as a closed loop:
 /// second_from_first = BoxPlus(measured, e) with e of zero mean and covariance `information`^-1.

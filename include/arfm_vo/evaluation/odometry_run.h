@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "arfm_vo/base/process_usage.h"
@@ -27,12 +30,25 @@ struct OdometryRun {
   Trajectory online;      ///< as known at once, live; where a pair is lost, the last pose
   std::vector<std::optional<Rigid3>> truth;  ///< [pairs], world_from_camera
   std::vector<double> pair_ms;               ///< [pairs], wall time without loading
-  std::vector<StageTimes> stage_ms;          ///< [pairs]
-  std::vector<double> memory_mb;             ///< [pairs], resident after each
-  std::vector<PairState> states;             ///< [pairs]
-  double finish_ms = 0;                      ///< wall time after the last pair (global adjustment)
-  double cpu_s = 0;  ///< all threads, from first pair to end, without loading
+  /// Each stage's name and its time [pairs], NaN where it did not run.
+  std::vector<std::pair<std::string, std::vector<float>>> stage_ms;
+  std::vector<double> memory_mb;  ///< [pairs], resident after each
+  std::vector<PairState> states;  ///< [pairs]
+  double finish_ms = 0;           ///< wall time after the last pair (global adjustment)
+  double cpu_s = 0;               ///< all threads, from first pair to end, without loading
 
+  /// Of the pair that was added to `pair_ms` last.
+  void AddStages(const StageTimes& times) {
+    for (const auto& [stage, ms] : times) {
+      auto column = std::find_if(stage_ms.begin(), stage_ms.end(),
+                                 [&](const auto& known) { return known.first == stage; });
+      if (column == stage_ms.end()) column = stage_ms.insert(column, {stage, {}});
+      column->second.resize(pair_ms.size() - 1, std::numeric_limits<float>::quiet_NaN());
+      column->second.push_back(static_cast<float>(ms));
+    }
+    for (auto& [stage, column] : stage_ms)
+      column.resize(pair_ms.size(), std::numeric_limits<float>::quiet_NaN());
+  }
   int CountLost() const {
     return std::count_if(online.begin(), online.end(), [](auto& pose) { return !pose.is_tracked; });
   }
@@ -61,7 +77,7 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
     const Clock::time_point start = Clock::now();
     const SessionUpdate pose = odometry.Process(pair->images);
     run.pair_ms.push_back(to_ms(Clock::now() - start));
-    run.stage_ms.push_back(pose.update.stage_ms);
+    run.AddStages(pose.update.stage_ms);
     run.memory_mb.push_back(GetMemoryMb());
     const PoseEstimate& estimate = pose.update.pose;
     run.states.push_back({estimate.status, pose.update.reason, pose.update.log_odds,

@@ -65,6 +65,7 @@ struct Landmark {
 struct LandmarkObservation : StereoObservation {
   LandmarkId landmark = 0;
 };
+static_assert(sizeof(LandmarkObservation) == 32);
 using LandmarkObservations = std::vector<LandmarkObservation>;
 
 /// The observation of a landmark among those sorted by landmark; null where there is none.

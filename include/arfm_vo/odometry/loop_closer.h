@@ -29,8 +29,10 @@ class LoopCloser {
  public:
   LoopCloser(const StereoCamera& camera, const LoopOptions& options);
 
-  /// The newest keyframe of `map` has come. Looks whether it closes a loop.
-  void Add(const MapStore& map, const StereoCorrection& correction);
+  /// The newest keyframe of `map` has come, after a step of this covariance
+  /// (Keyframe::step_covariance). Looks whether it closes a loop.
+  void Add(const MapStore& map, const Eigen::Matrix<double, 6, 6>& step_covariance,
+           const StereoCorrection& correction);
   /// Keyframes from `first` on (an index) were adjusted: what lies between them is known better.
   void TakeSteps(const MapStore& map, int first);
 
@@ -46,7 +48,7 @@ class LoopCloser {
 
  private:
   PlaceFinder MakeFinder() const;
-  void AddStep(const MapStore& map);
+  void AddStep(const MapStore& map, const Eigen::Matrix<double, 6, 6>& covariance);
   std::optional<PoseConstraint> Find(const MapStore& map, const StereoCorrection& correction);
   void Close(const MapStore& map, const PoseConstraint& loop);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -19,7 +20,12 @@ struct MapStore {
     int row = -1;  ///< in the bundle problem being solved
     Appearance appearance;
   };
-  std::vector<Keyframe> keyframes;  ///< world: the map
+  struct Keyframe {
+    KeyframeId id = 0;
+    Rigid3 camera_from_world;           ///< world: the map
+    LandmarkObservations observations;  ///< sorted by landmark
+  };
+  std::vector<Keyframe> keyframes;
   std::map<LandmarkId, Point> landmarks;
   int first_seeing = 0;  ///< keyframes before it are poses alone: what they saw is forgotten
   /// The first ones as Settle found them, where they are to be known later; frame 0.
@@ -35,12 +41,17 @@ struct MapStore {
   Place PlaceOf(int k) const;
 
   /// Keeps what the keyframes before `first_unsettled` show, of those that differ, in `settled`, of
-  /// at most `max_points` points. To be called for each keyframe that is added.
+  /// at most `max_points` points, and forgets what one of them alone has seen. To be called for
+  /// each keyframe that is added.
   void Settle(int first_unsettled, size_t max_points);
   /// Forgets what says nothing of the keyframes from `first_moving` on: observations by older ones
   /// of landmarks that those do not see, those landmarks, and all by the keyframes before `oldest`.
   /// To be called for each keyframe that is added.
   void Forget(int first_moving, int oldest);
+
+ private:
+  /// What keyframe `k` saw of landmarks that are over, and these.
+  void Forget(int k, const std::function<bool(const Point&)>& is_over);
 };
 
 }  // namespace arfm_vo

@@ -93,7 +93,11 @@ class PlacedMap {
   std::vector<KnownKeyframe> NewestPlaces(bool with_points) const;
   void CloseEpoch();
   void Localise(const std::vector<SeenPoint>& view, const Rigid3& odom_from_camera);
-  Rigid3 AdjustedFromWorld() const { return global_ ? global_->MapFromOdom() : Rigid3(); }
+  Rigid3 CameraFromAdjusted(const Place& place) const {
+    return place.is_adjusted || !global_
+               ? place.camera_from_world
+               : place.camera_from_world * global_->MapFromOdom().Inverse();
+  }
 
   GlobalMapOptions options_;
   std::optional<GlobalMap> global_;
@@ -102,8 +106,7 @@ class PlacedMap {
   MapFrame frame_;
   uint32_t epoch_ = 0;
   std::map<KeyframeId, Place> places_;
-  std::map<LandmarkId, float> first_depths_m_;
-  std::map<LandmarkId, Eigen::Vector3d> adjusted_;  // in this epoch
+  std::vector<MapUpdate::LandmarkPosition> adjusted_;  ///< in this epoch, sorted by id
   Localiser localiser_;
   std::string news_;
   std::vector<LandmarkPoint> closed_landmarks_;  ///< where what they show is not kept

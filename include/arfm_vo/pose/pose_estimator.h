@@ -11,9 +11,10 @@
 
 namespace arfm_vo {
 
+constexpr int kSamplePoints = 3;  ///< of P3P
+
 struct PoseEstimatorOptions {
   RansacOptions ransac;
-  int sample_size = 5;             ///< points of an EPnP sample, 4..8
   int min_inliers = 15;            ///< fewer are no pose
   double min_inlier_share = 0.15;  ///< of the observations' votes
   PoseRefinementOptions refinement;
@@ -28,7 +29,7 @@ struct PoseEstimatorOptions {
 
   /// Throws std::invalid_argument naming the key.
   void Check() const;
-  ARFM_FIELDS(ransac, sample_size, min_inliers, min_inlier_share, refinement)
+  ARFM_FIELDS(ransac, min_inliers, min_inlier_share, refinement)
 };
 
 /// Where the camera may be by its motion before.
@@ -61,17 +62,17 @@ struct PredictedPose {
 
 constexpr char kAgreesWithRival = 2;
 
-/// The camera's pose from points of the map and where it sees them: EPnP inside RANSAC with the
-/// score of MSAC (Torr and Zisserman 2000) on the stereo reprojection errors in units of their
-/// standard deviation, promising hypotheses refined (Chum, Matas, Kittler 2003), then RefinePose on
-/// the inliers. Where more than half of the votes are for the refined prediction nothing else is
-/// tried; a pose that the prediction does not allow needs four times the votes. The prediction is
-/// never needed. Where many points that contradict the pose agree with one another there is a
-/// rival.
-/// Status kTooFewMatches below min_inliers observations, kNoConsensus where too few agree.
-/// `is_inlier`, if not null, becomes [N]: 1 where an observation agrees with the pose,
-/// kAgreesWithRival where it agrees with the rival alone; all 0 where there is none.
-/// Throws std::invalid_argument for wrong options and for observations that are not IsValid().
+/// The camera's pose from points of the map and where it sees them: EPnP on those that agree,
+/// found by RANSAC with samples of three (P3P) and the score of MSAC (Torr and Zisserman 2000) on
+/// the stereo reprojection errors in units of their standard deviation, promising hypotheses
+/// refined (Chum, Matas, Kittler 2003), then RefinePose on the inliers. Where more than half of the
+/// votes are for the refined prediction nothing else is tried; a pose that the prediction does not
+/// allow needs four times the votes. The prediction is never needed. Where many points that
+/// contradict the pose agree with one another there is a rival. Status kTooFewMatches below
+/// min_inliers observations, kNoConsensus where too few agree. `is_inlier`, if not null, becomes
+/// [N]: 1 where an observation agrees with the pose, kAgreesWithRival where it agrees with the
+/// rival alone; all 0 where there is none. Throws std::invalid_argument for wrong options and for
+/// observations that are not IsValid().
 PoseEstimate EstimatePose(const StereoCamera& camera,
                           const std::vector<PointObservation>& observations,
                           const std::optional<PredictedPose>& predicted,

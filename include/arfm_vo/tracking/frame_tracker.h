@@ -24,7 +24,7 @@ struct FrameTrackerOptions {
 };
 
 /// Finds the pose of a frame in the local map (Fig. 3): descriptors near the predicted places, or
-/// among all keypoints where there is no prediction or it fails; EPnP in RANSAC; then every
+/// among all keypoints where there is no prediction or it fails; RANSAC and EPnP; then every
 /// landmark in view is measured by its patch, and the pose refined on these.
 class FrameTracker {
  public:

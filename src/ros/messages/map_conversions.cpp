@@ -16,11 +16,12 @@ LandmarkObservations ImportObservations(const KeyframeStamped& message) {
   LandmarkObservations observations(size);
   for (size_t i = 0; i < size; ++i) {
     observations[i].landmark = message.observation_landmark[i];
-    observations[i].pixels = Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]);
+    observations[i].pixels =
+        Eigen::Map<const Eigen::Vector4d>(&message.observation_pixels[4 * i]).cast<float>();
     observations[i].has_right = message.observation_has_right[i];
     observations[i].sigma_px = message.observation_sigma[i];
     RequireElement(observations[i].sigma_px > 0, "observation_sigma", i, "is not positive");
-    const Eigen::Vector4d& seen = observations[i].pixels;
+    const Eigen::Vector4f& seen = observations[i].pixels;
     RequireInImage(seen[0], seen[1], width, height, "observation_pixels", 4 * i);
     if (observations[i].has_right)
       RequireInImage(seen[2], seen[3], width, height, "observation_pixels", 4 * i + 2);

@@ -120,7 +120,7 @@ TEST(Conversions, AKeyframeSurvives) {
   ExpectEqual(back.odom_from_world, keyframe.odom_from_world);
   ExpectEqual(back.base_from_camera, keyframe.base_from_camera);
   ASSERT_EQ(back.keyframe.observations.size(), 2u);
-  EXPECT_EQ(back.keyframe.observations[0].pixels, Eigen::Vector4d(1, 2, 3, 4));
+  EXPECT_EQ(back.keyframe.observations[0].pixels, Eigen::Vector4f(1, 2, 3, 4));
   EXPECT_TRUE(back.keyframe.observations[0].has_right);
   EXPECT_EQ(back.keyframe.observations[0].sigma_px, 0.5);
   EXPECT_EQ(back.keyframe.observations[1].landmark, int64_t(1) << 40);

@@ -62,12 +62,13 @@ class MapKeeperTest : public ::testing::Test {
       const Landmark& landmark = landmarks[seen.landmark];
       StereoPoint& point = frame.points.emplace_back();
       point.keypoint = frame.features.size();
-      point.observation = seen.pixels.head<3>();
-      point.x_in_camera = camera.TriangulateMeasured(seen.pixels.x(), seen.pixels.y(),
-                                                     seen.pixels.x() - seen.pixels.z());
+      const Eigen::Vector4d pixels = seen.Pixels();
+      point.observation = pixels.head<3>();
+      point.x_in_camera =
+          camera.TriangulateMeasured(pixels.x(), pixels.y(), pixels.x() - pixels.z());
       Keypoint& keypoint = frame.features.keypoints.emplace_back(landmark.keypoint);
-      keypoint.x = static_cast<float>(seen.pixels.x());
-      keypoint.y = static_cast<float>(seen.pixels.y());
+      keypoint.x = static_cast<float>(pixels.x());
+      keypoint.y = static_cast<float>(pixels.y());
       keypoint.scale = 1;
       frame.features.descriptors.push_back(cv::Mat(landmark.descriptor, true).reshape(1, 1));
     }

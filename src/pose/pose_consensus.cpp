@@ -1,0 +1,93 @@
+#include "pose_consensus.h"
+
+#include <algorithm>
+
+#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/pose/epnp.h"
+#include "arfm_vo/pose/reprojection.h"
+#include "p3p.h"
+
+namespace arfm_vo {
+
+Consensus::Consensus(const StereoCamera& camera, const std::vector<PointObservation>& observations,
+                     const PoseEstimatorOptions& options)
+    : camera_(camera),
+      observations_(observations),
+      min_inliers_(options.min_inliers),
+      bounds_{ChiSquareQuantile(2, kInlierProbability), ChiSquareQuantile(3, kInlierProbability)} {
+  spreads_.reserve(observations.size());
+  for (const PointObservation& observation : observations) {
+    spreads_.emplace_back(observation.x_covariance);
+  }
+}
+
+std::optional<Rigid3> Consensus::Solve(const std::vector<int>& sample) const {
+  Eigen::Matrix3d points;
+  Eigen::Matrix<double, 2, kSamplePoints> rays;
+  for (int i = 0; i < kSamplePoints; ++i) {
+    points.col(i) = observations_[sample[i]].x_in_world;
+    rays.col(i) = Ray(observations_[sample[i]]);
+  }
+  std::optional<Rigid3> best;
+  double best_score = -1;
+  std::vector<char> is_inlier(observations_.size());
+  for (const Rigid3& pose : SolveP3p(points, rays)) {
+    const double score = Classify(pose, is_inlier);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = pose;
+  }
+  return best;
+}
+
+std::optional<Rigid3> Consensus::Improve(const std::vector<char>& is_inlier,
+                                         const PoseRefinementOptions& options) const {
+  const auto num = std::count(is_inlier.begin(), is_inlier.end(), 1);
+  Eigen::Matrix3Xd points(3, num);
+  Eigen::Matrix2Xd rays(2, num);
+  Eigen::Index column = 0;
+  for (size_t i = 0; i < observations_.size(); ++i) {
+    if (!is_inlier[i]) continue;
+    points.col(column) = observations_[i].x_in_world;
+    rays.col(column++) = Ray(observations_[i]);
+  }
+  const auto pose = SolveEpnp(points, rays);
+  if (!pose) return std::nullopt;
+  const PoseRefinement refined = RefinePose(camera_, observations_, *pose, options, is_inlier);
+  if (refined.status != RefinementStatus::kConverged) return std::nullopt;
+  return refined.camera_from_world;
+}
+
+double Consensus::SquaredError(int i, const Eigen::Matrix3d& rotation,
+                               const Eigen::Vector3d& translation) const {
+  const PointObservation& observation = observations_[i];
+  const Eigen::Vector3d x = rotation * observation.x_in_world + translation;
+  if (!(x.z() > kMinDepth)) return 1e12;
+  const Eigen::Vector3d error = ReprojectionError(camera_, observation, x);
+  const double px_per_m = camera_.fx / x.z();
+  const double variance =
+      observation.sigma_px * observation.sigma_px + spreads_[i].rest * px_per_m * px_per_m;
+  // S = variance I + g g^T, inverted by Sherman and Morrison's formula.
+  Eigen::Vector3d g = ProjectionJacobian(camera_, x) * (rotation * spreads_[i].axis);
+  if (!observation.has_right) g.z() = 0;
+  const double along = g.dot(error);
+  return (error.squaredNorm() - along * along / (variance + g.squaredNorm())) / variance;
+}
+
+double Consensus::Classify(const Rigid3& camera_from_world, std::vector<char>& is_inlier) const {
+  const Eigen::Matrix3d rotation = camera_from_world.RotationMatrix();
+  double score = 0;
+  int num_inliers = 0;
+  for (size_t i = 0; i < observations_.size(); ++i) {
+    const double ratio =
+        SquaredError(static_cast<int>(i), rotation, camera_from_world.translation) /
+        bounds_[observations_[i].has_right];
+    is_inlier[i] = ratio <= 1;
+    num_inliers += is_inlier[i];
+    if (ratio <= 1) score += observations_[i].votes * (1 - ratio);
+  }
+  // However many votes they have, a few agree by chance.
+  return num_inliers < min_inliers_ ? score * num_inliers / (10.0 * min_inliers_) : score;
+}
+
+}  // namespace arfm_vo
