@@ -76,7 +76,7 @@ class Drive {
   }
 
  private:
-  static constexpr double kFirst_s = 1;
+  static constexpr double kFirst_s = 2;  ///< it has gathered speed
 
   static SensesOptions Use(bool use_imu) {
     SensesOptions use;
