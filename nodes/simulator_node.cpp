@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
 
 in    status, odom, goal_report
 out   /clock, stereo/left|right/image_rect, stereo/left|right/camera_info, base_truth (nav_msgs/Odometry),
-      imu (sensor_msgs/Imu, its gyro alone),
+      imu (sensor_msgs/Imu, without orientation),
       terrain (visualization_msgs/Marker)
 srv   ~set_clock (std_srvs/SetBool): that of the simulated computer, 30 s ahead or back)",
       [](arfm_vo::SimulatorNode& node) { node.Run(); });

@@ -31,6 +31,7 @@ bool PlacedMap::Add(const PlacedKeyframe& keyframe) {
     *this = std::move(anew);
   }
   if (!global_ || keyframe.epoch != epoch_) StartEpoch(keyframe);
+  odom_from_world_ = keyframe.odom_from_world;
   const Keyframe& seen = keyframe.keyframe;
   global_->Add(seen, keyframe.landmarks);
   LandmarkId first_landmark = places_.empty() ? 0 : places_.rbegin()->second.first_landmark;
@@ -103,7 +104,7 @@ std::optional<MapUpdate> PlacedMap::Adjust(const BundleCallback& progress) {
   correction_ = update->correction;
   const auto newest_place = [&] { return BasePoses().back().map_from_base.translation; };
   const Eigen::Vector3d before = is_bent ? newest_place() : Eigen::Vector3d::Zero();
-  frame_.Adjust(global_->MapFromOdom());
+  frame_.Adjust(global_->MapFromOdom(), odom_from_world_);
   if (is_bent) MoveSettled(*update);
   for (const MapUpdate::KeyframePose& keyframe : update->keyframes) {
     Place& place = places_.at(keyframe.id);

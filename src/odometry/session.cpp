@@ -18,6 +18,8 @@ constexpr double kMaxBridge_s = 2;
 /// by this part of the distance of what it sees.
 constexpr int kMaxUnknownPairs = 3;
 constexpr double kNewGround = 0.05;
+/// Gravity turns odom no faster, rad/s, so that who steers by it does not see it leap.
+constexpr double kMaxLevelling_rad_s = 0.01;
 
 }  // namespace
 
@@ -75,12 +77,15 @@ void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
     Bridge(base_from_camera, pose);
     return;
   }
+  const double since_last_s = last_ ? frame.stamp_s() - last_->stamp_s : 0;
+  if (!last_) base_.StandBy(senses().FirstUp(frame.stamp_s()));
   FollowBase(base_from_camera, pose);
   lost_since_s_.reset();
   num_unknown_ = 0;
   if (pose.update.is_relocalised) motion_.Reset();  // how it came there is not known
   motion_.Add(frame.stamp_s(), base_from_camera * estimate.camera_from_world,
               BaseCovariance(estimate.covariance, base_from_camera));
+  base_.Level(motion_.up_in_world(), kMaxLevelling_rad_s * since_last_s);
 }
 
 void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
@@ -221,7 +226,7 @@ void Session::StartEpoch() {
     closed_.push_back(pose);
   }
   BoundFrames(closed_);
-  if (base_.has_world()) map_.Adjust(log_.MapFromWorld());
+  if (base_.has_world()) map_.Adjust(log_.MapFromWorld(), base_.odom_from_world());
   log_ = TrajectoryLog(num_frames_);
   offer_.reset();
   if (odometry_) odometry_->Reset();

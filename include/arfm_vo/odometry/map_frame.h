@@ -9,13 +9,12 @@ namespace arfm_vo {
 class MapFrame {
  public:
   void StartEpoch(const Rigid3& odom_from_world) {
-    odom_from_world_ = odom_from_world;
     map_from_world_ = map_from_odom_ * odom_from_world;
   }
   /// `adjusted_from_world` takes the newest adjusted pose in this world to what it should have
-  /// been.
-  void Adjust(const Rigid3& adjusted_from_world) {
-    map_from_odom_ = map_from_world_ * adjusted_from_world * odom_from_world_.Inverse();
+  /// been; `odom_from_world` is where gravity has turned odom meanwhile.
+  void Adjust(const Rigid3& adjusted_from_world, const Rigid3& odom_from_world) {
+    map_from_odom_ = map_from_world_ * adjusted_from_world * odom_from_world.Inverse();
   }
 
   /// The same place has other coordinates in the map from now on.
@@ -29,7 +28,7 @@ class MapFrame {
   const Rigid3& map_from_world() const { return map_from_world_; }
 
  private:
-  Rigid3 map_from_odom_, map_from_world_, odom_from_world_;
+  Rigid3 map_from_odom_, map_from_world_;
 };
 
 }  // namespace arfm_vo

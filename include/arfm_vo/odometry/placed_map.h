@@ -104,6 +104,7 @@ class PlacedMap {
   StereoCamera camera_;  ///< of the newest keyframe, and of correction_
   std::optional<CorrectionBelief> correction_;
   MapFrame frame_;
+  Rigid3 odom_from_world_;  ///< of the newest keyframe
   uint32_t epoch_ = 0;
   std::map<KeyframeId, Place> places_;
   std::vector<MapUpdate::LandmarkPosition> adjusted_;  ///< in this epoch, sorted by id

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -9,28 +10,45 @@
 
 namespace arfm_vo {
 
-/// The gyro of a cheap IMU whose axes are those of the base: white noise of 2e-4 rad/s per root of
-/// Hz, and a bias of 0.01 rad/s about each axis.
+/// What an IMU reads, seen from the base.
+struct ImuReading {
+  Eigen::Vector3d rate_rad_s;
+  Eigen::Vector3d force_m_s2;  ///< specific force: gravity's reaction, up, and the acceleration
+};
+
+/// A cheap IMU whose axes are those of the base, which is where it sits: white noise of 2e-4 rad/s
+/// and 2e-3 m/s^2 per root of Hz, and a bias of 0.01 rad/s and 0.1 m/s^2 in each axis.
 class SimulatedImu {
  public:
   explicit SimulatedImu(int seed = 1) : engine_(seed) {}
 
-  /// The mean rate since the reading before, rad/s, seen from the base; nothing at the first.
-  std::optional<Eigen::Vector3d> Read(double now_s, const Eigen::Quaterniond& world_from_base) {
-    constexpr double kNoise = 2e-4, kBias_rad_s = 0.01;
+  /// The mean since the reading before; nothing at the first two.
+  std::optional<ImuReading> Read(double now_s, const Rigid3& world_from_base) {
+    constexpr double kRateNoise = 2e-4, kRateBias_rad_s = 0.01;
+    constexpr double kForceNoise = 2e-3, kForceBias_m_s2 = 0.1, kGravity_m_s2 = 9.81;
     const auto before = std::exchange(world_from_before_, world_from_base);
     const double interval_s = now_s - std::exchange(before_s_, now_s);
     if (!before) return std::nullopt;
-    Eigen::Vector3d rate = LogSO3(before->conjugate() * world_from_base) / interval_s;
+    const Eigen::Vector3d velocity =
+        (world_from_base.translation - before->translation) / interval_s;
+    const auto velocity_before = std::exchange(velocity_, velocity);
+    if (!velocity_before) return std::nullopt;
+    const Eigen::Vector3d force =
+        (velocity - *velocity_before) / interval_s + kGravity_m_s2 * Eigen::Vector3d::UnitZ();
+    ImuReading reading{LogSO3(before->rotation.conjugate() * world_from_base.rotation) / interval_s,
+                       world_from_base.rotation.conjugate() * force};
+    const double root_s = std::sqrt(interval_s);
     for (int axis = 0; axis < 3; ++axis) {
-      rate[axis] += kBias_rad_s + kNoise / std::sqrt(interval_s) * RandomDeviate(engine_);
+      reading.rate_rad_s[axis] += kRateBias_rad_s + kRateNoise / root_s * RandomDeviate(engine_);
+      reading.force_m_s2[axis] += kForceBias_m_s2 + kForceNoise / root_s * RandomDeviate(engine_);
     }
-    return rate;
+    return reading;
   }
 
  private:
   RandomEngine engine_;
-  std::optional<Eigen::Quaterniond> world_from_before_;
+  std::optional<Rigid3> world_from_before_;
+  std::optional<Eigen::Vector3d> velocity_;
   double before_s_ = 0;
 };
 

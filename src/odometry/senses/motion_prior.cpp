@@ -21,13 +21,12 @@ constexpr size_t kNumCompared = 2;
 
 void MotionPrior::Add(double stamp_s, const Rigid3& base_from_world, const Matrix6& covariance) {
   model_.Add(stamp_s, base_from_world);
-  const Pose now{stamp_s, base_from_world, covariance};
-  velocity_.reset();
+  Pose now{stamp_s, base_from_world, covariance, std::nullopt};
   if (last_ && stamp_s > last_->stamp_s) {
     const Rigid3 before_from_now = last_->base_from_world * base_from_world.Inverse();
     // On a curve the way begins as much to one side of the base as it ends to the other.
     const Eigen::Vector3d turn = LogSO3(before_from_now.rotation);
-    velocity_ = ExpSO3(-turn / 2) * before_from_now.translation / (stamp_s - last_->stamp_s);
+    now.velocity = ExpSO3(-turn / 2) * before_from_now.translation / (stamp_s - last_->stamp_s);
   }
   last_ = now;
   if (!compared_.empty() && stamp_s < compared_.back().stamp_s + kCompareOver_s) return;
@@ -39,20 +38,28 @@ void MotionPrior::Add(double stamp_s, const Rigid3& base_from_world, const Matri
   motion.covariance = from.covariance + to.covariance;
   motion.covariance.diagonal().head<3>().array() += kLeastShift_m * kLeastShift_m;
   motion.covariance.diagonal().tail<3>().array() += kLeastTurn_rad * kLeastTurn_rad;
-  senses_.Learn(from.stamp_s, to.stamp_s, motion);
+  Eigen::Vector3d change_m_s = Eigen::Vector3d::Zero();
+  if (from.velocity) {
+    change_m_s = *to.velocity - motion.before_from_now.rotation.conjugate() * *from.velocity;
+  }
+  senses_.Learn(from.stamp_s, to.stamp_s, motion, change_m_s);
+  up_in_world_ = senses_.up_in_base();
+  if (up_in_world_) up_in_world_ = to.base_from_world.rotation.conjugate() * *up_in_world_;
   compared_.pop_front();
 }
 
 void MotionPrior::ForgetPoses() {
+  senses_.gravity().Forget();
+  up_in_world_.reset();
   last_.reset();
   compared_.clear();
-  velocity_.reset();
 }
 
 std::optional<RelativeMotion> MotionPrior::SinceLast(double stamp_s) const {
   if (!last_ || stamp_s <= last_->stamp_s) return std::nullopt;
-  const double speed_sigma_m_s = velocity_ ? velocity_->norm() + kSpeedFromRest_m_s : kAnySpeed_m_s;
-  return senses_.Between(last_->stamp_s, stamp_s, velocity_.value_or(Eigen::Vector3d::Zero()),
+  const auto& velocity = last_->velocity;
+  const double speed_sigma_m_s = velocity ? velocity->norm() + kSpeedFromRest_m_s : kAnySpeed_m_s;
+  return senses_.Between(last_->stamp_s, stamp_s, velocity.value_or(Eigen::Vector3d::Zero()),
                          speed_sigma_m_s);
 }
 

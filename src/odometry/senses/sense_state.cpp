@@ -33,6 +33,11 @@ void SenseState::Advance(double interval_s) {
   }
 }
 
+void SenseState::Carry(const Eigen::MatrixXd& carry, const Eigen::MatrixXd& noise) {
+  mean_ = carry * mean_;
+  covariance_ = carry * covariance_ * carry.transpose() + noise;
+}
+
 void SenseState::Update(const Eigen::VectorXd& jacobian, double residual, double variance) {
   const Eigen::VectorXd carried = covariance_ * jacobian;
   const double innovation_variance =

@@ -63,16 +63,24 @@ std::optional<RelativeMotion> Senses::Between(double from_s, double to_s,
   return motion;
 }
 
-void Senses::Learn(double from_s, double to_s, const RelativeMotion& by_cameras) {
+void Senses::Learn(double from_s, double to_s, const RelativeMotion& by_cameras,
+                   const Eigen::Vector3d& change_m_s) {
   const Matrix6& covariance = by_cameras.covariance;
-  gyro_.Learn(from_s, to_s,
-              {by_cameras.before_from_now.rotation, covariance.bottomRightCorner<3, 3>()});
+  const Turn turn{by_cameras.before_from_now.rotation, covariance.bottomRightCorner<3, 3>()};
+  gravity_.Learn(from_s, to_s, turn, change_m_s);
+  gyro_.Learn(from_s, to_s, turn);
   tracks_.Learn(from_s, to_s, by_cameras.before_from_now, covariance(0, 0), covariance(5, 5));
+}
+
+std::optional<Eigen::Vector3d> Senses::FirstUp(double stamp_s) {
+  gravity_.Begin(stamp_s);
+  return up_in_base();
 }
 
 std::string Senses::FindFaults() const {
   std::string faults;
-  for (const auto& fault : {gyro_.state().FindFault(), tracks_.state().FindFault()}) {
+  for (const SenseState* state : {&gyro_.state(), &gravity_.state(), &tracks_.state()}) {
+    const auto fault = state->FindFault();
     if (fault) faults += (faults.empty() ? "" : "; ") + *fault + ": left out";
   }
   return faults;

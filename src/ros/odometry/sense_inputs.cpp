@@ -47,9 +47,15 @@ void SenseInputs::Take(const sensor_msgs::Imu& imu) {
   Require(rate.norm() <= 100, "imu: angular_velocity is not one of a rover");
   Require(imu.angular_velocity_covariance[0] >= 0,
           "imu: angular_velocity_covariance[0] is negative: it has no gyro");
+  const Eigen::Vector3d force(imu.linear_acceleration.x, imu.linear_acceleration.y,
+                              imu.linear_acceleration.z);
+  Require(force.norm() <= 1000, "imu: linear_acceleration is not one of a rover");
   const Rigid3 base_from_imu =
       LookUpTransform(buffer_, base_frame_, imu.header.frame_id, ros::Time()).target_from_source;
   senses_().gyro().Add(imu.header.stamp.toSec(), base_from_imu.rotation * rate);
+  const bool has_accelerometer = imu.linear_acceleration_covariance[0] >= 0;
+  if (!has_accelerometer) return;
+  senses_().gravity().Add(imu.header.stamp.toSec(), base_from_imu.rotation * force);
 }
 
 void SenseInputs::Take(const nav_msgs::Odometry& tracks) {
@@ -64,7 +70,8 @@ void SenseInputs::Report(Diagnostics& status) {
     if (std::exchange(input.num_since_report, 0) > 0) continue;
     problem += (problem.empty() ? "" : "; ") + ("nothing comes on " + input.topic);
   }
-  for (const SenseState* state : {&senses_().gyro().state(), &senses_().tracks().state()}) {
+  for (const SenseState* state :
+       {&senses_().gyro().state(), &senses_().gravity().state(), &senses_().tracks().state()}) {
     for (const auto& [name, text] : state->Describe()) status.add(name, text);
   }
   if (watch_.IsDue(problem)) ROS_WARN("%s", problem.c_str());

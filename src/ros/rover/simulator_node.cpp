@@ -96,7 +96,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
           [this](const ros::SingleSubscriberPublisher& subscriber) {
             subscriber.publish(MakeTerrainMarker(terrain_, map_from_world_, options_.map_frame));
           })),
-      gyro_(node.advertise<sensor_msgs::Imu>("imu", 100)),
+      imu_publisher_(node.advertise<sensor_msgs::Imu>("imu", 100)),
       status_subscriber_(node.subscribe<OdometryStatus>(
           "status", 10,
           [this](const OdometryStatusConstPtr& status) {
@@ -154,13 +154,14 @@ void SimulatorNode::Step() {
   now_ns_ += kStep_ns;
   PublishClock();
   chassis_.Tick(1e-9 * static_cast<double>(now_ns_));
-  if (const auto rate = imu_.Read(1e-9 * now_ns_, chassis_.plant().WorldFromBase().rotation)) {
+  if (const auto read = imu_.Read(1e-9 * now_ns_, chassis_.plant().WorldFromBase())) {
     sensor_msgs::Imu reading;
     reading.header.stamp = Stamp();
     reading.header.frame_id = options_.base_frame;
-    tf2::toMsg(*rate, reading.angular_velocity);
-    reading.orientation_covariance[0] = reading.linear_acceleration_covariance[0] = -1;  // neither
-    gyro_.publish(reading);
+    tf2::toMsg(read->rate_rad_s, reading.angular_velocity);
+    tf2::toMsg(read->force_m_s2, reading.linear_acceleration);
+    reading.orientation_covariance[0] = -1;  // it has none
+    imu_publisher_.publish(reading);
   }
   if (now_ns_ < pair_due_ns_) return;
   pair_due_ns_ += static_cast<uint64_t>(std::llround(1e9 * options_.pair_period_s));

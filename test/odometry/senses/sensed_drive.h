@@ -16,6 +16,9 @@ namespace arfm_vo {
 struct SenseFaults {
   Eigen::Quaterniond imu_from_base = Eigen::Quaterniond::Identity();  ///< that tf does not know
   double gyro_sign = 1, imu_late_s = 0, track_scale = 1;
+  Eigen::Quaterniond force_from_base = Eigen::Quaterniond::Identity();
+  double force_sign = 1;
+  Eigen::Vector3d force_bias_m_s2 = Eigen::Vector3d::Zero();
 };
 
 /// Senses with faults.
@@ -23,9 +26,12 @@ class FaultySenses {
  public:
   explicit FaultySenses(const SenseFaults& faults = {}) : faults_(faults) {}
 
-  void ReadGyro(double stamp_s, const Eigen::Vector3d& rate) {
-    gyro_.emplace_back(stamp_s + faults_.imu_late_s,
-                       faults_.gyro_sign * (faults_.imu_from_base * rate));
+  void ReadImu(double stamp_s, const ImuReading& truth) {
+    imu_.push_back({stamp_s + faults_.imu_late_s,
+                    {faults_.gyro_sign * (faults_.imu_from_base * truth.rate_rad_s),
+                     faults_.force_sign *
+                             (faults_.imu_from_base * faults_.force_from_base * truth.force_m_s2) +
+                         faults_.force_bias_m_s2}});
   }
   void ReadTracks(double stamp_s, const TrackWays& ways) {
     odometry_.Update({faults_.track_scale * ways.left_m, faults_.track_scale * ways.right_m});
@@ -33,8 +39,9 @@ class FaultySenses {
   }
   /// What has come until now.
   void GiveTo(double now_s, Senses& senses) {
-    for (; !gyro_.empty() && gyro_.front().first < now_s + 1e-9; gyro_.pop_front()) {
-      senses.gyro().Add(gyro_.front().first, gyro_.front().second);
+    for (; !imu_.empty() && imu_.front().first < now_s + 1e-9; imu_.pop_front()) {
+      senses.gyro().Add(imu_.front().first, imu_.front().second.rate_rad_s);
+      senses.gravity().Add(imu_.front().first, imu_.front().second.force_m_s2);
     }
     for (; !tracks_.empty(); tracks_.pop_front()) {
       senses.tracks().Add(tracks_.front().first, tracks_.front().second);
@@ -44,31 +51,31 @@ class FaultySenses {
  private:
   SenseFaults faults_;
   TrackOdometry odometry_{TrackKinematics(TrackKinematicsOptions{})};
-  std::deque<std::pair<double, Eigen::Vector3d>> gyro_;
+  std::deque<std::pair<double, ImuReading>> imu_;
   std::deque<std::pair<double, Rigid3>> tracks_;
 };
 
 struct SensedDriveOptions {
   TrackedPlantOptions plant;  ///< slips by 10 %, 5 % more or less from place to place
-  int gyro_seed = 1;
+  int imu_seed = 1;
   double speed_m_s = 0.4, straight_s = 4;                       ///< of straight ways..
   double curve_speed_m_s = 0.3, turn_rad_s = 0.3, curve_s = 3;  ///< ..and the curves between
 
   static SensedDriveOptions WithSeed(int seed) {
     SensedDriveOptions options;
-    options.plant.seed = options.gyro_seed = seed;
+    options.plant.seed = options.imu_seed = seed;
     return options;
   }
 };
 
-/// A tracked rover that drives straight ways and curves to the left and the right in turn, with a
-/// gyro at 100 Hz and track odometry at 20 Hz.
+/// A tracked rover that drives straight ways and curves to the left and the right in turn, with an
+/// IMU at 100 Hz and track odometry at 20 Hz.
 class SensedDrive {
  public:
   explicit SensedDrive(const SensedDriveOptions& options, PlaceOnGround place = LiftFromPlane)
       : options_(options),
         plant_(options.plant, RoverPose{}, std::move(place)),
-        imu_(options.gyro_seed) {}
+        imu_(options.imu_seed) {}
 
   /// Drives on for some time; all of `senses` read.
   void DriveOn(double time_s, const std::vector<FaultySenses*>& senses) {
@@ -77,9 +84,9 @@ class SensedDrive {
     while (num_steps_ < end) {
       plant_.Step(kinematics_.TracksFor(MotionNow()), kStep_s);
       ++num_steps_;
-      const auto rate = imu_.Read(now_s(), plant_.WorldFromBase().rotation);
+      const auto reading = imu_.Read(now_s(), plant_.WorldFromBase());
       for (FaultySenses* one : senses) {
-        if (rate) one->ReadGyro(now_s(), *rate);
+        if (reading) one->ReadImu(now_s(), *reading);
         if (num_steps_ % 5 == 0) one->ReadTracks(now_s(), plant_.Ways());
       }
     }

@@ -100,6 +100,24 @@ TEST(BaseMotion, StartsAtTheOriginAndDrivesForwardAlongX) {
   EXPECT_LT(odom_from_base.Angle(), 1e-12);
 }
 
+TEST(BaseMotion, LevelTurnsOdomAboutTheBaseByABoundedAngle) {
+  BaseMotion motion;
+  motion.StandBy(Eigen::Vector3d(0.6, 0, 0.8));
+  const Rigid3 start = motion.Move({}, {});
+  EXPECT_TRUE(start.translation.isZero(1e-12));
+  EXPECT_TRUE((start.rotation * Eigen::Vector3d(0.6, 0, 0.8)).isApprox(Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE((start.rotation * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.8, 0, 0.6)));
+  const Rigid3 camera_from_world(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-5, 0, 0));
+  const Rigid3 before = motion.Move(camera_from_world, {});
+  motion.Level(Eigen::Vector3d(Eigen::Vector3d::UnitZ()), 0.1);
+  const Rigid3 turned = motion.Move(camera_from_world, {});
+  EXPECT_TRUE(turned.translation.isApprox(before.translation));
+  EXPECT_NEAR((before.Inverse() * turned).Angle(), 0.1, 1e-9);
+  motion.Level(Eigen::Vector3d(Eigen::Vector3d::UnitZ()), 10);
+  EXPECT_TRUE((motion.Move(camera_from_world, {}).rotation * Eigen::Vector3d::UnitZ())
+                  .isApprox(Eigen::Vector3d::UnitZ()));
+}
+
 TEST(BaseMotion, AParkedRoverThatPansItsHeadDoesNotMove) {
   BaseMotion motion;
   const Rigid3 camera_from_base0 = BaseFromCamera(5 * kDegree, 10 * kDegree).Inverse();

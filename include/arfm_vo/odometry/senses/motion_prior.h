@@ -32,6 +32,9 @@ class MotionPrior {
     ForgetPoses();
   }
 
+  /// Up in the poses' world, a unit vector, where an accelerometer tells it.
+  const std::optional<Eigen::Vector3d>& up_in_world() const { return up_in_world_; }
+
   bool KnowsSpeed() const { return model_.KnowsSpeed(); }
   /// The motion since the last pose by the senses, where these tell all of it: tracks, or a gyro
   /// where the base `keeps_speed`.
@@ -44,6 +47,7 @@ class MotionPrior {
     double stamp_s;
     Rigid3 base_from_world;
     Matrix6 covariance;
+    std::optional<Eigen::Vector3d> velocity;  ///< m/s, seen from the base
   };
   void ForgetPoses();
   std::optional<RelativeMotion> SinceLast(double stamp_s) const;
@@ -52,7 +56,7 @@ class MotionPrior {
   MotionModel model_;
   std::optional<Pose> last_;
   std::deque<Pose> compared_;  ///< those between which the senses are to be learnt next
-  std::optional<Eigen::Vector3d> velocity_;  ///< m/s at the last pose, seen from the base
+  std::optional<Eigen::Vector3d> up_in_world_;
 };
 
 }  // namespace arfm_vo

@@ -37,6 +37,7 @@ class SenseReadings {
   }
   void Clear() { readings_.clear(); }
   size_t size() const { return readings_.size(); }
+  double oldest_s() const { return readings_.empty() ? 0 : readings_.front().first; }
   const Value& newest() const { return readings_.back().second; }
 
   /// Whether they tell these times; they may end a little before.

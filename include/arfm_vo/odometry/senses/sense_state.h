@@ -26,9 +26,18 @@ class SenseState {
   explicit SenseState(std::vector<SenseNumber> numbers);
 
   void Advance(double interval_s);
+  /// What the numbers are of has moved: mean <- carry * mean, with `noise` added.
+  void Carry(const Eigen::MatrixXd& carry, const Eigen::MatrixXd& noise);
   /// `residual` is what was measured against what is expected by mean(), `jacobian` how it grows
   /// with the numbers. One beyond three standard deviations counts as if it were at three.
   void Update(const Eigen::VectorXd& jacobian, double residual, double variance);
+
+  /// The first three, which go into what they are a step of: they are zero then.
+  Eigen::Vector3d TakeFirst() {
+    const Eigen::Vector3d step = mean_.head<3>();
+    mean_.head<3>().setZero();
+    return step;
+  }
 
   const Eigen::VectorXd& mean() const { return mean_; }
   const Eigen::MatrixXd& covariance() const { return covariance_; }

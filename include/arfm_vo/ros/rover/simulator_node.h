@@ -98,7 +98,7 @@ class SimulatorNode {
   ros::Time odometry_done_, pair_stamp_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   StereoPublisher stereo_;
-  ros::Publisher clock_, truth_, ground_, gyro_;
+  ros::Publisher clock_, truth_, ground_, imu_publisher_;
   ros::Subscriber status_subscriber_, odometry_subscriber_, report_subscriber_;
   ros::ServiceServer set_clock_;
 };
