@@ -11,9 +11,6 @@ namespace {
 
 constexpr size_t kMaxSightings = 8;
 constexpr double kProbability = 0.99;  ///< that sightings of one map agree
-/// Ground that looks alike everywhere gave down to -45 a view on maps of other places.
-/// What the views that agree say together, each an equal share.
-constexpr double kMaxLogFalseAlarms = -300;
 
 /// How sure the motion between two views is, and that between two places of the map: 1 % of the
 /// way, and the directions of ways in proportion.
@@ -50,7 +47,8 @@ std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,
                                             int own_frame) {
   const auto found = recogniser_.Find(
       view, [&](int place, PlacePoint&) { return known[places_[place]].frame != own_frame; });
-  has_recognised_ = found && found->log_false_alarms <= kMaxLogFalseAlarms / (num_agreeing_ + 1);
+  // The views that agree say so together, each an equal share.
+  has_recognised_ = found && found->log_false_alarms <= kSureLogFalseAlarms / (num_agreeing_ + 1);
   if (!has_recognised_) return std::nullopt;
   const size_t keyframe = places_[found->place];
   const KnownKeyframe& place = known[keyframe];

@@ -58,7 +58,7 @@ std::optional<ArchivedPlace> KeyframeArchive::Find(const StereoFrame& frame,
   const auto found = recogniser_->Find(PointsSeen(camera_, correction, frame));
   if (!found) return std::nullopt;
   const View& view = views_[found->place];
-  ArchivedPlace place{found->pose, found->pose.covariance};
+  ArchivedPlace place{found->pose, found->log_false_alarms, found->pose.covariance};
   place.covariance_from_start += CarryCovariance(found->pose.camera_from_world, view.covariance);
   place.pose.camera_from_world = found->pose.camera_from_world * view.camera_from_world;
   return place;

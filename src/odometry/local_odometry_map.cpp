@@ -57,7 +57,9 @@ void LocalOdometry::Implementation::Recover(const StereoFrame& frame,
                                             OdometryUpdate& update) {
   if (!update.can_start) return;
   const auto place = archive_.Find(frame, correction_.mean);
-  if (!place || (predicted && !predicted->IsWithinGap(place->pose.camera_from_world))) return;
+  if (!place) return;
+  const bool is_near = !predicted || predicted->IsWithinGap(place->pose.camera_from_world);
+  if (!is_near && place->log_false_alarms > kSureLogFalseAlarms) return;
   for (const Keyframe& keyframe : map_.keyframes()) Retire(keyframe);
   map_.Clear();
   update.pose = place->pose;

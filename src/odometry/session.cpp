@@ -11,14 +11,12 @@ namespace {
 
 /// Between pairs further apart the speed is not told.
 constexpr double kMaxTwistInterval_s = 1;
-
 /// So long the base is taken to go on as it went, without a picture that tells.
 constexpr double kMaxBridge_s = 2;
-/// After so many good pairs that the map does not know it is given up, where the base has gone on
-/// by this part of the distance of what it sees.
+/// A map is given up that knows none of so many pairs, this part of their distance further on.
 constexpr int kMaxUnknownPairs = 3;
 constexpr double kNewGround = 0.05;
-/// Gravity turns odom no faster, rad/s, so that who steers by it does not see it leap.
+/// Gravity turns odom no faster, rad/s: who steers by it sees no leap.
 constexpr double kMaxLevelling_rad_s = 0.01;
 
 }  // namespace
@@ -63,8 +61,8 @@ void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
                     const Rigid3& base_from_camera, SessionUpdate& pose) {
   std::optional<PredictedPose> predicted;
   if (options_.predict_motion) predicted = motion_.Predict(frame.stamp_s(), base_from_camera);
+  const double gap_s = last_ ? frame.stamp_s() - last_->stamp_s : 0;
   if (predicted && last_) {
-    const double gap_s = frame.stamp_s() - last_->stamp_s;
     predicted->gap_sigma_m = std::sqrt(GapCovariance(last_->twist, gap_s)(0, 0));
   }
   pose.epoch = epoch_;
@@ -77,7 +75,6 @@ void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
     Bridge(base_from_camera, pose);
     return;
   }
-  const double since_last_s = last_ ? frame.stamp_s() - last_->stamp_s : 0;
   if (!last_) base_.StandBy(senses().FirstUp(frame.stamp_s()));
   FollowBase(base_from_camera, pose);
   lost_since_s_.reset();
@@ -85,7 +82,7 @@ void Session::Track(const FrameOnRequest& frame, const StereoImages& images,
   if (pose.update.is_relocalised) motion_.Reset();  // how it came there is not known
   motion_.Add(frame.stamp_s(), base_from_camera * estimate.camera_from_world,
               BaseCovariance(estimate.covariance, base_from_camera));
-  base_.Level(motion_.up_in_world(), kMaxLevelling_rad_s * since_last_s);
+  base_.Level(motion_.up_in_world(), kMaxLevelling_rad_s * gap_s);
 }
 
 void Session::Bridge(const Rigid3& base_from_camera, SessionUpdate& pose) {
@@ -160,8 +157,10 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
   DoubtNewMap(pose);
   pose.covariance = drift_.At(pose.odom_from_base,
                               BaseCovariance(pose.update.covariance_from_start, base_from_camera));
-  const auto twist = is_new_epoch ? std::nullopt : TwistSinceLast(pose);
   const double interval_s = last_ ? pose.update.stamp_s - last_->stamp_s : 0;
+  const auto twist = is_new_epoch
+                         ? std::nullopt
+                         : TwistBetween(last_->odom_from_base, pose.odom_from_base, interval_s);
   if (twist && interval_s <= kMaxTwistInterval_s) {
     pose.twist = *twist;
     pose.twist_covariance =
@@ -193,15 +192,6 @@ PlacedKeyframe Session::NewestKeyframe(const Rigid3& base_from_camera) const {
   newest.keyframe.left = cv::Mat();
   newest.keyframe.left_halved.clear();
   return newest;
-}
-
-std::optional<Twist> Session::TwistSinceLast(const SessionUpdate& pose) const {
-  const double interval_s = pose.update.stamp_s - last_->stamp_s;
-  if (interval_s <= 0) return std::nullopt;
-  const Rigid3 motion = last_->odom_from_base.Inverse() * pose.odom_from_base;
-  Twist twist;
-  twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
-  return twist;
 }
 
 void Session::Offer(MapUpdate update, uint32_t epoch) {

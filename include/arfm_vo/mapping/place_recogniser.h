@@ -14,6 +14,10 @@
 
 namespace arfm_vo {
 
+/// RecognisedPlace::log_false_alarms from which on a place counts wherever it is. Ground that looks
+/// alike everywhere gave down to -101 in a view of another place.
+constexpr double kSureLogFalseAlarms = -300;
+
 /// How a place is verified: it is not known again by a few points that fit by chance.
 PoseEstimatorOptions RecognitionPose();
 

@@ -10,6 +10,17 @@ namespace arfm_vo {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Twist = Eigen::Matrix<double, 6, 1>;  ///< seen from the base: (m/s, rad/s)
 
+/// Of a base that went from one pose to the other at an even speed; nothing where that took no
+/// time.
+inline std::optional<Twist> TwistBetween(const Rigid3& odom_from_before,
+                                         const Rigid3& odom_from_now, double interval_s) {
+  if (interval_s <= 0) return std::nullopt;
+  const Rigid3 motion = odom_from_before.Inverse() * odom_from_now;
+  Twist twist;
+  twist << motion.translation / interval_s, LogSO3(motion.rotation) / interval_s;
+  return twist;
+}
+
 /// On the diagonal where nothing is known: large, yet finite (1e308 makes rviz fall over).
 constexpr double kUnknownVariance = 9999;
 

@@ -11,6 +11,7 @@ namespace arfm_vo {
 /// Where a frame was taken that the archive knows.
 struct ArchivedPlace {
   PoseEstimate pose;
+  double log_false_alarms = 0;  ///< RecognisedPlace
   /// As pose.covariance, but against the first camera of all.
   Eigen::Matrix<double, 6, 6> covariance_from_start = Eigen::Matrix<double, 6, 6>::Zero();
 };

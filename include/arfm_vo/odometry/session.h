@@ -91,7 +91,6 @@ class Session {
   bool IsOnNewGround(const FrameOnRequest& frame, const SessionUpdate& pose);
   bool IsLostTooLong(double stamp_s) const;
   PlacedKeyframe NewestKeyframe(const Rigid3& base_from_camera) const;
-  std::optional<Twist> TwistSinceLast(const SessionUpdate& pose) const;
 
   LocalOdometryOptions options_;
   uint32_t epoch_;
