@@ -143,10 +143,11 @@ TEST(SimulatedRun, AFocalLengthThatIsWrongIsLearntInTurns) {
 
 /// A drive of 110 frames; then the camera is back where it was at frame 10, far out of the local
 /// map.
-SimulatedRun DriveAndBeCarriedBack(const OdometryOptions& options) {
+SimulatedRun DriveAndBeCarriedBack(const OdometryOptions& options, int landmarks_in_view = 300) {
   std::vector<Rigid3> path = BentPath(110);
   for (int i = 10; i < 30; ++i) path.push_back(path[i]);
   SimulatedRunOptions simulation;
+  simulation.simulator.landmarks_in_view = landmarks_in_view;
   simulation.simulator.rest_frames = 0;  // the old landmarks are seen at once
   return RunSimulated(kCamera, path, simulation, options);
 }
@@ -169,6 +170,10 @@ TEST(Recovery, WithoutTheArchiveSuchAPlaceStaysUnknown) {
   EXPECT_EQ(run.num_untracked, 2);  // then a new map is begun, elsewhere
   EXPECT_EQ(run.epoch, 2u);
   EXPECT_GT((run.online.back().translation - run.truth.back().translation).norm(), 10);
+}
+
+TEST(Recovery, APlaceFartherThanTheCameraMayHaveGoneMustBeSure) {
+  EXPECT_EQ(DriveAndBeCarriedBack({}, 130).epoch, 2u);
 }
 
 /// What has never been seen is not mistaken for what has.
