@@ -50,9 +50,9 @@ class Drive {
   Drive(const SensedDriveOptions& options, int seed, const Arguments& arguments)
       : terrain_(MakeTerrain(seed), Corridor{}, arguments.num_threads),
         renderer_(terrain_, MakeRender(seed, arguments)),
-        drive_(options, [this](const RoverPose& pose) {
-          return PlaceRover(terrain_, {{pose.x_m, pose.y_m}, pose.heading_rad}, RoverShape());
-        }) {}
+        drive_(options,
+               [this](const RoverPose& pose) { return PlaceRover(terrain_, pose, RoverShape()); }) {
+  }
 
   /// The next pair, after `time_s` of driving.
   void Step(double time_s, bool is_dark, std::vector<Variant>& variants) {
