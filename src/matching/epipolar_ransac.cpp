@@ -33,26 +33,20 @@ class EpipolarProblem {
 
   int size() const { return static_cast<int>(first_.size()); }
 
-  /// Of the up to three solutions of the 7-point algorithm the one most matches agree with.
-  std::optional<cv::Matx33d> Estimate(const std::vector<int>& sample) const {
+  /// The up to three solutions of the 7-point algorithm.
+  std::vector<cv::Matx33d> Estimate(const std::vector<int>& sample) const {
     std::vector<cv::Point2d> first, second;
     for (const int i : sample) {
       first.emplace_back(first_[i].x, first_[i].y);
       second.emplace_back(second_[i].x, second_[i].y);
     }
     const cv::Mat solutions = cv::findFundamentalMat(first, second, cv::FM_7POINT);
-    std::optional<cv::Matx33d> best;
-    double best_score = -1;
-    std::vector<char> is_inlier(first_.size());
+    std::vector<cv::Matx33d> finite;
     for (int row = 0; row + 3 <= solutions.rows; row += 3) {
       const cv::Matx33d solution(solutions.ptr<double>(row));
-      if (!IsFinite(solution)) continue;
-      const double score = Classify(solution, is_inlier);
-      if (score <= best_score) continue;
-      best_score = score;
-      best = solution;
+      if (IsFinite(solution)) finite.push_back(solution);
     }
-    return best;
+    return finite;
   }
 
   double Classify(const cv::Matx33d& fundamental, std::vector<char>& is_inlier) const {

@@ -54,7 +54,7 @@ void MapStore::Settle(int first_unsettled, size_t max_points) {
     const int k = static_cast<int>(settled.size());
     KnownKeyframe keyframe;
     keyframe.map_from_camera = keyframes[k].camera_from_world.Inverse();
-    keyframe.SetPoints(PlaceOf(k));
+    if (max_points > 0) keyframe.SetPoints(PlaceOf(k));
     settled.push_back(std::move(keyframe));
     Forget(k, [](const Point& point) { return point.num_observations < 2; });
     KeepDistinct(settled, settled.size() - 1);

@@ -141,14 +141,14 @@ SessionUpdate Session::Skip(double stamp_s, PoseStatus status, const std::string
 void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
   const PoseEstimate& estimate = pose.update.pose;
   const bool is_new_epoch = !base_.has_world();
+  const double interval_s = last_ ? pose.update.stamp_s - last_->stamp_s : 0;
   pose.odom_from_base = base_.Move(estimate.camera_from_world, base_from_camera);
   if (is_new_epoch) {
     map_.StartEpoch(base_.odom_from_world());
     if (!map_from_first_) map_from_first_ = map_.map_from_world();
     if (last_) {
-      const double gap_s = pose.update.stamp_s - last_->stamp_s;
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
-                        gap_by_senses_.value_or(GapCovariance(last_->twist, gap_s)));
+                        gap_by_senses_.value_or(GapCovariance(last_->twist, interval_s)));
       if (is_map_doubtful_ && last_->twist) {
         new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, *last_->twist}};
       }
@@ -157,7 +157,6 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
   DoubtNewMap(pose);
   pose.covariance = drift_.At(pose.odom_from_base,
                               BaseCovariance(pose.update.covariance_from_start, base_from_camera));
-  const double interval_s = last_ ? pose.update.stamp_s - last_->stamp_s : 0;
   const auto twist = is_new_epoch
                          ? std::nullopt
                          : TwistBetween(last_->odom_from_base, pose.odom_from_base, interval_s);

@@ -21,23 +21,14 @@ Consensus::Consensus(const StereoCamera& camera, const std::vector<PointObservat
   }
 }
 
-std::optional<Rigid3> Consensus::Solve(const std::vector<int>& sample) const {
+std::vector<Rigid3> Consensus::Solve(const std::vector<int>& sample) const {
   Eigen::Matrix3d points;
   Eigen::Matrix<double, 2, kSamplePoints> rays;
   for (int i = 0; i < kSamplePoints; ++i) {
     points.col(i) = observations_[sample[i]].x_in_world;
     rays.col(i) = Ray(observations_[sample[i]]);
   }
-  std::optional<Rigid3> best;
-  double best_score = -1;
-  std::vector<char> is_inlier(observations_.size());
-  for (const Rigid3& pose : SolveP3p(points, rays)) {
-    const double score = Classify(pose, is_inlier);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = pose;
-  }
-  return best;
+  return SolveP3p(points, rays);
 }
 
 std::optional<Rigid3> Consensus::Improve(const std::vector<char>& is_inlier,

@@ -15,8 +15,8 @@ class Consensus {
   Consensus(const StereoCamera& camera, const std::vector<PointObservation>& observations,
             const PoseEstimatorOptions& options);
 
-  /// Of the poses in which the sample's points are seen so (P3P), that on which most others agree.
-  std::optional<Rigid3> Solve(const std::vector<int>& sample) const;
+  /// The poses in which the sample's points are seen so (P3P).
+  std::vector<Rigid3> Solve(const std::vector<int>& sample) const;
   /// By all that agree: EPnP, then refined.
   std::optional<Rigid3> Improve(const std::vector<char>& is_inlier,
                                 const PoseRefinementOptions& options) const;

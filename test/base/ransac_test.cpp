@@ -9,7 +9,7 @@ namespace {
 std::optional<RansacReport<double>> FindConstant(const std::vector<double>& values) {
   return Ransac<double>(
       static_cast<int>(values.size()), 1, RansacOptions{},
-      [&](const std::vector<int>& sample) { return std::optional<double>(values[sample[0]]); },
+      [&](const std::vector<int>& sample) { return std::vector<double>{values[sample[0]]}; },
       [&](const double model, std::vector<char>& is_inlier) {
         double score = 0;
         for (size_t i = 0; i < values.size(); ++i) {
@@ -37,7 +37,7 @@ TEST(Ransac, IsRepeatable) {
 
 TEST(Ransac, AnImprovementThatIsWorseIsNotTaken) {
   const auto report = Ransac<int>(
-      10, 1, RansacOptions(), [](const std::vector<int>&) { return std::optional<int>(5); },
+      10, 1, RansacOptions(), [](const std::vector<int>&) { return std::vector<int>{5}; },
       [](int model, std::vector<char>& is_inlier) {
         std::fill(is_inlier.begin(), is_inlier.begin() + model, 1);
         std::fill(is_inlier.begin() + model, is_inlier.end(), 0);

@@ -1,5 +1,6 @@
 #include "rehearsal/drawn_sight.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "arfm_vo/base/check.h"

@@ -147,6 +147,16 @@ class Stage {
   long pair_period_ms_, now_ms_ = 0;
 };
 
+template <class Eyes>
+RehearsedDrive DriveBy(const GoalScene& scene, const RehearsalOptions& options, Eyes& eyes) {
+  options.Check();
+  return Stage(scene, options,
+               [&](double now_s, const Rigid3& world_from_base) {
+                 return eyes.Look(now_s, world_from_base);
+               })
+      .Run();
+}
+
 }  // namespace
 
 void RehearsalOptions::Check() const {
@@ -158,18 +168,14 @@ void RehearsalOptions::Check() const {
 }
 
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options) {
-  options.Check();
   SimulatedSight sight(options.sight, options.odometry, options.shape, scene.terrain());
-  const auto look = [&](double now_s, const Rigid3& base) { return sight.Look(now_s, base); };
-  return Stage(scene, options, look).Run();
+  return DriveBy(scene, options, sight);
 }
 
 RehearsedDrive Rehearse(const GoalScene& scene, const RehearsalOptions& options,
                         const std::vector<SightRecord>& records) {
-  options.Check();
   DrawnSight sight(records, options.sight.latency_s, options.plant.seed);
-  const auto look = [&](double now_s, const Rigid3& base) { return sight.Look(now_s, base); };
-  return Stage(scene, options, look).Run();
+  return DriveBy(scene, options, sight);
 }
 
 }  // namespace arfm_vo

@@ -60,7 +60,7 @@ class Drive {
   Drive(const Arguments& arguments, int seed, Variant& variant)
       : variant_(variant),
         senses_(variant.faults),
-        session_(WithoutImages({}, kNoise_px), 1, Use(variant.use_imu)),
+        session_(WithoutImages({}, kNoise_px), 1, SensesOptions{false, variant.use_imu}),
         map_(MapOptions()) {
     session_.SetCorrection(kCamera, CorrectionBelief::OfExactCalibration());
     SensedDrive drive(SensedDriveOptions::WithSeed(seed),
@@ -78,11 +78,6 @@ class Drive {
  private:
   static constexpr double kFirst_s = 2;  ///< it has gathered speed
 
-  static SensesOptions Use(bool use_imu) {
-    SensesOptions use;
-    use.use_imu = use_imu;
-    return use;
-  }
   static GlobalMapOptions MapOptions() {
     GlobalMapOptions options;
     options.learn_correction = options.loops.enabled = false;

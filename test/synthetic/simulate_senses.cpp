@@ -25,10 +25,8 @@ struct Arguments {
 struct Variant {
   Variant(const char* name, bool use_tracks, bool use_imu, const SenseFaults& faults = {})
       : name(name), senses(faults) {
-    SensesOptions options;
-    options.use_tracks = use_tracks;
-    options.use_imu = use_imu;
-    session = std::make_unique<Session>(LocalOdometryOptions(), 1, options);
+    session =
+        std::make_unique<Session>(LocalOdometryOptions(), 1, SensesOptions{use_tracks, use_imu});
   }
 
   const char* name;
@@ -50,9 +48,7 @@ class Drive {
   Drive(const SensedDriveOptions& options, int seed, const Arguments& arguments)
       : terrain_(MakeTerrain(seed), Corridor{}, arguments.num_threads),
         renderer_(terrain_, MakeRender(seed, arguments)),
-        drive_(options,
-               [this](const RoverPose& pose) { return PlaceRover(terrain_, pose, RoverShape()); }) {
-  }
+        drive_(options, GroundOf(terrain_, RoverShape())) {}
 
   /// The next pair, after `time_s` of driving.
   void Step(double time_s, bool is_dark, std::vector<Variant>& variants) {

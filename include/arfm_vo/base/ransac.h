@@ -46,8 +46,8 @@ struct RansacReport {
 };
 
 /// The one RANSAC loop (Fischler and Bolles 1981) with the adaptive number of iterations.
-///   estimate(const std::vector<int>& sample) -> std::optional<Model>   from `sample_size` distinct
-///       indices below N
+///   estimate(const std::vector<int>& sample) -> std::vector<Model>   from `sample_size` distinct
+///       indices below N; of several the one with the highest score counts
 ///   classify(const Model&, std::vector<char>& is_inlier) -> double   fills [N] flags, returns a
 ///       score: the sum over all data of a truncated quality in [0, 1] (MSAC); the highest wins
 ///   improve(const Model&, const std::vector<char>& is_inlier) -> std::optional<Model>   a better
@@ -62,25 +62,26 @@ std::optional<RansacReport<Model>> Ransac(int num_data, int sample_size,
   std::optional<RansacReport<Model>> best;
   double best_score = -1;
   std::vector<int> sample(sample_size);
-  std::vector<char> is_inlier(num_data), improved_is_inlier(num_data);
+  std::vector<char> is_inlier(num_data), tried_is_inlier(num_data);
   int needed = options.max_iterations;
   for (int iteration = 0; iteration < needed; ++iteration) {
     for (int i = 0; i < sample_size; ++i) {  // distinct by redraw: samples are tiny
       do sample[i] = static_cast<int>(RandomBelow(num_data, engine));
       while (std::find(sample.begin(), sample.begin() + i, sample[i]) != sample.begin() + i);
     }
-    std::optional<Model> model = estimate(sample);
+    std::optional<Model> model;
+    double score = -1;
+    const auto try_model = [&](const Model& tried) {
+      const double tried_score = classify(tried, tried_is_inlier);
+      if (tried_score <= score) return;
+      model = tried;
+      score = tried_score;
+      is_inlier.swap(tried_is_inlier);
+    };
+    for (const Model& tried : estimate(sample)) try_model(tried);
     if (!model) continue;
-    double score = classify(*model, is_inlier);
     if (score >= best_score / 2) {
-      if (std::optional<Model> improved = improve(*model, is_inlier)) {
-        const double improved_score = classify(*improved, improved_is_inlier);
-        if (improved_score > score) {
-          model = std::move(improved);
-          score = improved_score;
-          is_inlier.swap(improved_is_inlier);
-        }
-      }
+      if (const std::optional<Model> improved = improve(*model, is_inlier)) try_model(*improved);
     }
     if (score <= best_score) continue;
     best_score = score;
