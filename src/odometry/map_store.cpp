@@ -72,7 +72,9 @@ void MapStore::Forget(int k, const std::function<bool(const Point&)>& is_over) {
   };
   LandmarkObservations& seen = keyframes[k].observations;
   const auto kept_end = std::remove_if(seen.begin(), seen.end(), is_forgotten);
-  if (kept_end != seen.end()) seen = {seen.begin(), kept_end};
+  if (kept_end == seen.end()) return;
+  seen.erase(kept_end, seen.end());
+  seen.shrink_to_fit();
 }
 
 void MapStore::Forget(int first_moving, int oldest) {
