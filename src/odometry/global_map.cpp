@@ -209,7 +209,8 @@ MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   MapUpdate update;
   update.num_keyframes = num_adjusted();
   update.correction = calibration_.correction();
-  const int first = is_bent ? 0 : FirstMoving() - 1;  // the held one moves against the newest
+  // The held one moves against the newest; where older ones stand in this map nobody was told.
+  const int first = is_bent ? 0 : std::min(num_told_, FirstMoving() - 1);
   for (int k = 0; k < num_keyframes(); ++k) {
     MapStore::Keyframe& keyframe = store_.keyframes[k];
     if (k >= FirstSeeing()) {
@@ -217,6 +218,7 @@ MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
     }
     if (k >= first) update.keyframes.push_back({keyframe.id, keyframe.camera_from_world});
   }
+  num_told_ = num_keyframes();
   for (size_t k = 0; k < store_.settled.size(); ++k)
     store_.settled[k].map_from_camera = store_.keyframes[k].camera_from_world.Inverse();
   closer_.TakeSteps(store_, FirstMoving() - 1);

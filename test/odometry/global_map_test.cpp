@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "arfm_vo/mapping/placed_keyframe.h"
@@ -189,6 +190,24 @@ TEST(GlobalMap, FollowsARightCameraThatTurnsDuringTheDrive) {
   }
   const auto told = Follow(keyframes, kCalibration);
   EXPECT_NEAR(told.back().mean.coefficients_px[0], turn[0], 0.2);  // of 0.88
+}
+
+TEST(GlobalMap, WhereAKeyframeStandsIsToldEvenIfTheRightCameraTurnsBeforeItMoves) {
+  auto keyframes = MakeDisplacedKeyframes(StereoCorrection::Coefficients::Zero());
+  RightTurn turn;
+  turn.covariance.diagonal().fill(1e-8);
+  keyframes[40].keyframe.right_turn = turn;
+  GlobalMap map(kBundleCamera, {}, kCalibration);
+  std::set<KeyframeId> told;
+  for (const PlacedKeyframe& placed : keyframes) {
+    map.Add(placed.keyframe, placed.landmarks);
+    if (!map.IsAdjustmentDue()) continue;
+    const auto update = map.Adjust();
+    if (!update) continue;
+    for (const auto& keyframe : update->keyframes) told.insert(keyframe.id);
+    EXPECT_EQ(static_cast<int>(told.size()), map.num_keyframes());
+  }
+  EXPECT_FALSE(told.empty());
 }
 
 /// The second adjustment, which finds the poses of what stands, is cancelled.

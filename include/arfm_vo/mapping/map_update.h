@@ -18,7 +18,7 @@ struct MapUpdate {
     LandmarkId id = 0;
     Eigen::Vector3d x_in_world;  ///< world: the map's
   };
-  std::vector<KeyframePose> keyframes;      ///< those that moved, sorted by id; the newest one
+  std::vector<KeyframePose> keyframes;      ///< those that moved or are new, sorted by id
   std::vector<LandmarkPosition> landmarks;  ///< those that moved, sorted by id
   CorrectionBelief correction;              ///< what rectification left undone
   int num_keyframes = 0;                    ///< the newest ones, that are of this correction

@@ -95,6 +95,7 @@ class GlobalMap {
   MapStore store_;
   Rigid3 map_from_odom_;
   LoopCloser closer_;
+  int num_told_ = 0;         ///< keyframes whose place in the map an update has told
   int next_adjustment_ = 2;  ///< at this number of keyframes
   CalibrationState calibration_;
 };
