@@ -59,7 +59,35 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
   if (options_.align_patches) Align(images, map, expected, by_patches, tracked);
   Weigh(frame, map, expected, tracked);
   SortMatches(tracked);
+  if (options_.align_patches) WeighSmooth(images, map, expected, by_patches, tracked);
   return tracked;
+}
+
+void FrameTracker::WeighSmooth(const StereoImages& images, const LocalMap& map,
+                               const Expectation& expected,
+                               const std::optional<TrackedFrame>& by_patches,
+                               TrackedFrame& tracked) const {
+  const auto& predicted = expected.predicted;
+  const Rigid3 pose = tracked.pose.camera_from_world;
+  if (!predicted || predicted->LogOdds(pose) >= 0) return;
+  const auto track = [&] {
+    return patches_.Track(images, map, expected, patches_.LevelFor(map, *predicted).value_or(0));
+  };
+  auto smooth = by_patches ? by_patches : track();
+  if (!smooth) return;
+  const Rigid3& smooth_pose = smooth->pose.camera_from_world;
+  if (IsSame(camera_, smooth->matches.landmarks, smooth_pose, pose)) return;
+  const auto rough = patches_.At(images, map, expected, pose);
+  if (!rough) return;
+  const double log_ratio = smooth->log_odds - rough->log_odds;
+  if (log_ratio > 0) {
+    tracked = *std::move(smooth);
+    tracked.pose.rival = pose;
+    tracked.log_odds_of_rival = rough->log_odds;
+  } else if (!tracked.pose.rival || tracked.log_odds + log_ratio > tracked.log_odds_of_rival) {
+    tracked.pose.rival = smooth_pose;
+    tracked.log_odds_of_rival = tracked.log_odds + log_ratio;
+  }
 }
 
 std::optional<int> FrameTracker::LevelOfPatches(const LocalMap& map,

@@ -102,42 +102,52 @@ void PatchTracker::AllowForKeypoints(TrackedFrame& tracked) const {
 
 std::optional<TrackedFrame> PatchTracker::Track(const StereoImages& images, const LocalMap& map,
                                                 const Expectation& expected, int level) const {
+  Rigid3 pose = expected.predicted->camera_from_world;
+  if (level > 0 && !Approach(images.left, map, level, pose)) return std::nullopt;
+  return At(images, map, expected, pose);
+}
+
+bool PatchTracker::Decides(const TrackedFrame& tracked, const LocalMap& map,
+                           const Expectation& expected) const {
+  if (tracked.pose.num_inliers < options_.min_deciding || tracked.is_odd_rest) return false;
+  int num_seen_before = 0, num_seen = 0;
+  for (const LandmarkId landmark : tracked.expected) {
+    if (map.landmarks().at(landmark).num_missed > 0) continue;
+    ++num_seen_before;
+    num_seen += FindObservation(tracked.observations, landmark) != nullptr;
+  }
+  if (2 * num_seen < num_seen_before) return false;
+  // Where poses before may not have been the ground's there is more to weigh.
+  const double ground = expected.if_none.ground;
+  return std::min(0., std::log(ground / (1 - ground))) + tracked.log_odds >= kSure;
+}
+
+std::optional<TrackedFrame> PatchTracker::At(const StereoImages& images, const LocalMap& map,
+                                             const Expectation& expected,
+                                             const Rigid3& camera_from_world) const {
   TrackedFrame tracked;
   tracked.pose.status = PoseStatus::kTracked;
   Rigid3& pose = tracked.pose.camera_from_world;
-  pose = expected.predicted->camera_from_world;
-  if (level > 0 && !Approach(images.left, map, level, pose)) return std::nullopt;
-  const Rigid3 before = pose;
+  pose = camera_from_world;
   MeasuredPatches measured = MeasureInView(images, map, expected, tracked);
   std::vector<const Landmark*>& seen_before = measured.landmarks;
   Correspondences& patches = measured.patches;
   tracked.agrees = Refine(patches, tracked);
-  if (!IsSame(camera_, seen_before, pose, before)) {
+  if (!IsSame(camera_, seen_before, pose, camera_from_world)) {
     // What was out of reach may be in reach now: near points as a rule.
     const auto missed = Without(seen_before, patches);
     patches.Append(Measure(images, map, missed, pose, expected.use_right));
     tracked.agrees = Refine(patches, tracked);
   }
-  if (tracked.agrees.empty() || tracked.pose.num_inliers < options_.min_deciding) {
-    return std::nullopt;
-  }
+  if (tracked.agrees.empty()) return std::nullopt;
   TellTurn(patches, expected, tracked);
   tracked.matches = std::move(patches);
   EraseIf(seen_before, [](const Landmark* landmark) { return landmark->num_missed > 0; });
-  const auto is_seen = [&](const Landmark* landmark) {
-    return FindObservation(tracked.observations, landmark->id) != nullptr;
-  };
-  const auto num_seen = std::count_if(seen_before.begin(), seen_before.end(), is_seen);
-  if (2 * static_cast<size_t>(num_seen) < seen_before.size()) return std::nullopt;
   AllowForKeypoints(tracked);
   const auto rest_log_ratio = [&](char) {
     return RestLogRatio(camera_, seen_before, pose, tracked.observations);
   };
   WeighGround(camera_, map, expected, rest_log_ratio, tracked);
-  // Where poses before may not have been the ground's there is more to weigh.
-  const double ground = expected.if_none.ground;
-  const double prior = std::min(0., std::log(ground / (1 - ground)));
-  if (prior + tracked.log_odds < kSure || tracked.is_odd_rest) return std::nullopt;
   SortMatches(tracked);
   return tracked;
 }

@@ -128,5 +128,26 @@ TEST_F(PatchTrackerTest, KeypointsTakeOverWhatPatchesHaveMeasured) {
   ExpectNear(corrected.pose.camera_from_world, truth_.Inverse(), 0.01);
 }
 
+/// Patches have found the pose that was predicted, keypoints find another one, as where the ground
+/// repeats itself: both may be.
+TEST_F(PatchTrackerTest, OfPosesThatThePatchesFitTheOneAsPredictedIsLikelierAndTheOtherItsRival) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  const Expectation expected = ExpectedWithin(truth_, 0.001);
+  const auto by_patches = tracker.TrackByPatches(wall_.Render(1, truth_), map_, expected, 0);
+  ASSERT_TRUE(by_patches);
+  const StereoImages elsewhere = wall_.Render(2, truth_.Inverse());
+  const StereoFrame frame = frontend_.Process(elsewhere);
+  const TrackedFrame tracked = tracker.Track(frame, elsewhere, map_, expected, by_patches);
+  ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
+  ASSERT_TRUE(tracked.pose.rival);
+  ExpectNear(*tracked.pose.rival, truth_.Inverse(), 0.01);
+  EXPECT_GT(tracked.log_odds, tracked.log_odds_of_rival + 2);
+  // What patches do not find where it is predicted is no rival.
+  const TrackedFrame jumped = tracker.Track(frame, elsewhere, map_, expected);
+  ExpectNear(jumped.pose.camera_from_world, truth_.Inverse(), 0.01);
+  EXPECT_FALSE(jumped.pose.rival);
+}
+
 }  // namespace
 }  // namespace arfm_vo

@@ -38,7 +38,9 @@ class FrameTracker {
   std::optional<int> LevelOfPatches(const LocalMap& map, const Expectation& expected) const;
   std::optional<TrackedFrame> TrackByPatches(const StereoImages& images, const LocalMap& map,
                                              const Expectation& expected, int level) const {
-    return patches_.Track(images, map, expected, level);
+    auto tracked = patches_.Track(images, map, expected, level);
+    if (tracked && !patches_.Decides(*tracked, map, expected)) tracked.reset();
+    return tracked;
   }
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
@@ -55,6 +57,10 @@ class FrameTracker {
              TrackedFrame& tracked) const;
   /// The rival is likelier: it becomes the pose, and the pose its rival.
   void PreferRival(TrackedFrame& tracked) const;
+  /// Where the pose is not as the motion before has it: against one that is, both by patches. What
+  /// repeats fits both, and the likelier becomes the pose, the other one its rival.
+  void WeighSmooth(const StereoImages& images, const LocalMap& map, const Expectation& expected,
+                   const std::optional<TrackedFrame>& by_patches, TrackedFrame& tracked) const;
   void Align(const StereoImages& images, const LocalMap& map, const Expectation& expected,
              const std::optional<TrackedFrame>& by_patches, TrackedFrame& tracked) const;
 

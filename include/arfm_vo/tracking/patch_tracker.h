@@ -37,11 +37,17 @@ class PatchTracker {
   /// How often the image must be halved for patches to reach where the landmarks may be by the
   /// prediction; nothing where they cannot.
   std::optional<int> LevelFor(const LocalMap& map, const PredictedPose& predicted) const;
-  /// The pose about the prediction, from that level on; without features, which cost most of the
-  /// work on a pair. Nothing where patches do not decide: where not most of the landmarks that were
-  /// seen just before are seen where one pose has them.
+  /// The pose about the prediction, from that level on: without features, which cost most of the
+  /// work on a pair. Nothing where too few patches agree.
   std::optional<TrackedFrame> Track(const StereoImages& images, const LocalMap& map,
                                     const Expectation& expected, int level) const;
+  /// The same about another pose, camera from world, by the patches in reach from there.
+  std::optional<TrackedFrame> At(const StereoImages& images, const LocalMap& map,
+                                 const Expectation& expected,
+                                 const Rigid3& camera_from_world) const;
+  /// Whether features need not be looked at: it is sure to be the ground's pose, which has most of
+  /// the landmarks where they are that were seen just before.
+  bool Decides(const TrackedFrame& tracked, const LocalMap& map, const Expectation& expected) const;
 
   /// Looks for the landmarks in view of the pose that is there, but for those that move and do not
   /// agree with it.
