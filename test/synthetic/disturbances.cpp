@@ -55,6 +55,7 @@ std::vector<Disturbance> MakeMoreDisturbances() {
       {"missing-every-3rd", Miss(3)},
       {"missing-5-pairs", Miss(For(5))},
       {"missing-15-pairs", Miss(For(15))},
+      {"missing-2-of-12-untimed", MissUntimed(2, 12)},
       {"skew-2-ms", Skew(0.002)},
       {"skew-10-ms", Skew(0.010)},
       {"skew-20-ms", Skew(0.020)},

@@ -21,7 +21,7 @@ struct Disturbance {
 
 /// "none", and the sixteen that docs/stress.md shows.
 std::vector<Disturbance> MakeDisturbances();
-/// 44 others: the same in other strengths, and further kinds.
+/// 45 others: the same in other strengths, and further kinds.
 std::vector<Disturbance> MakeMoreDisturbances();
 
 }  // namespace arfm_vo

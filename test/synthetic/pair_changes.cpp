@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <utility>
+#include <vector>
 
 #include "arfm_vo/simulation/hash_noise.h"
 
@@ -136,6 +137,19 @@ PairChange Miss(int period) {
 PairChange Miss(const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
     if (pairs.Has(index)) images.left.release();
+  };
+}
+
+PairChange MissUntimed(int num, int period) {
+  auto stamps_s = std::make_shared<std::vector<double>>();
+  auto num_come = std::make_shared<size_t>(0);
+  return [=](int index, StereoImages& images) {
+    stamps_s->push_back(images.stamp_s);
+    if (index % period >= period - num) {
+      images.left.release();
+    } else {
+      images.stamp_s = stamps_s->at((*num_come)++);
+    }
   };
 }
 

@@ -42,6 +42,8 @@ PairChange DriftExposure(double factor, int num_pairs);
 /// Of each `period` pairs the last one does not come.
 PairChange Miss(int period);
 PairChange Miss(const PairRange& pairs);
+/// Of each `period` pairs the last `num` do not come, and the stamps know nothing of it.
+PairChange MissUntimed(int num, int period);
 /// The right image is taken so much before the left one: what moved between this pair and the one
 /// before is moved back by its part of the time, by dense optical flow.
 PairChange Skew(double skew_s);

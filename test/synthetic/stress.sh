@@ -3,7 +3,7 @@
 # makes of them to docs/stress.md.
 # Usage: scripts/measure.sh stress [--all] [KITTI_FOLDER ...]
 #        default folders: those of ../shared/data that are there, the hand-held walk too
-#        --all   60 disturbances instead of 16, to docs/stress_all.md, and how long it took
+#        --all   61 disturbances instead of 16, to docs/stress_all.md, and how long it took
 set -euo pipefail
 all=()
 page=stress

@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
       "called\n"
       "tracked that are more than 3 standard deviations from the undisturbed drive, and the worst.";
   program.inputs = {{"SEQUENCE_DIR", &arguments.sequence}};
-  program.Add("all", arguments.all, "60 disturbances, not 16");
+  program.Add("all", arguments.all, "61 disturbances, not 16");
   program.Add("config", arguments.config, "FILE", "options of the odometry, YAML");
   program.Add("only", arguments.only, "NAME", "this disturbance only, and those of further --only");
   program.Add("pairs", arguments.selection.max_pairs, "N", "the first N pairs (60)");
