@@ -131,13 +131,8 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
   BundleProblem problem;
   problem.camera = camera_;
   problem.correction = calibration_.correction().mean;
-  for (auto& [id, point] : store_.landmarks) {
-    point.row = -1;
-    const bool is_seen = point.last_keyframe >= first_moving;
-    if (!is_seen || point.num_observations < options_.min_observations) continue;
-    point.row = static_cast<int>(problem.points.size());
-    problem.points.push_back(point.x_in_world);
-  }
+  rows_ = store_.SeenFrom(first_moving, options_.min_observations);
+  for (const auto& [id, point] : rows_) problem.points.push_back(point->x_in_world);
   size_t num_observations = 0;
   for (int k = first_seeing; k < num_keyframes(); ++k)
     num_observations += store_.keyframes[k].observations.size();
@@ -146,11 +141,14 @@ BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
     const int pose = k - first_seeing;
     problem.camera_from_world.push_back(store_.keyframes[k].camera_from_world);
     bool is_tied = false;  // to older ones: not where the odometry was lost in between
+    auto row = rows_.begin();
     for (const LandmarkObservation& observation : store_.keyframes[k].observations) {
-      const auto landmark = store_.landmarks.find(observation.landmark);
-      if (landmark == store_.landmarks.end() || landmark->second.row < 0) continue;
-      is_tied |= landmark->second.first_keyframe < k;
-      problem.observations.push_back({observation, pose, landmark->second.row});
+      row = std::lower_bound(row, rows_.end(), observation.landmark,
+                             [](const auto& a, LandmarkId landmark) { return a.first < landmark; });
+      if (row == rows_.end()) break;
+      if (row->first != observation.landmark) continue;
+      is_tied |= row->second->first_keyframe < k;
+      problem.observations.push_back({observation, pose, static_cast<int>(row - rows_.begin())});
     }
     problem.pose_is_fixed.push_back(k < first_moving || !is_tied);
   }
@@ -220,10 +218,12 @@ MapUpdate GlobalMap::TakeResult(const BundleResult& result, bool is_bent) {
   for (size_t k = 0; k < store_.settled.size(); ++k)
     store_.settled[k].map_from_camera = store_.keyframes[k].camera_from_world.Inverse();
   closer_.TakeSteps(store_, FirstMoving() - 1);
+  auto row = rows_.begin();
   for (auto& [id, point] : store_.landmarks) {
-    if (point.row >= 0) {
-      if (!result.point_is_used[point.row]) continue;
-      point.x_in_world = result.points[point.row];
+    if (row != rows_.end() && row->first == id) {
+      const auto i = row++ - rows_.begin();
+      if (!result.point_is_used[i]) continue;
+      point.x_in_world = result.points[i];
     } else if (!is_bent || point.num_observations < options_.min_observations) {
       continue;
     }

@@ -10,6 +10,23 @@ std::vector<Rigid3> MapStore::Poses() const {
   return poses;
 }
 
+MapStore::Rows MapStore::SeenFrom(int first, int min_observations) const {
+  std::vector<LandmarkId> seen;
+  for (size_t k = first; k < keyframes.size(); ++k) {
+    for (const LandmarkObservation& one : keyframes[k].observations) seen.push_back(one.landmark);
+  }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  Rows rows;
+  for (const LandmarkId id : seen) {
+    const auto landmark = landmarks.find(id);
+    if (landmark == landmarks.end() || landmark->second.num_observations < min_observations)
+      continue;
+    rows.emplace_back(id, &landmark->second);
+  }
+  return rows;
+}
+
 std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
                                             const StereoCorrection& correction) const {
   std::vector<SeenPoint> view;
