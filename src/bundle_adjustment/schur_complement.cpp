@@ -82,7 +82,7 @@ void NormalEquations::EliminatePoint(int track, double damping) {
     }
     if (with_correction) reduced_.border[row] -= product.lazyProduct(point_borders_[track]);
   }
-  if (!with_correction) return;
+  if (!problem_.correction_prior) return;
   const BorderMatrix<3> product = inverse * point_borders_[track];
   reduced_.corner -= point_borders_[track].transpose().lazyProduct(product);
   reduced_.corner_right.noalias() -= point_borders_[track].transpose() * inverse_right;
