@@ -65,10 +65,8 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
                                   ReprojectionTerm& term) const {
   term.x = rotation * point + translation;
   term.by_x.setZero();
-  if (is_displaced_) {
-    term.right_by_field.setZero();
-    term.by_radial.setZero();
-  }
+  term.right_by_field.setZero();
+  term.by_radial.setZero();
   term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
   if (!(term.x.z() > kMinDepth)) return false;
   const double inverse_sigma = 1 / double{observation.sigma_px}, inverse_z = 1 / term.x.z();

@@ -4,19 +4,6 @@
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
-namespace {
-
-/// weight A^T A
-Eigen::Matrix3d WeightedSquare(double weight, const Eigen::Matrix<double, 4, 3>& a) {
-  const auto product = [&](int i, int j) { return weight * a.col(i).dot(a.col(j)); };
-  const double xy = product(0, 1), xz = product(0, 2), yz = product(1, 2);
-  Eigen::Matrix3d square;
-  square << product(0, 0), xy, xz, xy, product(1, 1), yz, xz, yz, product(2, 2);
-  return square;
-}
-
-}  // namespace
-
 NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelection& selection,
                                  const BundleStructure& structure, const BundleOptions& options)
     : problem_(problem),
@@ -72,7 +59,7 @@ double NormalEquations::LinearizeSighting(const ReprojectionModel& model, const 
     const double weight = loss.Weight(s);
 
     // With A the derivative by x, J_point = A R and J_pose = A (-[x]x, I).
-    const Eigen::Matrix3d m = WeightedSquare(weight, term.by_x);
+    const Eigen::Matrix3d m = weight * (term.by_x.transpose().lazyProduct(term.by_x));
     const Eigen::Vector3d pull = -weight * term.by_x.transpose().lazyProduct(term.residual);
     const Eigen::Matrix3d m_r = m.lazyProduct(rotation);
     point_blocks_[track] += rotation.transpose().lazyProduct(m_r);

@@ -11,19 +11,16 @@ std::vector<Rigid3> MapStore::Poses() const {
 }
 
 MapStore::Rows MapStore::SeenFrom(int first, int min_observations) const {
-  std::vector<LandmarkId> seen;
-  for (size_t k = first; k < keyframes.size(); ++k) {
-    for (const LandmarkObservation& one : keyframes[k].observations) seen.push_back(one.landmark);
-  }
-  std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   Rows rows;
-  for (const LandmarkId id : seen) {
-    const auto landmark = landmarks.find(id);
-    if (landmark == landmarks.end() || landmark->second.num_observations < min_observations)
-      continue;
-    rows.emplace_back(id, &landmark->second);
+  for (size_t k = first; k < keyframes.size(); ++k) {
+    for (const LandmarkObservation& one : keyframes[k].observations) {
+      const auto landmark = landmarks.find(one.landmark);
+      if (landmark != landmarks.end() && landmark->second.num_observations >= min_observations)
+        rows.emplace_back(landmark->first, &landmark->second);
+    }
   }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
 

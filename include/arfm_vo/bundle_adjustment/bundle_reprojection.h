@@ -34,7 +34,7 @@ class ReprojectionModel {
                     bool with_correction);
 
   /// Returns false, with a large constant residual and all derivatives zero, where the point does
-  /// not lie before the camera. Derivatives by the correction are set where they are wanted.
+  /// not lie before the camera.
   bool Linearize(const BundleObservation& observation, const Eigen::Matrix3d& rotation,
                  const Eigen::Vector3d& translation, const Eigen::Vector3d& point,
                  ReprojectionTerm& term) const;
