@@ -46,7 +46,7 @@ double NormalEquations::LinearizeSighting(const ReprojectionModel& model, const 
   const Eigen::Matrix3d& rotation = rotations_[sighting.pose];
   const int free_pose = sighting.free_pose;
   SightingTerm& tie = sighting_terms_[index];
-  tie = {};
+  tie.upper.setZero();
   double cost = 0;
   for (int i = sighting.first; i < sighting.last; ++i) {
     const BundleObservation& observation = structure_.observations[i];
@@ -72,9 +72,9 @@ double NormalEquations::LinearizeSighting(const ReprojectionModel& model, const 
       block.bottomRightCorner<3, 3>() += m;
       held_.right[free_pose].head<3>() += term.x.cross(pull);
       held_.right[free_pose].tail<3>() += pull;
+      tie.x = term.x;
+      tie.Add(m);
     }
-    tie.x = term.x;
-    tie.Add(m);
     if (num_coefficients_ == 0) continue;
     if (problem_.correction_turns) {
       LinearizeByTurns(term, weight, rotation, track, free_pose);
@@ -108,19 +108,12 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
   constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
   const auto& field = term.right_by_field;
   const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
-  const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
   // The coefficients of u move row 2 alone, those of v row 3, the radial ones all four.
   for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
     if (first >= num_coefficients_) break;
     const Eigen::Vector3d by_x = weighted.row(row);
     point_borders_[track].middleCols<kNumField>(first).noalias() +=
         (rotation.transpose() * by_x) * field.transpose();
-    held_.corner.block<kNumField, kNumField>(first, first) += corner;
-    held_.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
-    const Eigen::Matrix<double, kNumField, kNumRadial> mixed =
-        weight * field * term.by_radial.row(row);
-    held_.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
-    held_.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
     if (free_pose == BundleStructure::kFixed) continue;
     Vector6d by_pose;
     by_pose << term.x.cross(by_x), by_x;
@@ -128,13 +121,28 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
   }
   const Eigen::Matrix<double, 3, kNumRadial> by_x = weighted.transpose() * term.by_radial;
   point_borders_[track].middleCols<kNumRadial>(kNumField).noalias() += rotation.transpose() * by_x;
+  if (problem_.correction_prior) LinearizeCorner(term, weight);
+  if (free_pose == BundleStructure::kFixed) return;
+  held_.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
+  held_.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
+}
+
+void NormalEquations::LinearizeCorner(const ReprojectionTerm& term, double weight) {
+  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  const auto& field = term.right_by_field;
+  const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
+  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
+    held_.corner.block<kNumField, kNumField>(first, first) += corner;
+    held_.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
+    const Eigen::Matrix<double, kNumField, kNumRadial> mixed =
+        weight * field * term.by_radial.row(row);
+    held_.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
+    held_.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
+  }
   held_.corner.block<kNumRadial, kNumRadial>(kNumField, kNumField) +=
       weight * term.by_radial.transpose() * term.by_radial;
   held_.corner_right.segment<kNumRadial>(kNumField) -=
       weight * term.by_radial.transpose() * term.residual;
-  if (free_pose == BundleStructure::kFixed) return;
-  held_.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
-  held_.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
 }
 
 double NormalEquations::AddConstraints(const BundleState& state) {

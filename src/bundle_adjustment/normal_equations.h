@@ -78,6 +78,8 @@ class NormalEquations {
                         const Eigen::Matrix3d& rotation, int track, int free_pose);
   void LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                              const Eigen::Matrix3d& rotation, int track, int free_pose);
+  /// Of the correction by itself, where it is solved for.
+  void LinearizeCorner(const ReprojectionTerm& term, double weight);
   void EliminatePoint(int track, double damping);
   double AddConstraints(const BundleState& state);
   double AddPrior(const BundleState& state);

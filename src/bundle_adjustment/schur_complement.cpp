@@ -63,6 +63,7 @@ void NormalEquations::EliminatePoint(int track, double damping) {
   const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
   track_blocks_.resize(std::max<size_t>(track_blocks_.size(), last - first));
   for (int i = first; i < last; ++i) {
+    if (structure_.sightings[i].free_pose == BundleStructure::kFixed) continue;
     const SightingTerm& term = sighting_terms_[i];
     const Eigen::Matrix3d m_r = term.M().lazyProduct(rotations_[structure_.sightings[i].pose]);
     track_blocks_[i - first] << CrossColumns(term.x, m_r), m_r;
@@ -81,7 +82,7 @@ void NormalEquations::EliminatePoint(int track, double damping) {
     }
     if (with_correction) reduced_.border[row] -= product.lazyProduct(point_borders_[track]);
   }
-  if (!with_correction) return;
+  if (!problem_.correction_prior) return;
   const BorderMatrix<3> product = inverse * point_borders_[track];
   reduced_.corner -= point_borders_[track].transpose().lazyProduct(product);
   reduced_.corner_right.noalias() -= point_borders_[track].transpose() * inverse_right;

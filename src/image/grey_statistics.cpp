@@ -12,7 +12,13 @@ GreyStatistics ComputeGreyStatistics(const cv::Mat& grey) {
   Require(grey.type() == CV_8UC1, "grey statistics: the image must be 8 bit grey");
   // Whole numbers below 2^53.
   const auto sum = static_cast<uint64_t>(cv::sum(grey)[0]);
-  const auto sum_of_squares = static_cast<uint64_t>(cv::norm(grey, cv::NORM_L2SQR));
+  uint64_t sum_of_squares = 0;
+  for (int r = 0; r < grey.rows; ++r) {  // (cv::norm does not use vectors for it)
+    const auto* const row = grey.ptr<uint8_t>(r);
+    uint32_t of_row = 0;  // of up to 66,051 pixels
+    for (int c = 0; c < grey.cols; ++c) of_row += row[c] * row[c];
+    sum_of_squares += of_row;
+  }
   const double count = static_cast<double>(grey.total());
   GreyStatistics statistics;
   statistics.mean = static_cast<double>(sum) / count;

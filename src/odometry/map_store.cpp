@@ -10,6 +10,20 @@ std::vector<Rigid3> MapStore::Poses() const {
   return poses;
 }
 
+MapStore::Rows MapStore::SeenFrom(int first, int min_observations) const {
+  Rows rows;
+  for (size_t k = first; k < keyframes.size(); ++k) {
+    for (const LandmarkObservation& one : keyframes[k].observations) {
+      const auto landmark = landmarks.find(one.landmark);
+      if (landmark != landmarks.end() && landmark->second.num_observations >= min_observations)
+        rows.emplace_back(landmark->first, &landmark->second);
+    }
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
 std::vector<SeenPoint> MapStore::NewestView(const StereoCamera& camera,
                                             const StereoCorrection& correction) const {
   std::vector<SeenPoint> view;

@@ -154,9 +154,10 @@ void PlacedMap::TakeLandmarks(const MapUpdate& update) {
                                  [&](const auto&) { return is_second = !is_second; }),
                   settled.end());
   }
-  adjusted_.resize(settled.size() + update.landmarks.size());
+  std::vector<MapUpdate::LandmarkPosition> all(settled.size() + update.landmarks.size());
   std::merge(settled.begin(), settled.end(), update.landmarks.begin(), update.landmarks.end(),
-             adjusted_.begin(), [](const auto& a, const auto& b) { return a.id < b.id; });
+             all.begin(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  adjusted_ = std::move(all);
 }
 
 std::vector<KnownKeyframe> PlacedMap::NewestPlaces(bool with_points) const {

@@ -41,6 +41,21 @@ TEST(MapStore, KeepsOfOlderKeyframesWhatTheMovingOnesSee) {
   EXPECT_EQ(store.first_seeing, 0);
 }
 
+TEST(MapStore, NamesTheLandmarksThatTheNewestKeyframesAndOthersSee) {
+  const MapStore store = MakeStore({0, 1, 20, 2});
+  const auto ids = [&](int first, int min_observations) {
+    std::vector<LandmarkId> names;
+    for (const auto& [id, point] : store.SeenFrom(first, min_observations)) {
+      EXPECT_EQ(point, &store.landmarks.at(id));
+      names.push_back(id);
+    }
+    return names;
+  };
+  EXPECT_EQ(ids(3, 2), (std::vector<LandmarkId>{2, 3}));
+  EXPECT_EQ(ids(2, 1), (std::vector<LandmarkId>{2, 3, 4, 20, 21, 22}));
+  EXPECT_EQ(ids(2, 3), std::vector<LandmarkId>{2});
+}
+
 TEST(MapStore, KeyframesThatSeeNothingAnyMoreArePosesAlone) {
   MapStore store = MakeStore({0, 1, 20, 21});
   store.Forget(2, 0);

@@ -93,6 +93,7 @@ class GlobalMap {
   StereoCamera camera_;
   GlobalMapOptions options_;
   MapStore store_;
+  MapStore::Rows rows_;  ///< the points of the last problem
   Rigid3 map_from_odom_;
   LoopCloser closer_;
   int num_told_ = 0;         ///< keyframes whose place in the map an update has told

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "arfm_vo/mapping/keyframe.h"
@@ -17,7 +18,6 @@ struct MapStore {
     int num_observations = 0;
     int first_keyframe = 0;  ///< index of the keyframe that saw it first
     int last_keyframe = 0;
-    int row = -1;  ///< in the bundle problem being solved
     Appearance appearance;
   };
   struct Keyframe {
@@ -30,6 +30,11 @@ struct MapStore {
   int first_seeing = 0;  ///< keyframes before it are poses alone: what they saw is forgotten
   /// The first ones as Settle found them, where they are to be known later; frame 0.
   std::vector<KnownKeyframe> settled;
+
+  /// Landmarks, sorted by id.
+  using Rows = std::vector<std::pair<LandmarkId, const Point*>>;
+  /// Those that the keyframes from `first` on see, and so many in all.
+  Rows SeenFrom(int first, int min_observations) const;
 
   /// camera_from_world of the keyframes.
   std::vector<Rigid3> Poses() const;
