@@ -13,10 +13,6 @@ constexpr int kHeldShare = 5;
 
 constexpr double kAdjustmentGrowth = 1.5;
 
-/// Landmarks by which a window tells how the right camera stands, at most: to 0.03 mrad, where no
-/// window is believed to better than 0.14 (CalibrationState).
-constexpr size_t kWindowLandmarks = 300;
-
 bool HasResult(const BundleResult& result) {
   return result.status == BundleStatus::kConverged || result.status == BundleStatus::kNotConverged;
 }
@@ -113,15 +109,11 @@ void GlobalMap::MoveTo(const std::vector<Rigid3>& camera_from_world) {
     store_.keyframes[k].camera_from_world = camera_from_world[k];
 }
 
-/// The newest keyframes alone, by some landmarks.
+/// The newest keyframes alone.
 void GlobalMap::FollowCalibration() {
   const auto prior = calibration_.WindowPrior(num_keyframes());
   if (!prior) return;
   const int first = num_keyframes() - CalibrationState::kWindow;
-  const MapStore::Rows seen = store_.SeenFrom(first + 1, options_.min_observations);
-  rows_.clear();
-  for (size_t i = 0; i < seen.size(); i += 1 + seen.size() / kWindowLandmarks)
-    rows_.push_back(seen[i]);
   BundleProblem window = MakeProblem(first, first + 1);
   window.correction_prior = prior;
   window.correction_turns = CorrectionBelief::ByTurn(camera_);
@@ -129,18 +121,17 @@ void GlobalMap::FollowCalibration() {
 }
 
 BundleProblem GlobalMap::MakeProblem() {
-  rows_ = store_.SeenFrom(FirstMoving(), options_.min_observations);
   BundleProblem problem = MakeProblem(FirstSeeing(), FirstMoving());
   problem.correction_prior = calibration_.Prior();
   return problem;
 }
 
-/// Of the landmarks of rows_. Poses are those of the keyframes from `first_seeing` on, then those
-/// that loops lead back to.
+/// Poses are those of the keyframes from `first_seeing` on, then those that loops lead back to.
 BundleProblem GlobalMap::MakeProblem(int first_seeing, int first_moving) {
   BundleProblem problem;
   problem.camera = camera_;
   problem.correction = calibration_.correction().mean;
+  rows_ = store_.SeenFrom(first_moving, options_.min_observations);
   for (const auto& [id, point] : rows_) problem.points.push_back(point->x_in_world);
   size_t num_observations = 0;
   for (int k = first_seeing; k < num_keyframes(); ++k)
