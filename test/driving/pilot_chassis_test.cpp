@@ -44,8 +44,11 @@ TEST_F(PilotTest, ABusThatGoesDownBlocksAndIsNotResumedWithoutStart) {
   EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
   EXPECT_EQ(Reason(), StopReason::kBusDown);
   EXPECT_FALSE(pilot_.Start(now_s_).is_accepted);
+  Run(2);
+  way_mm_ += 60;  // it ran out when nothing of it was heard
   bus_up_ = true;
   EXPECT_TRUE(Run(5).chassis_motion.IsZero());
+  EXPECT_EQ(Reason(), StopReason::kBusDown);
   pilot_.Start(now_s_);
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
