@@ -63,18 +63,6 @@ TEST_F(PoseWatchTest, ACovarianceOfAnotherEpochSaysNothingOfThisOne) {
   EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseUncertain);
 }
 
-TEST(PoseConsistency, WrongOptionsAreRefused) {
-  PoseConsistencyOptions options;
-  options.max_error_m = 0;
-  EXPECT_THROW(PoseConsistency(options, TrackKinematics({})), std::invalid_argument);
-}
-
-TEST(PoseWatch, WrongOptionsAreRefused) {
-  PoseWatchOptions options;
-  options.max_tilt_deg = 0;
-  EXPECT_THROW(PoseWatch(options, TrackKinematics({})), std::invalid_argument);
-}
-
 TEST(PoseWatch, WhereNoCovarianceIsAskedForNoneIsWaitedFor) {
   PoseWatchOptions options;
   options.requires_covariance = false;
@@ -184,17 +172,6 @@ TEST_F(PoseWatchTest, ADatumCountsInItsEpochOnly) {
   EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
   See(11, SightingAt(0), 3);
   EXPECT_EQ(watch_.FindFault(11), StopReason::kPoseUncertain);
-}
-
-TEST(PoseWatchOptions, WrongValuesAreNamed) {
-  PoseWatchOptions options;
-  options.consistency.max_map_step_m = std::numeric_limits<double>::infinity();
-  try {
-    PoseWatch{options, TrackKinematics({})};
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("pose.consistency.max_map_step_m", 0), 0u);
-  }
 }
 
 }  // namespace

@@ -52,18 +52,6 @@ TEST(SlipEstimator, ALeapOfTheSightBeginsAnew) {
   EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
 }
 
-TEST(SlipEstimator, WrongOptionsAreRefused) {
-  SlipOptions options;
-  options.window_m = 0;
-  EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
-  for (double SlipOptions::*field : {&SlipOptions::level_window_m, &SlipOptions::max_level_ratio,
-                                     &SlipOptions::straight_window_m}) {
-    options = {};
-    options.*field = 0;
-    EXPECT_THROW(SlipEstimator(options, kKinematics), std::invalid_argument);
-  }
-}
-
 TEST(SlipEstimator, NoSlipIsZero) {
   const auto slip = Driven(1, 1).Estimate();
   EXPECT_NEAR(*slip->forward_ratio, 0, 1e-9);

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace arfm_vo {
+
+/// Sets the `index`-th number of an options struct to what no number may be, and knows its name.
+class NumberSpoiler {
+ public:
+  explicit NumberSpoiler(int index) : index_(index) {}
+
+  template <class Field>
+  void operator()(const char* name, Field& field) {
+    using Limits = std::numeric_limits<Field>;
+    if constexpr (std::is_class_v<Field>) {
+      Enter(field, 0);
+    } else if constexpr (std::is_arithmetic_v<Field> && !std::is_same_v<Field, bool>) {
+      if (index_-- != 0) return;
+      field = std::is_integral_v<Field> ? Limits::lowest() : Limits::quiet_NaN();
+      name_ = name;
+    }
+  }
+  const std::string& name() const { return name_; }
+
+ private:
+  template <class Options>
+  auto Enter(Options& options, int) -> decltype(options.VisitFields(*this)) {
+    options.VisitFields(*this);
+  }
+  template <class Other>
+  void Enter(Other&, long) {}
+
+  int index_;
+  std::string name_;
+};
+
+/// Each number among the options but the `free` ones is looked at by take(options): where it is
+/// wrong, it is refused by its name.
+template <class Options, class Take>
+void ExpectNumbersAreChecked(const Take& take, const std::set<std::string>& free = {}) {
+  Options right;
+  EXPECT_NO_THROW(take(right));
+  for (int i = 0;; ++i) {
+    Options options;
+    NumberSpoiler spoiler(i);
+    options.VisitFields(spoiler);
+    if (spoiler.name().empty()) return;
+    if (free.count(spoiler.name()) > 0) continue;
+    std::string said = "taken";
+    try {
+      take(options);
+    } catch (const std::invalid_argument& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find(spoiler.name()), std::string::npos) << spoiler.name() << ": " << said;
+  }
+}
+
+}  // namespace arfm_vo
