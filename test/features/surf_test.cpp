@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "base/refusal.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -163,12 +165,7 @@ TEST(SurfTest, RefusesAnythingButGrey) {
 TEST(SurfTest, RefusesWrongOptionsByName) {
   SurfOptions options;
   options.detector.layers = 2;
-  try {
-    Surf surf(options);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("detector.layers"), std::string::npos);
-  }
+  EXPECT_INVALID(Surf{options}, "detector.layers");
 }
 
 }  // namespace

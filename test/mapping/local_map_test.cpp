@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/refusal.h"
 #include "mapping/stereo_frames.h"
 
 namespace arfm_vo {
@@ -180,12 +181,7 @@ TEST(LocalMap, RemovingTheLastObservationRemovesTheLandmark) {
 TEST(LocalMapOptions, CheckNamesTheKey) {
   LocalMapOptions options;
   options.max_keyframes = 1;
-  try {
-    options.Check();
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("max_keyframes"), std::string::npos);
-  }
+  EXPECT_INVALID(options.Check(), "max_keyframes");
 }
 
 }  // namespace

@@ -336,10 +336,3 @@ TEST_F(OdometryChain, SavesTheTrajectoryByServiceAndAtTheEnd) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_chain_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "arfm_vo/odometry/visual_odometry.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -12,12 +13,7 @@ std::string Refusal(Change&& change) {
   LocalOdometryOptions options;
   options.Check();
   change(options);
-  try {
-    options.Check();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "taken";
+  return RefusalOf([&] { options.Check(); });
 }
 
 TEST(LocalOdometryOptions, EachPartIsCheckedAndNamesItsKey) {

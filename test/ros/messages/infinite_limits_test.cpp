@@ -10,7 +10,7 @@
 #include "arfm_vo/ros/rover/chassis_node.h"
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
 #include "arfm_vo/ros/rover/simulator_node.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

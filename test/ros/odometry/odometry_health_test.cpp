@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
