@@ -8,8 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "base/refusal.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -160,12 +158,6 @@ TEST(SurfTest, InLargeImagesOnlyLargeBlobsAreLookedFor) {
 TEST(SurfTest, RefusesAnythingButGrey) {
   EXPECT_THROW(Surf({}).Extract(cv::Mat()), std::invalid_argument);
   EXPECT_THROW(Surf({}).Extract(cv::Mat(50, 50, CV_8UC3)), std::invalid_argument);
-}
-
-TEST(SurfTest, RefusesWrongOptionsByName) {
-  SurfOptions options;
-  options.detector.layers = 2;
-  EXPECT_INVALID(Surf{options}, "detector.layers");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/refusal.h"
 #include "mapping/stereo_frames.h"
 
 namespace arfm_vo {
@@ -176,12 +175,6 @@ TEST(LocalMap, RemovingTheLastObservationRemovesTheLandmark) {
   map.RemoveObservation(map.keyframes().back().id, map.landmarks().begin()->first);
   EXPECT_TRUE(map.landmarks().empty());
   EXPECT_TRUE(map.keyframes().back().observations.empty());
-}
-
-TEST(LocalMapOptions, CheckNamesTheKey) {
-  LocalMapOptions options;
-  options.max_keyframes = 1;
-  EXPECT_INVALID(options.Check(), "max_keyframes");
 }
 
 }  // namespace
