@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -12,10 +11,11 @@
 
 namespace arfm_vo {
 
-/// Sets the `index`-th number of an options struct to what no number may be, and knows its name.
+/// Sets the `index`-th number of an options struct to `wrong`, an integer to the lowest there is,
+/// and knows its name.
 class NumberSpoiler {
  public:
-  explicit NumberSpoiler(int index) : index_(index) {}
+  NumberSpoiler(int index, double wrong) : index_(index), wrong_(wrong) {}
 
   template <class Field>
   void operator()(const char* name, Field& field) {
@@ -24,7 +24,7 @@ class NumberSpoiler {
       Enter(field, 0);
     } else if constexpr (std::is_arithmetic_v<Field> && !std::is_same_v<Field, bool>) {
       if (index_-- != 0) return;
-      field = std::is_integral_v<Field> ? Limits::lowest() : Limits::quiet_NaN();
+      field = std::is_integral_v<Field> ? Limits::lowest() : static_cast<Field>(wrong_);
       name_ = name;
     }
   }
@@ -39,18 +39,20 @@ class NumberSpoiler {
   void Enter(Other&, long) {}
 
   int index_;
+  double wrong_;
   std::string name_;
 };
 
 /// Each number among the options but the `free` ones is looked at by take(options): where it is
 /// wrong, it is refused by its name.
 template <class Options, class Take>
-void ExpectNumbersAreChecked(const Take& take, const std::set<std::string>& free = {}) {
+void ExpectNumbersAreChecked(const Take& take, const std::set<std::string>& free = {},
+                             double wrong = std::numeric_limits<double>::quiet_NaN()) {
   Options right;
   EXPECT_NO_THROW(take(right));
   for (int i = 0;; ++i) {
     Options options;
-    NumberSpoiler spoiler(i);
+    NumberSpoiler spoiler(i, wrong);
     options.VisitFields(spoiler);
     if (spoiler.name().empty()) return;
     if (free.count(spoiler.name()) > 0) continue;

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "base/refusal.h"
 #include "bundle_adjustment/bundle_scene.h"

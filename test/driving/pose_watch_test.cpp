@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace arfm_vo {
 namespace {

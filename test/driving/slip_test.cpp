@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/slip_estimator.h"
 #include "arfm_vo/driving/stop_look_go.h"

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 
 #include "base/refusal.h"
 

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "nodes/inbox.h"

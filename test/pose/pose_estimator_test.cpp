@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 #include "base/number_spoiler.h"
 #include "pose/pose_scene.h"

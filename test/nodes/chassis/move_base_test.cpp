@@ -6,7 +6,6 @@
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
