@@ -44,11 +44,11 @@ function(arfm_test_program name)
 endfunction()
 
 # arfm_node_test(NAME LAYER [SOURCES source ...] [NODES program ...]): the rostest NAME.test of this folder with the program
-# test_NAME, by default of NAME_test.cpp, where there is one.
+# test_NAME of NAME_test.cpp, which may have a main function of its own.
 function(arfm_node_test name layer)
   cmake_parse_arguments(TEST "" "" "SOURCES;NODES" ${ARGN})
   add_rostest_gtest(test_${name} ${name}.test ${name}_test.cpp ${TEST_SOURCES})
-  arfm_prepare(test_${name} arfm_vo_${layer} gtest gmock)
+  arfm_prepare(test_${name} arfm_vo_${layer} arfm_vo_node_test_main gtest gmock)
   arfm_use_headers(test_${name} test_headers)
   if(TEST_NODES)
     add_dependencies(test_${name} ${TEST_NODES})

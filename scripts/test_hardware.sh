@@ -19,8 +19,8 @@ status=0
 results=$(mktemp)
 trap 'rm -f "$results"' EXIT
 
-# The tables that a part printed between bars, for its section.
-tables() { awk '/^\|/ {if (!inside && n++) print ""; print; inside = 1; next} {inside = 0}' "$results"; }
+# The tables that a part printed, with a blank line between them, for its section.
+tables() { grep '^|' "$results" | awk '/^\|-/ && n > 1 {print ""} n {print last} {last = $0; n++} END {print last}'; }
 for part in "${parts[@]}"; do
   echo "== $part, in the virtual machine"
   test=("test/hardware/kernel_tests.sh" "$part")

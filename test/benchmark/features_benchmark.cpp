@@ -11,7 +11,6 @@
 
 #include "arfm_vo/features/surf.h"
 #include "arfm_vo/matching/exact_matcher.h"
-#include "arfm_vo/matching/flann_matcher.h"
 #include "features/surf_stages.h"
 
 namespace arfm_vo {

@@ -50,8 +50,8 @@ TEST(BundleReprojection, APointBehindTheCameraIsALargeConstant) {
 TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
   RandomEngine engine(1);
   for (int trial = 0; trial < 20; ++trial) {
-    const Rigid3 pose(ExpSO3(0.5 * RandomGaussian3(engine)), RandomGaussian3(engine));
-    const Eigen::Vector3d x(RandomGaussian(engine), RandomGaussian(engine),
+    const Rigid3 pose(ExpSO3(0.5 * RandomNormal3(engine)), RandomNormal3(engine));
+    const Eigen::Vector3d x(RandomNormal(engine), RandomNormal(engine),
                             5 + 20 * RandomUnit(engine));
     const Eigen::Vector3d point = pose.Inverse() * x;
     const BundleObservation observation{{{600, 180, 590, 180}, true, 0.7}, 0, 0};
@@ -95,9 +95,9 @@ TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
 
 TEST(PoseConstraint, HasNoErrorWhereTheMotionIsAsMeasured) {
   RandomEngine engine(2);
-  const Rigid3 first(ExpSO3(RandomGaussian3(engine)), RandomGaussian3(engine));
+  const Rigid3 first(ExpSO3(RandomNormal3(engine)), RandomNormal3(engine));
   PoseConstraint constraint;
-  constraint.second_from_first = Rigid3(ExpSO3(RandomGaussian3(engine)), RandomGaussian3(engine));
+  constraint.second_from_first = Rigid3(ExpSO3(RandomNormal3(engine)), RandomNormal3(engine));
   const ConstraintTerm term =
       LinearizeConstraint(constraint, first, constraint.second_from_first * first);
   EXPECT_LT(term.residual.norm(), 1e-12);
@@ -106,10 +106,10 @@ TEST(PoseConstraint, HasNoErrorWhereTheMotionIsAsMeasured) {
 TEST(PoseConstraint, DerivativesAgreeWithNumericOnes) {
   RandomEngine engine(3);
   for (int trial = 0; trial < 20; ++trial) {
-    const Rigid3 first(ExpSO3(RandomGaussian3(engine)), RandomGaussian3(engine));
+    const Rigid3 first(ExpSO3(RandomNormal3(engine)), RandomNormal3(engine));
     PoseConstraint constraint;
-    constraint.second_from_first = Rigid3(ExpSO3(RandomGaussian3(engine)), RandomGaussian3(engine));
-    const Rigid3 off(ExpSO3(0.3 * RandomGaussian3(engine)), 0.5 * RandomGaussian3(engine));
+    constraint.second_from_first = Rigid3(ExpSO3(RandomNormal3(engine)), RandomNormal3(engine));
+    const Rigid3 off(ExpSO3(0.3 * RandomNormal3(engine)), 0.5 * RandomNormal3(engine));
     const Rigid3 second = off * constraint.second_from_first * first;
     const ConstraintTerm term = LinearizeConstraint(constraint, first, second);
     constexpr double kStep = 1e-6;

@@ -4,30 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "arfm_vo/base/random.h"
 #include "arfm_vo/bundle_adjustment/bundle_problem.h"
+#include "base/random_normal.h"
 
 namespace arfm_vo {
 
 const StereoCamera kBundleCamera{707, 707, 600, 180, 0.54, 1226, 370};
-
-/// A standard normal number (Box and Muller), the same on every platform.
-inline double RandomGaussian(RandomEngine& engine) {
-  const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine)));
-  return radius * std::cos(2 * M_PI * RandomUnit(engine));
-}
-inline Eigen::Vector3d RandomGaussian3(RandomEngine& engine) {
-  const double x = RandomGaussian(engine), y = RandomGaussian(engine);
-  return {x, y, RandomGaussian(engine)};
-}
-
-/// The step (rad, m) of BoxPlus that takes one pose to the other.
-inline Eigen::Matrix<double, 6, 1> StepBetween(const Rigid3& truth, const Rigid3& estimate) {
-  const Rigid3 difference = estimate * truth.Inverse();
-  Eigen::Matrix<double, 6, 1> step;
-  step << LogSO3(difference.rotation), difference.translation;
-  return step;
-}
 
 struct CorridorOptions {
   int num_poses = 8;
@@ -83,7 +65,7 @@ inline void AddObservations(const CorridorOptions& options, int first_pose, int 
     const Eigen::Vector3d x = scene.camera_from_world[pose] * scene.points[point];
     if (!IsInView(options.correction, x)) break;
     Eigen::Vector4d pixels = ProjectStereo4(kBundleCamera, options.correction, x);
-    for (int i = 0; i < 4; ++i) pixels[i] += options.noise_px * RandomGaussian(engine);
+    for (int i = 0; i < 4; ++i) pixels[i] += options.noise_px * RandomNormal(engine);
     BundleObservation observation{
         {pixels.cast<float>(), true, static_cast<float>(std::max(options.noise_px, 1e-3))},
         pose,
@@ -107,11 +89,10 @@ inline void Disturb(const CorridorOptions& options, RandomEngine& engine, Corrid
     Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
     const Rigid3& truth = scene.camera_from_world[i];
     if (!is_fixed) {
-      error << options.drift_rad * RandomGaussian3(engine),
-          options.drift_m * RandomGaussian3(engine);
+      error << options.drift_rad * RandomNormal3(engine), options.drift_m * RandomNormal3(engine);
       drift = drift * truth.Inverse() * BoxPlus(truth, error);
-      error << options.pose_error_rad * RandomGaussian3(engine),
-          options.pose_error_m * RandomGaussian3(engine);
+      error << options.pose_error_rad * RandomNormal3(engine),
+          options.pose_error_m * RandomNormal3(engine);
     }
     drifted_from_true.push_back(drift.Inverse());
     scene.problem.camera_from_world.push_back(BoxPlus(truth * drift, error));
@@ -121,7 +102,7 @@ inline void Disturb(const CorridorOptions& options, RandomEngine& engine, Corrid
     const double sigma = 10 * options.point_error_share;  // at a typical distance
     scene.problem.points.push_back(
         drifted_from_true[FirstPose(options, i)] *
-        Eigen::Vector3d(scene.points[i] + sigma * RandomGaussian3(engine)));
+        Eigen::Vector3d(scene.points[i] + sigma * RandomNormal3(engine)));
   }
 }
 

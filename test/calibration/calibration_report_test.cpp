@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/calibration/pair_detection.h"
+#include "base/refusal.h"
 #include "base/shared_data.h"
 #include "calibration/rendered_board.h"
 
@@ -41,12 +42,7 @@ class CalibrationFolder : public testing::Test {
   }
   template <class Error>
   std::string MessageOf(const Chessboard& board) const {
-    try {
-      Calibrate(board);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no such error";
+    return RefusalOf<Error>([&] { Calibrate(board); });
   }
 
   const fs::path folder_ =

@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <stdexcept>
+
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,12 +22,7 @@ class ImagePairs : public testing::Test {
     std::ofstream(folder_ / name) << 'x';
   }
   std::string Message() {
-    try {
-      FindImagePairs(folder_);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return RefusalOf([&] { FindImagePairs(folder_); });
   }
 
   const fs::path folder_ =

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "arfm_vo/calibration/rectification.h"
+#include "base/random_normal.h"
+#include "base/refusal.h"
 #include "calibration/rendered_board.h"
 
 namespace arfm_vo {
@@ -31,17 +31,14 @@ class SyntheticPairs {
   }
   BoardCorners Disturb(BoardCorners corners, double noise_px) {
     for (cv::Point2f& corner : corners)
-      corner += cv::Point2f(float(noise_px * Normal()), float(noise_px * Normal()));
+      corner += cv::Point2f(float(noise_px * RandomNormal(engine_)),
+                            float(noise_px * RandomNormal(engine_)));
     return corners;
   }
 
   TrueRig rig;
 
  private:
-  double Normal() {  // Box and Muller, the same on every platform
-    const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine_)));
-    return radius * std::cos(2 * M_PI * RandomUnit(engine_));
-  }
   RandomEngine engine_;
 };
 
@@ -50,12 +47,7 @@ StereoCalibration Calibrate(const std::vector<CornerPair>& pairs, const TrueRig&
 }
 
 std::string MessageOf(const std::vector<CornerPair>& pairs, const TrueRig& rig) {
-  try {
-    Calibrate(pairs, rig);
-  } catch (const CalibrationError& error) {
-    return error.what();
-  }
-  return "no error";
+  return RefusalOf<CalibrationError>([&] { Calibrate(pairs, rig); });
 }
 
 TEST(StereoCalibration, ExactCornersGiveTheTrueRig) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -29,13 +30,8 @@ class LearnedCorrectionFileTest : public testing::Test {
     const size_t place = text.find(from);
     ASSERT_NE(place, std::string::npos);
     WriteWholeFile(path_, text.replace(place, from.size(), to));
-    try {
-      ReadLearnedCorrection(path_, kCamera);
-      FAIL() << "not refused: " << to;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(),
-                  testing::AllOf(testing::HasSubstr(path_.string()), testing::HasSubstr(why)));
-    }
+    EXPECT_THAT(RefusalOf([&] { ReadLearnedCorrection(path_, kCamera); }),
+                testing::AllOf(testing::HasSubstr(path_.string()), testing::HasSubstr(why)));
   }
 
   std::filesystem::path folder_, path_;

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "arfm_vo/datasets/kitti_files.h"
+#include "base/refusal.h"
 #include "datasets/sequence_folder.h"
 
 namespace arfm_vo {
@@ -15,14 +15,11 @@ namespace fs = std::filesystem;
 
 /// What opening and reading the whole folder complains of.
 std::string ErrorOf(const std::string& folder) {
-  try {
+  return RefusalOf([&] {
     KittiSequence sequence(folder);
     while (sequence.Next()) {
     }
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  });
 }
 
 TEST(KittiSequence, GivesPairsStampsTruthAndCamera) {

@@ -201,17 +201,6 @@ TEST(GoalController, ARouteNeedsAWaypoint) {
   EXPECT_THROW(GoalController({}, {}), std::invalid_argument);
 }
 
-TEST(GoalController, OptionsAreNamedInTheError) {
-  GoalControllerOptions options;
-  options.cruise_speed_mps = 0.2;
-  try {
-    GoalController(options, {{1, 0, {}}});
-    FAIL() << "took a cruise speed above the paper's limit";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("goal.cruise_speed_mps"), std::string::npos);
-  }
-}
-
 TEST(Route, GoalsWithFlawsAreToldWhy) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

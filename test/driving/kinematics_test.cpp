@@ -35,6 +35,15 @@ TEST(RoverPose, AQuarterOfACircleEndsBesideItsCentre) {
   EXPECT_NEAR(end.heading_rad, M_PI / 2, 1e-12);
 }
 
+TEST(Route, AWaypointTakesPlaceAndHeadingOfTheGoal) {
+  const Rigid3 goal(ExpSO3({0, 0, 0.5}), Eigen::Vector3d(3, -4, 7));
+  const Waypoint waypoint = ToWaypoint(goal);
+  EXPECT_DOUBLE_EQ(waypoint.x_m, 3);
+  EXPECT_DOUBLE_EQ(waypoint.y_m, -4);
+  ASSERT_TRUE(waypoint.heading_rad);
+  EXPECT_NEAR(*waypoint.heading_rad, 0.5, 1e-12);
+}
+
 TEST(TrackKinematics, TurningLeftRunsTheRightTrackForward) {
   const TrackKinematics kinematics(TrackKinematicsOptions{0.583, 1.0});
   const TrackSpeeds tracks = kinematics.TracksFor({0, 0.2});

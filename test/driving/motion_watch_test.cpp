@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace arfm_vo {
 namespace {
 
@@ -129,12 +127,6 @@ TEST_F(MotionWatchTest, WhoeverElseDrivesItIsNotJudged) {
   EXPECT_FALSE(watch_.FindMotionAtRest(now_s_));
 }
 
-TEST_F(MotionWatchTest, WrongOptionsAreRefused) {
-  MotionWatchOptions options;
-  options.jam_s = 0;
-  EXPECT_THROW(MotionWatch(options, kGauge_m), std::invalid_argument);
-}
-
 TEST_F(MotionWatchTest, TwoShortExcessesAreNoLongOne) {
   Run(1, {0, 0}, 0, 0);
   Run(0.12, {0, 0}, 0.1, 0.1);
@@ -187,12 +179,6 @@ TEST_F(MotionWatchTest, AMotorThatDrawsTooMuchForTooLongIsAFault) {
   ASSERT_TRUE(watch_.FindFault(24));
   watch_.Reset();
   EXPECT_FALSE(watch_.FindFault(24)) << "as at a start";
-}
-
-TEST(MotionWatchOptions, WrongValuesAreNamed) {
-  MotionWatchOptions options;
-  options.jam_s = std::nan("");
-  EXPECT_THROW(options.Check(), std::invalid_argument);
 }
 
 }  // namespace

@@ -85,17 +85,6 @@ TEST_F(PilotTest, ALongPauseNeedsANewStart) {
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
-TEST_F(PilotTest, AnUncertainPosePauses) {
-  for (const double sigma_m : {2.1, 99.99, kNaN}) {
-    pilot_ = Pilot(Options());
-    sigma_m_ = 0.01;
-    StartDriving();
-    sigma_m_ = sigma_m;
-    EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero()) << sigma_m;
-    EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
-  }
-}
-
 TEST_F(PilotTest, AnUncertainHeadingPauses) {
   StartDriving();
   heading_sigma_rad_ = 0.4;
@@ -183,28 +172,6 @@ TEST_F(PilotTest, ALostPoseIsNoDatum) {
   sigma_m_ = std::sqrt(9999);
   Run(5);
   EXPECT_FALSE(pilot_.SetDatum().is_accepted);
-}
-
-TEST_F(PilotTest, PosesThatCannotBeAreNotDrivenBy) {
-  const Rigid3 not_finite(Eigen::Quaterniond::Identity(), Eigen::Vector3d(kNaN, 0, 0));
-  Rigid3 no_rotation;
-  no_rotation.rotation.coeffs().setZero();
-  for (const Rigid3& pose : {not_finite, no_rotation}) {
-    pilot_ = Pilot(Options());
-    pose_ = Rigid3();
-    StartDriving();
-    pose_ = pose;
-    EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
-    EXPECT_EQ(Reason(), StopReason::kPoseInvalid);
-  }
-}
-
-TEST_F(PilotTest, APoseFromTheFutureIsNotDrivenBy) {
-  StartDriving();
-  has_pose_ = false;
-  pilot_.ObservePose(now_s_, {now_s_ + 5, pose_, {}});
-  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
-  EXPECT_EQ(Reason(), StopReason::kPoseInvalid);
 }
 
 TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {

@@ -79,9 +79,7 @@ TEST_F(PilotTest, AVelocityOfBeforeAGoalIsForgotten) {
 }
 
 TEST_F(PilotTest, VelocitiesOfTwoNodesBlock) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Start();
   ASSERT_TRUE(pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner").is_accepted);
   ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
   EXPECT_FALSE(pilot_.SetVelocity(now_s_, {0, 0}, "/joystick").is_accepted);
@@ -98,9 +96,7 @@ TEST_F(PilotTest, VelocitiesOfTwoNodesBlock) {
 }
 
 TEST_F(PilotTest, ANodeTakesOverWhereTheOtherHasEnded) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Start();
   pilot_.SetVelocity(now_s_, {0.1, 0}, "/planner");
   Run(Options().velocity_timeout_s + 2 * kTick_s);
   EXPECT_TRUE(pilot_.SetVelocity(now_s_, {0.1, 0}, "/joystick").is_accepted);
@@ -110,9 +106,7 @@ TEST_F(PilotTest, ANodeTakesOverWhereTheOtherHasEnded) {
 }
 
 TEST_F(PilotTest, VelocitiesThatStreamOnThroughAPauseAreWarnedOf) {
-  chassis_.authority = ChassisAuthority::kUs;
-  Run(0.1);
-  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
+  Start();
   const auto run = [&](double duration_s) {
     double fastest_mps = 0;
     for (const double end_s = now_s_ + duration_s; now_s_ < end_s;) {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace arfm_vo {
 namespace {
@@ -61,18 +59,6 @@ TEST_F(PoseWatchTest, ACovarianceOfAnotherEpochSaysNothingOfThisOne) {
   watch_.Observe(10.1, PoseObservation{10.1, SightingAt(0), {}});
   watch_.Judge(10.1, tracks_);
   EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseUncertain);
-}
-
-TEST(PoseConsistency, WrongOptionsAreRefused) {
-  PoseConsistencyOptions options;
-  options.max_error_m = 0;
-  EXPECT_THROW(PoseConsistency(options, TrackKinematics({})), std::invalid_argument);
-}
-
-TEST(PoseWatch, WrongOptionsAreRefused) {
-  PoseWatchOptions options;
-  options.max_tilt_deg = 0;
-  EXPECT_THROW(PoseWatch(options, TrackKinematics({})), std::invalid_argument);
 }
 
 TEST(PoseWatch, WhereNoCovarianceIsAskedForNoneIsWaitedFor) {
@@ -184,17 +170,6 @@ TEST_F(PoseWatchTest, ADatumCountsInItsEpochOnly) {
   EXPECT_TRUE(watch_.ObserveEpoch(2, 11));
   See(11, SightingAt(0), 3);
   EXPECT_EQ(watch_.FindFault(11), StopReason::kPoseUncertain);
-}
-
-TEST(PoseWatchOptions, WrongValuesAreNamed) {
-  PoseWatchOptions options;
-  options.consistency.max_map_step_m = std::numeric_limits<double>::infinity();
-  try {
-    PoseWatch{options, TrackKinematics({})};
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("pose.consistency.max_map_step_m", 0), 0u);
-  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/refusal.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -21,12 +23,7 @@ void DriveTo(const RoverPose& to, Path& path) {
 }
 
 std::string Refusal(const Path& driven, const RoverPose& rover) {
-  try {
-    FindWayHome(driven, rover);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return RefusalOf([&] { FindWayHome(driven, rover); });
 }
 
 TEST(WayHome, LeadsBackRoundTheCornerAndTurnsToTheFirstHeading) {

@@ -7,7 +7,7 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/odometry/trajectory_files.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

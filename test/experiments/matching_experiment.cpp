@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/matching/exact_matcher.h"
@@ -137,7 +136,7 @@ void PrintRules(const JudgedPair& pair, const SurfPair& surf, FalseMatchThreshol
 }
 
 void PrintStrategy(const SurfPair& surf, const std::string& name, MatchStrategy strategy,
-                      double ratio, const std::string& rule) {
+                   double ratio, const std::string& rule) {
   FeatureMatcherOptions options;
   options.strategy = strategy;
   const FeatureMatcher matcher(options);

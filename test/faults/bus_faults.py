@@ -21,16 +21,15 @@ def tell_speed(speed_mmps):
     return lambda frame: motion if frame.id == bus.MOTION_STATE else frame
 
 
-class Hold:
-    """The first bytes of the odometer stand: those of the left track, or of both."""
+class Repeat:
+    """The first bytes of each message, or of one kind, stay as they were first."""
 
-    def __init__(self, size):
-        self.size, self.first = size, None
+    def __init__(self, identifier=None, size=8):
+        self.identifier, self.size, self.first = identifier, size, {}
 
     def __call__(self, frame):
-        if frame.id == bus.ODOMETER:
-            self.first = self.first or bytes(frame.bytes[:self.size])
-            frame.bytes[:self.size] = self.first
+        if self.identifier in (None, frame.id):
+            frame.bytes[:self.size] = self.first.setdefault(frame.id, bytes(frame.bytes[:self.size]))
         return frame
 
 
@@ -39,17 +38,6 @@ def creep(campaign):
     campaign.rover.call("chassis_node/cancel")
     time.sleep(1.5)
     campaign.obey(tell_speed(25))
-
-
-class Repeat:
-    """Every message is as its first."""
-
-    def __init__(self):
-        self.first = {}
-
-    def __call__(self, frame):
-        frame.bytes = bytearray(self.first.setdefault(frame.id, bytes(frame.bytes)))
-        return frame
 
 
 def heal(campaign):
@@ -102,8 +90,8 @@ def bus_faults():
     def changed(change):
         return lambda campaign: campaign.obey(change() if isinstance(change, type) else change)
 
-    def held(size):
-        return lambda campaign: campaign.obey(Hold(size))
+    def held(size):  # of the odometer: the left track, or both
+        return lambda campaign: campaign.obey(Repeat(bus.ODOMETER, size))
     state = bus.SYSTEM_STATE
     return [
         Fault("emergency stop button", changed(set_byte(state, 0, 1)), "emergency stop button of the chassis is pressed", heal),

@@ -4,7 +4,8 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
+
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -28,12 +29,7 @@ class KeypointMaskTest : public testing::Test {
     return path;
   }
   std::string Refusal(const std::string& path) const {
-    try {
-      KeypointMask mask(path, {100, 60});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return RefusalOf([&] { KeypointMask(path, {100, 60}); });
   }
 
   fs::path folder_;

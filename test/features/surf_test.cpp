@@ -160,16 +160,5 @@ TEST(SurfTest, RefusesAnythingButGrey) {
   EXPECT_THROW(Surf({}).Extract(cv::Mat(50, 50, CV_8UC3)), std::invalid_argument);
 }
 
-TEST(SurfTest, RefusesWrongOptionsByName) {
-  SurfOptions options;
-  options.detector.layers = 2;
-  try {
-    Surf surf(options);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("detector.layers"), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace arfm_vo

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -14,12 +15,7 @@ class KittiPosesTest : public testing::Test {
   void TearDown() override { std::filesystem::remove(path_); }
   std::string ErrorOf(const std::string& text) {
     WriteWholeFile(path_, text);
-    try {
-      ReadKittiPoses(path_);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what()).substr(path_.size());
-    }
-    return "no error";
+    return RefusalBehind(path_, [&] { ReadKittiPoses(path_); });
   }
   const std::string path_ =
       (std::filesystem::temp_directory_path() / "arfm_vo_kitti_poses_test.txt").string();

@@ -8,6 +8,8 @@
 #include <memory>
 #include <system_error>
 
+#include "base/refusal.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -15,13 +17,9 @@ std::string BusOfThisTest() { return "test" + std::to_string(::getpid()); }
 
 TEST(BusLock, ASecondDriverIsRefusedUntilTheFirstIsGone) {
   auto first = std::make_unique<BusLock>(BusOfThisTest());
-  try {
-    const BusLock second(BusOfThisTest());
-    FAIL() << "two drivers on one bus";
-  } catch (const std::system_error& error) {
-    EXPECT_NE(std::string(error.what()).find("another driver has it"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find(BusOfThisTest()), std::string::npos);
-  }
+  EXPECT_THAT(RefusalOf<std::system_error>([] { BusLock{BusOfThisTest()}; }),
+              testing::AllOf(testing::HasSubstr("another driver has it"),
+                             testing::HasSubstr(BusOfThisTest())));
   EXPECT_NO_THROW(BusLock{BusOfThisTest() + "b"});
   first.reset();
   EXPECT_NO_THROW(BusLock{BusOfThisTest()});

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "arfm_vo/hardware/file_descriptor.h"
+#include "base/refusal.h"
 #include "hardware/await_frame.h"
 
 namespace arfm_vo {
@@ -107,12 +108,8 @@ TEST(CanAddress, IsAnInterfaceOrTwoPorts) {
 }
 
 TEST(CanAddress, AnInterfaceThatIsNotThereIsNamedInTheError) {
-  try {
-    OpenCanBus("nocan7");
-    FAIL() << "opened a bus that is not there";
-  } catch (const std::system_error& error) {
-    EXPECT_NE(std::string(error.what()).find("nocan7"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(RefusalOf<std::system_error>([] { OpenCanBus("nocan7"); }),
+              testing::HasSubstr("nocan7"));
 }
 
 TEST(CanBusState, EachHasANameOfItsOwn) {

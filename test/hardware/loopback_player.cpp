@@ -1,4 +1,4 @@
-#include <nav_msgs/Odometry.h>
+#include <arfm_vo/OdometryStatus.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
@@ -10,6 +10,7 @@
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/ros/replay/bag_sequence.h"
 #include "hardware/loopback_writer.h"
+#include "image/image_noise.h"
 
 namespace {
 
@@ -44,25 +45,26 @@ std::string FormatPose(const Rigid3& pose) {
   return text.str();
 }
 
-/// Two cameras that go on to the next pair when the odometry has answered to the last.
+/// Two cameras that go on to the next pair when the odometry knows the pose of the last.
 class Player {
  public:
   Player(const Playing& playing, const StereoCamera& camera)
       : playing_(playing),
         left_(playing.left, camera.width, camera.height),
         right_(playing.right, camera.width, camera.height),
-        odometry_(ros::NodeHandle().subscribe("odom", 10, &Player::TakeOdometry, this)) {}
+        status_(ros::NodeHandle().subscribe("status", 10, &Player::TakeStatus, this)) {}
 
-  /// Shows the pair again and again until there is an odometry of it.
+  /// Shows the pair again and again, with other noise each time as a camera does, until a picture
+  /// told its pose.
   void Show(const StereoImages& images) {
     const ros::WallTime start = ros::WallTime::now();
     for (ros::WallTime next = start; answered_.toSec() < start.toSec();) {
       if (!ros::ok() || (ros::WallTime::now() - start).toSec() > playing_.timeout_s)
-        throw std::runtime_error("no odometry of the pair shown " +
-                                 std::to_string(playing_.timeout_s) + " s ago");
+        throw std::runtime_error("no pose of the pair shown " + std::to_string(playing_.timeout_s) +
+                                 " s ago");
       if (ros::WallTime::now() >= next) {
-        left_.Write(images.left);
-        right_.Write(images.right);
+        left_.Write(Noisy(images.left));
+        right_.Write(Noisy(images.right));
         next = ros::WallTime::now() + ros::WallDuration(1 / playing_.rate_hz);
       }
       ros::getGlobalCallbackQueue()->callAvailable(next - ros::WallTime::now());
@@ -70,12 +72,20 @@ class Player {
   }
 
  private:
-  void TakeOdometry(const nav_msgs::Odometry& odometry) { answered_ = odometry.header.stamp; }
+  void TakeStatus(const OdometryStatus& status) {
+    if (status.num_inliers > 0) answered_ = status.header.stamp;
+  }
+  cv::Mat Noisy(const cv::Mat& image) {
+    cv::Mat noisy = image.clone();
+    AddNoise(noisy, 1, random_);
+    return noisy;
+  }
 
   const Playing playing_;
   LoopbackWriter left_, right_;
   ros::Time answered_;
-  ros::Subscriber odometry_;
+  cv::RNG random_;
+  ros::Subscriber status_;
 };
 
 void Play(const Playing& playing) {
@@ -102,9 +112,9 @@ int main(int argc, char** argv) {
   Program program;
   program.name = "loopback_player";
   program.description =
-      "Shows the pairs of a bag with ground truth on two v4l2loopback cameras, each until there "
-      "is\n"
-      "an odometry of it (topic odom). FOLDER takes the calibration (left.yaml, right.yaml) at "
+      "Shows the pairs of a bag with ground truth on two v4l2loopback cameras, each until its "
+      "pose\n"
+      "is known (topic status). FOLDER takes the calibration (left.yaml, right.yaml) at "
       "the\n"
       "start and truth.txt at the end.";
   program.inputs = {{"BAG", &playing.bag}, {"FOLDER", &playing.folder}};

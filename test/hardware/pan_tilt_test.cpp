@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/random.h"
+#include "hardware/line_noise.h"
 #include "hardware/simulated_line.h"
 
 namespace arfm_vo {
@@ -15,9 +16,7 @@ constexpr double kCount = 185.1428 / 3600 * M_PI / 180;  // rad
 
 class PanTiltTest : public testing::Test {
  protected:
-  void Make(bool home_at_start = false) {
-    PanTiltOptions options;
-    options.home_at_start = home_at_start;
+  void Make(const PanTiltOptions& options = {}) {
     head_ = std::make_unique<PanTilt>(
         options, [this] { return std::make_unique<SimulatedLine>(bench_); },
         [this] { return bench_.now_s; });
@@ -30,9 +29,10 @@ class PanTiltTest : public testing::Test {
     }
     return false;
   }
-  bool BecomeReady() {
-    return StepUntil([this] { return head_->state() == PanTiltState::kReady; }, 60);
+  bool Reach(PanTiltState state, double limit_s) {
+    return StepUntil([&] { return head_->state() == state; }, limit_s);
   }
+  bool BecomeReady() { return Reach(PanTiltState::kReady, 60); }
   double TrueRad(PtuAxis axis) { return bench_.ptu.Position(axis, bench_.now_s) * kCount; }
 
   SimulatedBench bench_;
@@ -55,7 +55,9 @@ TEST_F(PanTiltTest, ReadsLimitsResolutionAndSpeedFromTheUnit) {
 }
 
 TEST_F(PanTiltTest, HomesAtTheStartWhereAsked) {
-  Make(true);
+  PanTiltOptions options;
+  options.home_at_start = true;
+  Make(options);
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kHoming);
   EXPECT_THAT(*head_->MoveTo({0.1, 0.0}), testing::HasSubstr("homing"));
@@ -123,9 +125,9 @@ TEST_F(PanTiltTest, SurvivesAnUnpluggedLineWithGrowingWaits) {
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kClosed);
   EXPECT_THAT(head_->problem(), testing::HasSubstr("gone"));
-  EXPECT_FALSE(StepUntil([this] { return head_->state() == PanTiltState::kReady; }, 20));
+  EXPECT_FALSE(Reach(PanTiltState::kReady, 20));
   bench_.is_plugged = true;
-  ASSERT_TRUE(StepUntil([this] { return head_->state() == PanTiltState::kReady; }, 6));
+  ASSERT_TRUE(Reach(PanTiltState::kReady, 6));
   EXPECT_EQ(head_->num_reopened(), 1);
   EXPECT_EQ(head_->problem(), "");
   EXPECT_TRUE(head_->Step().pan);
@@ -135,7 +137,7 @@ TEST_F(PanTiltTest, AUnitThatIsSilentIsOpenedAnew) {
   Make();
   ASSERT_TRUE(BecomeReady());
   bench_.disturb = [](const std::string&) { return std::string(); };
-  EXPECT_TRUE(StepUntil([this] { return head_->state() == PanTiltState::kClosed; }, 30));
+  EXPECT_TRUE(Reach(PanTiltState::kClosed, 30));
   bench_.disturb = [](const std::string& bytes) { return bytes; };
   EXPECT_TRUE(BecomeReady());
 }
@@ -178,77 +180,6 @@ TEST_F(PanTiltTest, ALateReplyIsNotTakenForTheNextQuestions) {
   EXPECT_NEAR(head_->Step().pan->position_rad, 1.0, kCount);
 }
 
-/// Turns the unit's bytes into what a bad line makes of them, reply by reply.
-class LineNoise {
- public:
-  explicit LineNoise(uint32_t seed) : engine_(seed) {}
-
-  std::string operator()(const std::string& bytes) {
-    std::string out;
-    for (const char c : bytes) {
-      reply_ += c;
-      if (c == '\n') out += Disturb(std::exchange(reply_, {}));
-    }
-    return out;
-  }
-  int num_replies = 0;
-
- private:
-  uint32_t Below(uint32_t bound) { return RandomBelow(bound, engine_); }
-  std::string Disturb(std::string reply) {
-    ++num_replies;
-    const std::string late = std::exchange(stale_, {});
-    const size_t place = Below(static_cast<uint32_t>(reply.size()));
-    switch (Below(24)) {
-      case 0:
-        return late;  // lost
-      case 1:
-        reply[place] = static_cast<char>(Below(256));
-        break;
-      case 2:
-        reply[place] = static_cast<char>('0' + Below(10));
-        break;
-      case 3:
-        reply.erase(place, 1);
-        break;
-      case 4:
-        reply.insert(place, 1, static_cast<char>('0' + Below(10)));
-        break;
-      case 5:
-        reply.insert(place, Below(2) ? "!P" : "!T");
-        break;
-      case 6:
-        reply += reply;
-        break;  // twice
-      case 7:
-        stale_ = reply;
-        return late;  // comes with the next one
-      case 8:
-        reply = "* " + std::to_string(int(Below(8000)) - 4000) + "\r\n";
-        break;
-      case 9:
-        reply = "! Illegal command entered\r\n";
-        break;
-      case 10:
-        reply = "pp " + reply;
-        break;  // echo
-      case 11:
-        reply = "* Current Pan position is 12\r\n";
-        break;
-      case 12:
-        reply.clear();
-        for (int i = Below(40); i > 0; --i) reply += static_cast<char>(Below(256));
-        break;
-      default:
-        break;  // whole
-    }
-    return late + reply;
-  }
-
-  RandomEngine engine_;
-  std::string reply_, stale_;
-};
-
 TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
   Make();
   ASSERT_TRUE(BecomeReady());
@@ -285,6 +216,55 @@ TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
   std::printf("%d replies, %d positions taken, %d times reopened, %.0f s simulated\n",
               noise.num_replies, num_read, head_->num_reopened(), bench_.now_s);
   EXPECT_EQ(bench_.ptu.num_eeprom_writes(), 0);
+}
+
+TEST_F(PanTiltTest, ALineThatGoesWithACommandClosesTheUnitAndIsNamed) {
+  Make();
+  ASSERT_TRUE(BecomeReady());
+  bench_.is_plugged = false;
+  EXPECT_THAT(*head_->MoveTo({0.2, 0.1}), testing::HasSubstr("line is gone"));
+  EXPECT_EQ(head_->state(), PanTiltState::kClosed);
+  EXPECT_FALSE(head_->properties(PtuAxis::kPan));
+  EXPECT_FALSE(head_->counts());
+}
+
+TEST_F(PanTiltTest, ALineThatGoesWithHomingClosesTheUnit) {
+  Make();
+  ASSERT_TRUE(BecomeReady());
+  bench_.is_plugged = false;
+  EXPECT_THAT(*head_->Home(), testing::HasSubstr("line is gone"));
+  EXPECT_EQ(head_->state(), PanTiltState::kClosed);
+}
+
+TEST_F(PanTiltTest, HomingThatDoesNotEndClosesTheUnit) {
+  PanTiltOptions options;
+  options.home_timeout_s = 1;
+  Make(options);
+  ASSERT_TRUE(BecomeReady());
+  ASSERT_EQ(head_->Home(), std::nullopt);
+  EXPECT_THAT(*head_->MoveTo({0.1, {}}), testing::HasSubstr("homing"));
+  bench_.disturb = [](const std::string&) { return std::string(); };
+  EXPECT_TRUE(Reach(PanTiltState::kClosed, 30));
+  EXPECT_THAT(head_->problem(), testing::HasSubstr("homing"));
+}
+
+TEST_F(PanTiltTest, ASpeedThatTheUnitDoesNotHaveIsSaidWithItsLimits) {
+  PanTiltOptions options;
+  options.pan_speed_rad_s = 50;
+  Make(options);
+  ASSERT_TRUE(BecomeReady());
+  EXPECT_THAT(head_->problem(),
+              testing::AllOf(testing::HasSubstr("pan speed"), testing::HasSubstr("is outside")));
+}
+
+TEST_F(PanTiltTest, ASpeedWithinTheLimitsIsSet) {
+  PanTiltOptions options;
+  options.pan_speed_rad_s = 0.2;
+  Make(options);
+  ASSERT_TRUE(BecomeReady());
+  EXPECT_EQ(head_->problem(), "");
+  const auto pan = head_->properties(PtuAxis::kPan);
+  EXPECT_NEAR(pan->speed * pan->resolution_rad, 0.2, pan->resolution_rad);
 }
 
 TEST(PanTiltOptions, BadValuesAreNamed) {

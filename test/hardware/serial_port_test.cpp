@@ -11,6 +11,7 @@
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/pan_tilt.h"
 #include "arfm_vo/hardware/simulated_ptu_port.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -79,14 +80,8 @@ TEST(SerialPort, AnUnpluggedLineThrows) {
 }
 
 TEST(SerialPort, SaysWhatDoesNotOpen) {
-  try {
-    SerialPort("/nowhere/ttyUSB0", 9600);
-    ADD_FAILURE() << "opened a port that is not there";
-  } catch (const std::system_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'/nowhere/ttyUSB0' (is it plugged in?"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(RefusalOf<std::system_error>([] { SerialPort("/nowhere/ttyUSB0", 9600); }),
+              testing::HasSubstr("'/nowhere/ttyUSB0' (is it plugged in?"));
   EXPECT_THROW(SerialPort("/dev/null", 9600), std::system_error);  // no serial line
   PseudoTerminal device(Link());
   EXPECT_THROW(SerialPort(Link(), 12345), std::invalid_argument);

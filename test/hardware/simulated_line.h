@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <functional>
-#include <memory>
 #include <string>
 #include <system_error>
 

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -23,13 +24,7 @@ class PngImageTest : public testing::Test {
   /// What reading a file of these bytes complains of, without the file's name.
   std::string ErrorOf(const std::string& bytes) {
     WriteWholeFile(path_, bytes);
-    try {
-      ReadGreyPng(path_, window_);
-    } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()).substr(0, path_.size()), path_);
-      return std::string(error.what()).substr(path_.size());
-    }
-    return "no error";
+    return RefusalBehind(path_, [&] { ReadGreyPng(path_, window_); });
   }
 
   const std::string path_ =
@@ -59,7 +54,7 @@ TEST_F(PngImageTest, AFlippedBitIsAnError) {
   for (size_t at = 0; at < bytes_.size(); at += 11) {
     std::string flipped = bytes_;
     flipped[at] = static_cast<char>(flipped[at] ^ 4);
-    EXPECT_NE(ErrorOf(flipped), "no error") << at;
+    EXPECT_NE(ErrorOf(flipped), "") << at;
   }
 }
 

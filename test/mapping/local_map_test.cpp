@@ -177,16 +177,5 @@ TEST(LocalMap, RemovingTheLastObservationRemovesTheLandmark) {
   EXPECT_TRUE(map.keyframes().back().observations.empty());
 }
 
-TEST(LocalMapOptions, CheckNamesTheKey) {
-  LocalMapOptions options;
-  options.max_keyframes = 1;
-  try {
-    options.Check();
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("max_keyframes"), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace arfm_vo

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "arfm_vo/base/random.h"
 
 namespace arfm_vo {

@@ -10,6 +10,7 @@
 
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/base/whole_file.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -40,12 +41,7 @@ KnownMap MakeMap(int num_keyframes, int num_points = 40) {
 }
 
 std::string Refusal(const std::string& bytes) {
-  try {
-    ParseMap(bytes, "a.map");
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return RefusalOf([&] { ParseMap(bytes, "a.map"); });
 }
 
 class MapFileTest : public ::testing::Test {
@@ -136,13 +132,8 @@ TEST_F(MapFileTest, NamesTheValueOfAnotherCamera) {
   StereoCamera other = kCamera;
   EXPECT_NO_THROW(CheckSameCamera(MakeMap(1), other));
   other.fy = 411;
-  try {
-    CheckSameCamera(MakeMap(1), other);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "it is of another camera: its fy is 410, that of the camera now 411");
-  }
+  EXPECT_EQ(RefusalOf([&] { CheckSameCamera(MakeMap(1), other); }),
+            "it is of another camera: its fy is 410, that of the camera now 411");
 }
 
 /// Runs `save` in a process of its own, which is killed after `kill_after_us` unless that is 0.

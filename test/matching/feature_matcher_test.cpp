@@ -74,11 +74,5 @@ TEST(FeatureMatcher, WithoutConsensusOrInputThereAreNoMatches) {
   EXPECT_TRUE(matcher.MatchFeatures(scene.left, {}, 0.8).empty());
 }
 
-TEST(FeatureMatcherOptions, CheckNamesTheBadKey) {
-  FeatureMatcherOptions options;
-  options.max_row_difference_px = -1;
-  EXPECT_THROW(FeatureMatcher{options}, std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace arfm_vo

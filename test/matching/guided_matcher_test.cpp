@@ -85,12 +85,6 @@ TEST(StereoNeighbours, EmptyImagesGiveNothing) {
   EXPECT_EQ(FindStereoNeighbours(RandomFeatures(3, 1), {}, {}).of_first.size(), 3u);
 }
 
-TEST(StereoSearchOptions, CheckNamesTheBadKey) {
-  StereoSearchOptions options;
-  options.max_scale_ratio = 0.9;
-  EXPECT_THROW(options.Check(), std::invalid_argument);
-}
-
 cv::Mat AxisDescriptor(int axis) {
   cv::Mat row = cv::Mat::zeros(1, 64, CV_32FC1);
   row.at<float>(0, axis) = 1;

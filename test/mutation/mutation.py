@@ -8,8 +8,8 @@ With FOLDER, such as src/pose: the second only, of the sources there, and the ta
 argument: with a sample of 200, and the tables of docs/mutation.md are written (hours).
 
 All changes are compiled in at once, each behind a switch that the environment sets (ARFM_VO_MUTANT), so that there is
-one build. Run it in a checkout without changes: the sources are changed in place and put back at the end. Builds into
-BUILD_DIR (default _b). Exit status 0 where all protections are noticed.
+one build, of each source alone. Run it in a checkout without changes: the sources are changed in place and put back at the
+end. Builds into BUILD_DIR (default _b_mutants). Exit status 0 where all protections are noticed.
 """
 import argparse
 import os
@@ -27,7 +27,7 @@ from rules import find_changes  # noqa: E402
 from switch import Source  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("BUILD_DIR", ROOT / "_b"))
+BUILD = pathlib.Path(os.environ.get("BUILD_DIR", ROOT / "_b_mutants"))
 PROGRAMS = BUILD / "devel/lib/arfm_vo"
 CTEST = ["ctest", "--output-on-failure", "--test-dir", str(BUILD), "-R"]
 
@@ -90,6 +90,11 @@ def notice(suites, number):
     return next(filter(None, (find_failure(suite, number) for suite in suites)), None)
 
 
+def configure():
+    (BUILD / "devel/lib/python3/dist-packages").mkdir(parents=True, exist_ok=True)
+    subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-G", "Ninja", "-DARFM_VO_UNITY=OFF"], check=True, stdout=subprocess.DEVNULL)
+
+
 def build(suites):
     targets = sorted({target for suite in suites for target in SUITES[suite][0]})
     made = subprocess.run(["ninja", "-C", str(BUILD), "-j2"] + targets, capture_output=True, text=True)
@@ -114,7 +119,7 @@ def drop_what_does_not_compile(source):
             print("%s: left out, takes too long to compile with all changes" % source.file, flush=True)
             source.by_rule = []
             return source.restore()
-        wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines() if line.startswith(str(source.path)) and " error:" in line}
+        wrong = {int(line.split(":")[1]) for line in said.stderr.splitlines() if source.file in line.split(":")[0] and " error:" in line}
         if not source.drop_lines(wrong):
             sys.exit("does not compile:\n" + said.stderr)
 
@@ -204,6 +209,7 @@ def main():
     arguments = parser.parse_args(sys.argv[1:] or ["--sample", "200", "--output", str(ROOT / "docs/mutation.md")])
     if subprocess.run(["git", "status", "--porcelain", "src", "include", "nodes"], cwd=ROOT, capture_output=True).stdout:
         sys.exit("mutants: src, include and nodes must be as committed")
+    configure()
     if arguments.folder:
         sampled, num_possible = try_rules(arguments.folder, arguments.sample or 60, arguments.seed)
         print(tell_sample(arguments.folder, sampled, arguments.seed, num_possible))

@@ -370,10 +370,3 @@ TEST_F(ClockStall, SimulatedTimeThatRunsSlowlyKeepsNoOperator) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_chassis_node");
-  ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

@@ -87,10 +87,3 @@ TEST_F(DrivePanelTest, TheButtonsStartAndStopAndTheAnswerIsShown) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_drive_panel");
-  const ros::NodeHandle keeper;  // between tests too
-  return RUN_ALL_TESTS();
-}

@@ -88,10 +88,3 @@ TEST(KittiPlayer, AMissingFolderStopsItWithItsName) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "kitti_player_test");
-  ros::NodeHandle keeps_node_alive;
-  return RUN_ALL_TESTS();
-}

@@ -96,10 +96,3 @@ TEST_F(LivePoses, AreThoseOfTheProgram) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_live_poses");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -14,8 +14,6 @@
 #include <ros/console.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 
-#include <memory>
-
 #include "arfm_vo/ros/odometry/arfm_node.h"
 #include "arfm_vo/ros/odometry/ba_node.h"
 #include "arfm_vo/ros/odometry/pose_node.h"
@@ -24,7 +22,6 @@
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
 #include "arfm_vo/ros/rover/simulator_node.h"
 #include "arfm_vo/ros/rover/stereo_camera_node.h"
-#include "arfm_vo/simulation/simulated_chassis.h"
 
 // These nodes' classes stand in their programs.
 #define main RunStereoSync

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "arfm_vo/ros/replay/stereo_outputs.h"
 #include "nodes/inbox.h"
@@ -336,10 +335,3 @@ TEST_F(OdometryChain, SavesTheTrajectoryByServiceAndAtTheEnd) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_chain_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -6,6 +6,7 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/geometry/kitti_poses.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -15,12 +16,7 @@ class TrajectoryFilesTest : public testing::Test {
   void TearDown() override { std::filesystem::remove(path_); }
   std::string TumErrorOf(const std::string& text) {
     WriteWholeFile(path_, text);
-    try {
-      ReadTumTrajectory(path_);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what()).substr(path_.size());
-    }
-    return "no error";
+    return RefusalBehind(path_, [&] { ReadTumTrajectory(path_); });
   }
   const std::string path_ =
       (std::filesystem::temp_directory_path() / "arfm_vo_trajectory_files_test.txt").string();

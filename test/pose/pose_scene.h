@@ -1,28 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <vector>
 
-#include "arfm_vo/base/random.h"
-#include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/pose/point_observation.h"
+#include "base/random_normal.h"
 
 namespace arfm_vo {
 
 const StereoCamera kSceneCamera{707, 707, 600, 180, 0.54, 1226, 370};
-
-/// A standard normal number (Box and Muller), the same on every platform.
-inline double RandomNormal(RandomEngine& engine) {
-  const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine)));
-  return radius * std::cos(2 * M_PI * RandomUnit(engine));
-}
-
-inline Eigen::Vector3d RandomNormal3(RandomEngine& engine) {
-  const double x = RandomNormal(engine), y = RandomNormal(engine);
-  return {x, y, RandomNormal(engine)};
-}
 
 inline Rigid3 RandomPose(RandomEngine& engine, double angle_sigma_rad, double sigma_m) {
   const Eigen::Vector3d omega = angle_sigma_rad * RandomNormal3(engine);
@@ -51,14 +38,6 @@ inline std::vector<PointObservation> MakeObservations(const Rigid3& camera_from_
     if (sigma_px > 0) observation.sigma_px = sigma_px;
   }
   return observations;
-}
-
-/// The step that leads from the true pose to the estimate: estimate = BoxPlus(truth, step).
-inline Eigen::Matrix<double, 6, 1> StepBetween(const Rigid3& truth, const Rigid3& estimate) {
-  const Rigid3 difference = estimate * truth.Inverse();
-  Eigen::Matrix<double, 6, 1> step;
-  step << LogSO3(difference.rotation), difference.translation;
-  return step;
 }
 
 }  // namespace arfm_vo

@@ -165,11 +165,5 @@ TEST(StereoReconstructor, ImagesOfAnotherSizeThrow) {
   EXPECT_THROW(wall.Reconstruct({}), std::invalid_argument);
 }
 
-TEST(StereoReconstructionOptions, CheckNamesTheBadKey) {
-  StereoReconstructionOptions options;
-  options.threshold.fixed_ratio = 0;
-  EXPECT_THROW(options.Check(), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace arfm_vo

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "arfm_vo/base/random.h"
+#include "base/random_normal.h"
 
 namespace arfm_vo {
 
@@ -23,10 +22,7 @@ class Draw {
   }
   bool Chance(double probability) { return RandomUnit(engine_) < probability; }
   double Sign() { return Chance(0.5) ? 1 : -1; }
-  double Gaussian() {  // Box and Muller 1958
-    const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine_)));
-    return radius * std::cos(2 * M_PI * RandomUnit(engine_));
-  }
+  double Gaussian() { return RandomNormal(engine_); }
   /// One of the values; a value that stands twice is drawn twice as often.
   template <class Value>
   Value OneOf(const std::vector<Value>& values) {

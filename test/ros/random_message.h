@@ -4,7 +4,6 @@
 #include <ros/time.h>
 
 #include <boost/array.hpp>
-#include <cmath>
 #include <limits>
 #include <random>
 #include <string>

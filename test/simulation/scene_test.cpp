@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "base/refusal.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -101,12 +103,7 @@ TEST(Scene, FaultOfRectificationMovesTheRightRows) {
 TEST(Scene, RefusesAnUnknownPathByName) {
   SceneOptions options;
   options.path = "spiral";
-  try {
-    Scene scene(options);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("spiral"), std::string::npos);
-  }
+  EXPECT_INVALID(Scene{options}, "spiral");
 }
 
 }  // namespace

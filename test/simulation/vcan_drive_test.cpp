@@ -108,6 +108,13 @@ class VcanDriveTest : public ::testing::Test {
     ASSERT_TRUE(RunUntil(5, [&] { return driver_->pilot().Status().motion.forward_mps > 0.09; }));
     ASSERT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
   }
+  /// A velocity that streams on would forbid it.
+  void StartAgain() {
+    wants_velocity_ = false;
+    EXPECT_TRUE(RunUntil(5, [&] { return driver_->pilot().Start(Now()).is_accepted; }));
+    wants_velocity_ = true;
+    EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+  }
   double StopSeconds() const { return stopped_s_; }
   StopReason Reason() const { return driver_->pilot().Status().reason; }
 
@@ -172,8 +179,7 @@ TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) 
   EXPECT_EQ(Reason(), StopReason::kBusDown);
   EXPECT_TRUE(driver_->link().IsBusUp());
   EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
-  EXPECT_TRUE(driver_->pilot().Start(Now()).is_accepted);
-  EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+  StartAgain();
 }
 
 TEST_F(VcanDriveTest, AnAdapterThatComesBackUnderAnotherNameIsNotDriven) {
@@ -186,8 +192,7 @@ TEST_F(VcanDriveTest, AnAdapterThatComesBackUnderAnotherNameIsNotDriven) {
   EXPECT_LT(chassis_->plant().Speeds().left_mps, 0.001);
   // The names of the simulated chassis' and of the driver's interface are the same again.
   RunBeside("ip link del vcan9 && ip link add dev vcan0 type vcan && ip link set vcan0 up");
-  EXPECT_TRUE(RunUntil(5, [&] { return driver_->pilot().Start(Now()).is_accepted; }));
-  EXPECT_TRUE(RunUntil(5, [&] { return chassis_->plant().Speeds().left_mps > 0.05; }));
+  StartAgain();
   PrintRow("`ip link del vcan0`, and the adapter is back as vcan9", "before `ip` has ended",
            "its name is vcan0 again; start");
 }

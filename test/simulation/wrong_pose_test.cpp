@@ -92,16 +92,6 @@ TEST_F(WrongPoseTest, ANewEpochExplainsNoOtherStop) {
   EXPECT_FALSE(drive_.pilot().Status().has_goal);
 }
 
-TEST_F(WrongPoseTest, AnOdometryThatIsKilledAndRestartedDrivesNowhere) {
-  DriveTo({6, 0, {}}, 15);
-  drive_.has_pose_ = false;
-  drive_.Run(1.6);
-  RestartOdometryAt(WrongPlaceAt(0, 0));
-  drive_.has_pose_ = true;
-  drive_.Run(60);
-  ExpectBlocked(StopReason::kPoseContradiction);
-}
-
 TEST_F(WrongPoseTest, TheFirstPoseAfterAPauseMustAgreeWithTheTracks) {
   DriveTo({6, 0, {}}, 5);
   drive_.sigma_m_ = 99.99;
@@ -171,17 +161,6 @@ TEST_F(WrongPoseTest, ASmallTurnOfTheMapIsDrivenOnAndALargeOneAsks) {
   ExpectBlocked(StopReason::kMapStep);
 }
 
-TEST_F(WrongPoseTest, AGoodPoseArrives) {
-  DriveTo({0.6, 0, 0.3}, 3);
-  drive_.Run(30);
-  const auto results = drive_.pilot().TakeResults();
-  ASSERT_EQ(results.size(), 1u);
-  EXPECT_EQ(results[0].outcome, GoalOutcome::kArrived);
-  EXPECT_NEAR(drive_.plant().Pose().x_m, 0.6, 0.05);
-  EXPECT_NEAR(drive_.plant().Pose().heading_rad, 0.3, 0.05);
-  EXPECT_LT(drive_.FastestTrack(), 1e-3);
-}
-
 TEST(Fence, ARoverThatTheMapPlacesOutsideItStops) {
   PilotOptions options;
   options.goal_limits.fence_m = {-1, -0.2, 7, -0.2, 7, 2, -1, 2};
@@ -224,13 +203,6 @@ TEST_F(WrongPoseTest, SightThatIsAQuarterShorterThanTheTracksStopsAfterFiveMetre
     EXPECT_NE(drive.pilot().Status().detail.find("tracks 5.0"), std::string::npos);
     EXPECT_LT(drive.plant().Pose().x_m, 5.2 * (1 - slip));
   }
-}
-
-TEST_F(WrongPoseTest, ATiltedRoverStops) {
-  DriveTo({6, 0, {}}, 5);
-  drive_.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
-  drive_.Run(5);
-  ExpectBlocked(StopReason::kTilt);
 }
 
 }  // namespace

@@ -5,17 +5,13 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/geometry/right_shift.h"
+#include "base/random_normal.h"
 
 namespace arfm_vo {
 namespace {
 
 constexpr double kCell = 25;              ///< m
 constexpr int kMaxTriesPerLandmark = 50;  ///< to place one that both eyes see
-
-double DrawNormal(RandomEngine& engine) {  // Box and Muller 1958
-  const double radius = std::sqrt(-2 * std::log(1 - RandomUnit(engine)));
-  return radius * std::cos(2 * M_PI * RandomUnit(engine));
-}
 
 int CellOf(double x) { return static_cast<int>(std::floor(x / kCell)); }
 
@@ -83,8 +79,8 @@ std::array<float, 64> ObservationSimulator::Describe(int landmark_id, double noi
   std::array<float, 64> descriptor;
   double squares = 0;
   for (float& x : descriptor) {
-    const double own_part = DrawNormal(own);
-    x = static_cast<float>((own_part + noise * DrawNormal(engine_)) / 8);
+    const double own_part = RandomNormal(own);
+    x = static_cast<float>((own_part + noise * RandomNormal(engine_)) / 8);
     squares += x * x;
   }
   for (float& x : descriptor) x = static_cast<float>(x / std::sqrt(squares));
@@ -174,8 +170,8 @@ void ObservationSimulator::Disturb(SimulatedObservation& observation) {
   observation.v_right += right.y();
   observation.is_outlier = RandomUnit(engine_) < options_.outlier_fraction;
   if (!observation.is_outlier) {
-    for (int i = 0; i < 3; ++i) pixels[i] += options_.noise_px * DrawNormal(engine_);
-    observation.v_right += options_.noise_px * DrawNormal(engine_);
+    for (int i = 0; i < 3; ++i) pixels[i] += options_.noise_px * RandomNormal(engine_);
+    observation.v_right += options_.noise_px * RandomNormal(engine_);
     return;
   }
   if (RandomUnit(engine_) < 0.5) {
@@ -183,7 +179,7 @@ void ObservationSimulator::Disturb(SimulatedObservation& observation) {
     pixels.y() = Draw(0, camera_.height - 1);
   }
   pixels.z() = pixels.x() - Draw(0.5, camera_.Disparity(options_.min_depth_m));
-  observation.v_right = pixels.y() + options_.noise_px * DrawNormal(engine_);
+  observation.v_right = pixels.y() + options_.noise_px * RandomNormal(engine_);
 }
 
 }  // namespace arfm_vo

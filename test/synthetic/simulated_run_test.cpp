@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <numeric>
 #include <random>
 
 #include "arfm_vo/pose/carry_covariance.h"

@@ -2,8 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <limits>
-#include <optional>
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"

@@ -75,9 +75,9 @@ class ChassisWatch {
   std::optional<Fault> FindFault(double now_s) const;
 
   bool IsOurs() const { return status_ && status_->authority == ChassisAuthority::kUs; }
-  /// Nobody else drives it, as far as it says.
+  /// It can be heard, and nobody else drives it, as far as it says.
   bool IsNobodyElses() const {
-    return status_ && (IsOurs() || status_->authority == ChassisAuthority::kNobody);
+    return is_bus_up_ && (IsOurs() || (status_ && status_->authority == ChassisAuthority::kNobody));
   }
   bool IsRemote() const {
     return status_ && status_->authority == ChassisAuthority::kRemoteControl;

@@ -10,7 +10,6 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <algorithm>
 #include <deque>
 #include <functional>
 #include <memory>

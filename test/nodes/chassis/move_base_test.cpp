@@ -6,7 +6,6 @@
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -229,10 +228,3 @@ TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) 
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_move_base");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

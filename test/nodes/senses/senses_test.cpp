@@ -194,10 +194,3 @@ TEST_F(SensesOfTheGraph, ThatContradictTheCamerasAreNamed) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_senses");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

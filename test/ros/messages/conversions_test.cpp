@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

@@ -4,7 +4,7 @@
 #include "arfm_vo/ros/odometry/arfm_node.h"
 #include "arfm_vo/ros/odometry/ba_node.h"
 #include "arfm_vo/ros/odometry/pose_node.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/ros/messages/transforms.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {

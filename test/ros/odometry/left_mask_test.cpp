@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/odometry/stereo_frontend.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 #include "ros/textured_wall.h"
 
 namespace arfm_vo {

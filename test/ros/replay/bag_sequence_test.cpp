@@ -7,6 +7,7 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/ros/replay/stereo_outputs.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -45,15 +46,11 @@ class BagSequenceTest : public testing::Test {
     write(bag);
   }
   std::string ErrorOf(const StereoTopics& topics = {}) {
-    try {
+    return RefusalBehind(path_, [&] {
       BagSequence sequence(path_, topics);
       while (sequence.Next()) {
       }
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), testing::StartsWith(path_));
-      return std::string(error.what()).substr(path_.size());
-    }
-    return "no error";
+    });
   }
 
   const fs::path folder_ = fs::temp_directory_path() / "arfm_vo_bag_sequence_test";
@@ -149,7 +146,7 @@ TEST_F(BagSequenceTest, TruncationAnywhereIsAnError) {
   const std::string bytes = ReadWholeFile(path_);
   for (size_t i = 0; i < 40; ++i) {
     WriteWholeFile(path_, bytes.substr(0, bytes.size() * i / 40));
-    EXPECT_NE(ErrorOf(), "no error") << i;
+    EXPECT_NE(ErrorOf(), "") << i;
   }
   WriteWholeFile(path_, bytes.substr(0, bytes.size() - 1));
   EXPECT_THAT(ErrorOf(), testing::HasSubstr("truncated"));

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -35,10 +36,6 @@ Wrapper Camera(const StereoCameraStatus& status) {
   return report;
 }
 
-TEST(CameraHealth, PairsAsAskedAreOk) {
-  EXPECT_EQ(Camera(GoodStatus()).level, DiagnosticStatus::OK);
-}
-
 TEST(CameraHealth, FiguresAreTold) {
   StereoCameraStatus status = GoodStatus();
   status.num_unpaired_left = 3;
@@ -65,57 +62,49 @@ TEST(CameraHealth, FiguresAreTold) {
   EXPECT_EQ(told["failures"], "9");
 }
 
-TEST(CameraHealth, AFailureIsAnErrorWithItsReason) {
-  StereoCameraStatus status = GoodStatus();
-  status.is_open = false;
-  status.problem = "/dev/video1: No such device";
-  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Camera(status).message, HasSubstr("/dev/video1"));
-}
-
-TEST(CameraHealth, EyesThatNeverMatchAreAnErrorThatTellsTheSkew) {
-  StereoCameraStatus status = GoodStatus();
-  status.num_pairs = 100;
-  status.num_unpaired_left = status.num_unpaired_right = 10;
-  status.rejected_skew_s = 0.02;
-  status.problem = "no pairs yet";  // as before the first pair
-  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Camera(status).message, HasSubstr("20.0 ms apart"));
-}
-
-TEST(CameraHealth, AnEyeThatIsAloneIsAnError) {
-  StereoCameraStatus status = GoodStatus();
-  status.num_pairs = 100;
-  status.num_unpaired_left = 10;
-  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Camera(status).message, HasSubstr("from one eye alone"));
-  status.problem = "right eye gives no frames";
-  EXPECT_THAT(Camera(status).message, HasSubstr("right eye gives no frames"));
-}
-
-TEST(CameraHealth, FramesTooCloseToBeToldApartAreAnErrorThatTellsWhy) {
-  StereoCameraStatus status = GoodStatus();
-  status.num_pairs = 100;
-  status.num_unpaired_left = status.num_unpaired_right = status.num_ambiguous = 10;
-  EXPECT_EQ(Camera(status).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Camera(status).message, HasSubstr("within 8.0 ms"));
-}
-
-TEST(CameraHealth, SeldomPairsAndLonelyFramesAreWarnings) {
-  StereoCameraStatus seldom = GoodStatus();
-  seldom.rate_hz = 7.9;
-  EXPECT_EQ(Camera(seldom).level, DiagnosticStatus::WARN);
-  StereoCameraStatus lonely = GoodStatus();
-  lonely.num_unpaired_right = 2;  // 2 of 12
-  EXPECT_EQ(Camera(lonely).level, DiagnosticStatus::WARN);
-  EXPECT_THAT(Camera(lonely).message, HasSubstr("17 %"));
-}
-
-TEST(CameraHealth, ADeviceThatDoesNotDoAsAskedIsAWarning) {
-  StereoCameraStatus status = GoodStatus();
-  status.warning = "left eye: its gain cannot be set";
-  EXPECT_EQ(Camera(status).level, DiagnosticStatus::WARN);
-  EXPECT_EQ(Camera(status).message, status.warning);
+TEST(CameraHealth, WhatIsWrongHasItsLevelAndItsReason) {
+  using Status = StereoCameraStatus;
+  const auto without_pairs = [](Status& s, uint64_t left, uint64_t right, uint64_t ambiguous) {
+    s.num_pairs = 100;
+    s.num_unpaired_left = left;
+    s.num_unpaired_right = right;
+    s.num_ambiguous = ambiguous;
+  };
+  const struct {
+    int level;
+    const char* text;
+    std::function<void(Status&)> spoil;
+  } kCases[] = {
+      {DiagnosticStatus::OK, "", [](Status&) {}},
+      {DiagnosticStatus::ERROR, "/dev/video1",
+       [](Status& s) {
+         s.is_open = false;
+         s.problem = "/dev/video1: No such device";
+       }},
+      {DiagnosticStatus::ERROR, "20.0 ms apart",
+       [&](Status& s) {
+         without_pairs(s, 10, 10, 0);
+         s.rejected_skew_s = 0.02;
+         s.problem = "no pairs yet";  // as before the first pair
+       }},
+      {DiagnosticStatus::ERROR, "from one eye alone",
+       [&](Status& s) { without_pairs(s, 10, 0, 0); }},
+      {DiagnosticStatus::ERROR, "right eye gives no frames",
+       [&](Status& s) {
+         without_pairs(s, 10, 0, 0);
+         s.problem = "right eye gives no frames";
+       }},
+      {DiagnosticStatus::ERROR, "within 8.0 ms", [&](Status& s) { without_pairs(s, 10, 10, 10); }},
+      {DiagnosticStatus::WARN, "", [](Status& s) { s.rate_hz = 7.9; }},
+      {DiagnosticStatus::WARN, "17 %", [](Status& s) { s.num_unpaired_right = 2; }},  // of 12
+      {DiagnosticStatus::WARN, "left eye: its gain cannot be set",
+       [](Status& s) { s.warning = "left eye: its gain cannot be set"; }}};
+  for (const auto& [level, text, spoil] : kCases) {
+    Status status = GoodStatus();
+    spoil(status);
+    EXPECT_EQ(Camera(status).level, level) << text;
+    EXPECT_THAT(Camera(status).message, HasSubstr(text));
+  }
 }
 
 sensor_msgs::CameraInfo Info(double baseline_m) {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "arfm_vo/ros/messages/conversions.h"
-#include "ros/expect_throw.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -40,17 +40,10 @@ class GoalReaderTest : public ::testing::Test {
 TEST_F(GoalReaderTest, AGoalWithoutAStampOrTooOldOrFromTheFutureIsRefused) {
   const ros::Time now(1000);
   std_msgs::Header header;
-  const auto refusal = [&] {
-    try {
-      reader_.RequireFresh(header, now);
-      return std::string("none");
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-  };
+  const auto refusal = [&] { return RefusalOf([&] { reader_.RequireFresh(header, now); }); };
   EXPECT_EQ(refusal(), "goal refused: it has no stamp");
   header.stamp = ros::Time(996);
-  EXPECT_EQ(refusal(), "none");
+  EXPECT_EQ(refusal(), "");
   header.stamp = ros::Time(990);
   EXPECT_THAT(refusal(), ::testing::HasSubstr("it is 10 s old"));
   header.stamp = ros::TIME_MAX;

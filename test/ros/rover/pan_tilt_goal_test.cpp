@@ -5,6 +5,7 @@
 
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/ros/rover/pan_tilt_node.h"
+#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
@@ -17,12 +18,7 @@ sensor_msgs::JointState Command(std::vector<std::string> names, std::vector<doub
 }
 
 std::string Refusal(const sensor_msgs::JointState& command) {
-  try {
-    ReadGoal(command, {});
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return RefusalOf([&] { ReadGoal(command, {}); });
 }
 
 TEST(PanTiltGoal, JointsAreTakenByNameInAnyOrder) {
