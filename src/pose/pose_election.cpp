@@ -9,6 +9,8 @@
 namespace arfm_vo {
 namespace {
 
+/// What a vote counts for a pose that the motion before does not allow.
+constexpr double kImplausible = 0.25;
 /// Poses on which fewer agree, against the best one's, are not looked for.
 constexpr double kLeastRival = 0.15;
 /// Fewer agree by chance.
@@ -19,13 +21,12 @@ struct Hypothesis {
   Rigid3 camera_from_world;
   std::vector<char> agrees;  ///< [N]
   double score;
-  int num_agreeing;
+  double plausibility = 1;  ///< by the motion before; counted in the score
 
   Hypothesis(const Consensus& consensus, const Rigid3& pose, size_t num_observations)
       : camera_from_world(pose),
         agrees(num_observations),
-        score(consensus.Classify(pose, agrees)),
-        num_agreeing(std::count(agrees.begin(), agrees.end(), 1)) {}
+        score(consensus.Classify(pose, agrees)) {}
 };
 
 /// What agrees with `a` and not with `b`: how many, and their votes.
@@ -86,7 +87,7 @@ class Election {
         Propose(refined.camera_from_world);
         if (!options_.is_wary && HasMajority() &&
             best_->camera_from_world.Matrix() == refined.camera_from_world.Matrix()) {
-          return {refined, std::nullopt, {}};
+          return {refined, std::nullopt, {}, 1};
         }
       }
       const PoseRefinement near =
@@ -100,7 +101,8 @@ class Election {
     Agreement agreement{RefinePose(camera_, observations_, best_->camera_from_world,
                                    options_.refinement, best_->agrees),
                         std::nullopt,
-                        {}};
+                        {},
+                        best_->plausibility};
     const double least = kLeastRival * CountBest(), least_votes = kLeastRival * BestVotes();
     int most = 0;
     for (const Hypothesis& other : others_) {
@@ -117,13 +119,9 @@ class Election {
  private:
   void Propose(const Rigid3& pose) {
     Hypothesis hypothesis(consensus_, pose, observations_.size());
-    if (predicted_ && hypothesis.num_agreeing >= options_.min_inliers) {
-      hypothesis.score += predicted_->VotesFor(pose);
-    }
-    const auto rank = [&](const Hypothesis& one) {
-      return std::pair(one.num_agreeing >= options_.min_inliers, one.score);
-    };
-    if (best_ && rank(hypothesis) <= rank(*best_)) {
+    hypothesis.plausibility = Plausibility(pose);
+    hypothesis.score *= hypothesis.plausibility;
+    if (best_ && hypothesis.score <= best_->score) {
       others_.push_back(std::move(hypothesis));
     } else {
       if (best_) others_.push_back(std::move(*best_));
@@ -132,7 +130,9 @@ class Election {
   }
 
   /// No other pose can have more votes.
-  bool HasMajority() const { return best_ && 2 * BestVotes() > all_votes_; }
+  bool HasMajority() const {
+    return best_ && best_->plausibility == 1 && 2 * BestVotes() > all_votes_;
+  }
   double CountBest() const {
     return static_cast<double>(std::count(best_->agrees.begin(), best_->agrees.end(), 1));
   }
@@ -142,6 +142,9 @@ class Election {
       votes += best_->agrees[i] * observations_[i].votes;
     }
     return votes;
+  }
+  double Plausibility(const Rigid3& pose) const {
+    return !predicted_ || predicted_->Allows(pose) ? 1 : kImplausible;
   }
 
   /// Another pose that has as many votes must have them among those that contradict, but for

@@ -12,6 +12,7 @@ struct Agreement {
   PoseRefinement refinement;
   std::optional<Rigid3> rival;
   std::vector<char> rival_agrees;  ///< [N]
+  double plausibility = 1;         ///< what a vote for the pose counts, by the motion before
 };
 
 /// What EstimatePose chooses by: the predicted pose, that refined, and poses by samples compete for

@@ -8,29 +8,21 @@
 namespace arfm_vo {
 namespace {
 
-/// Of Student's t distribution with three degrees of freedom against its value at zero; its tails
-/// are heavy, as changes of a motion are.
-double LogDensity(double error) { return -2 * std::log1p(error * error / 4); }
-
-/// One pair in so many comes after a jump: a frame was left out, a wheel met a stone.
-constexpr double kPairsToAJump = 100;
-/// A change of the motion so many times the usual one is unusual.
-constexpr double kUnusual = 1.5;
+/// Of Student's t distribution about the prediction against its value at 1.5, for an error in units
+/// of the usual one; anything may happen now and then.
+double LogRatio(double error) {
+  constexpr double kLeast = -4;
+  const auto log_density = [](double x) { return -2 * std::log1p(x * x / 4); };
+  return std::max(kLeast, log_density(error) - log_density(1.5));
+}
 
 }  // namespace
 
 double PredictedPose::LogOdds(const Rigid3& other_camera_from_world) const {
   if (!std::isfinite(sigma_shift_m)) return 0;
   const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
-  const double shift_m = between.translation.norm(), turn_rad = between.Angle();
-  const double even = LogDensity(shift_m / sigma_shift_m) + LogDensity(turn_rad / sigma_turn_rad);
-  const double jump = LogDensity(shift_m / jump_shift_m) + LogDensity(turn_rad / jump_turn_rad);
-  return std::log(std::exp(even) + std::exp(jump) / kPairsToAJump) - 2 * LogDensity(kUnusual);
-}
-
-double PredictedPose::VotesFor(const Rigid3& other_camera_from_world) const {
-  constexpr double kLogOddsOfVote = 3;  // it is seldom for a pose that is not there
-  return LogOdds(other_camera_from_world) / kLogOddsOfVote;
+  return LogRatio(between.translation.norm() / sigma_shift_m) +
+         LogRatio(between.Angle() / sigma_turn_rad);
 }
 
 void PoseEstimatorOptions::Check() const {
@@ -66,7 +58,7 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   }
   if (votes < options.min_inlier_share * all_votes) return estimate;
 
-  estimate.votes = votes + (predicted ? predicted->VotesFor(refinement.camera_from_world) : 0);
+  estimate.votes = agreement.plausibility * votes;
   estimate.status = PoseStatus::kTracked;
   estimate.camera_from_world = refinement.camera_from_world;
   estimate.covariance = refinement.covariance;

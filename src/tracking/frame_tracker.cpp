@@ -71,7 +71,7 @@ void FrameTracker::WeighSmooth(const StereoImages& images, const LocalMap& map,
   const Rigid3 pose = tracked.pose.camera_from_world;
   if (!predicted || predicted->LogOdds(pose) >= 0) return;
   const auto track = [&] {
-    return patches_.Track(images, map, expected, patches_.LevelFor(map, *predicted).value_or(0));
+    return TrackByPatches(images, map, expected, patches_.LevelFor(map, *predicted).value_or(0));
   };
   auto smooth = by_patches ? by_patches : track();
   if (!smooth) return;

@@ -108,19 +108,30 @@ TEST(PoseEstimator, PointsThatAgreedBeforeOutvoteMoreThatDidNot) {
   EXPECT_NEAR(std::count(agrees.begin(), agrees.end(), kAgreesWithRival), 250, 10);
 }
 
-/// Landmarks share the votes of a cell of the image (Correspondences): there are few.
-TEST(PoseEstimator, AnUnusualMotionNeedsMoreVotes) {
-  for (const int num_moving : {110, 300}) {
+TEST(PoseEstimator, TheUsualMotionIsLikelierThanAnUnusualOne) {
+  PredictedPose predicted{Rigid3()};
+  Rigid3 other;
+  other.translation.x() = 0.3;
+  EXPECT_EQ(predicted.LogOdds(other), 0) << "nothing is known of the motion before";
+  predicted.sigma_shift_m = 0.1;
+  predicted.sigma_turn_rad = 0.01;
+  EXPECT_GT(predicted.LogOdds(Rigid3()), 0);
+  EXPECT_LT(predicted.LogOdds(other), 0);
+  other.translation.x() = 1e6;
+  EXPECT_GT(predicted.LogOdds(other), -8) << "anything may happen now and then";
+}
+
+TEST(PoseEstimator, APoseThatTheMotionDoesNotAllowNeedsFourTimesTheVotes) {
+  for (const int num_moving : {150, 600}) {
     RandomEngine engine(12);
-    auto [truth, wrong, observations] = MakeTwoGroups(100, num_moving, {1, 0, 2}, engine);
-    for (PointObservation& observation : observations) observation.votes = 0.05;
+    const auto [truth, wrong, observations] = MakeTwoGroups(100, num_moving, {1, 0, 2}, engine);
     PredictedPose predicted(truth);
-    predicted.sigma_shift_m = predicted.jump_shift_m = 0.05;
-    predicted.sigma_turn_rad = predicted.jump_turn_rad = 0.01;
+    predicted.max_shift_m = 0.5;
+    predicted.max_turn_rad = 0.1;
     const PoseEstimate estimate = EstimatePose(kSceneCamera, observations, predicted, {});
     ASSERT_TRUE(estimate.HasPose());
-    const Rigid3& expected = num_moving > 200 ? wrong : truth;
-    EXPECT_LT(StepBetween(expected, estimate.camera_from_world).norm(), 0.1);
+    const bool is_object = num_moving > 400;
+    EXPECT_LT(StepBetween(is_object ? wrong : truth, estimate.camera_from_world).norm(), 0.1);
   }
 }
 

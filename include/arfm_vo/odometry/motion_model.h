@@ -10,9 +10,6 @@ namespace arfm_vo {
 /// Where a body will be if it goes on as between its last two poses. Poses are body_from_world.
 class MotionModel {
  public:
-  /// Before anything is known: what a vehicle or a hand can do.
-  static constexpr double kAnyAcceleration_m_s2 = 5, kAnyTurnAcceleration_rad_s2 = 5;
-
   /// A pose, later than the one before.
   void Add(double stamp_s, const Rigid3& body_from_world);
   /// The last pose where there is but one; nothing without any.
@@ -27,8 +24,8 @@ class MotionModel {
   /// meanwhile.
   void StartWorld() {
     is_new_world_ = true;
-    squared_m_ = kAnyAcceleration_m_s2 * kAnyAcceleration_m_s2;
-    squared_rad_ = kAnyTurnAcceleration_rad_s2 * kAnyTurnAcceleration_rad_s2;
+    squared_m_ = kSquared_m;
+    squared_rad_ = kSquared_rad;
   }
   void Reset() { *this = MotionModel(); }
 
@@ -43,8 +40,9 @@ class MotionModel {
     double speed_stamp_s = 0;  ///< when body_from_before was measured
   };
   std::optional<Motion> last_;
-  double squared_m_ = kAnyAcceleration_m_s2 * kAnyAcceleration_m_s2;
-  double squared_rad_ = kAnyTurnAcceleration_rad_s2 * kAnyTurnAcceleration_rad_s2;
+  /// Before anything is known: what a vehicle or a hand can do.
+  static constexpr double kSquared_m = 25, kSquared_rad = 25;
+  double squared_m_ = kSquared_m, squared_rad_ = kSquared_rad;
   bool is_new_world_ = false;
 };
 

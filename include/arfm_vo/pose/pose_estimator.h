@@ -35,17 +35,21 @@ struct PoseEstimatorOptions {
 /// Where the camera may be by its motion before.
 struct PredictedPose {
   Rigid3 camera_from_world;
-  /// How far it is from there as a rule: the centre, m, and the axes, rad.
+  /// How far it can be from there at most: the centre, m, and the axes, rad.
+  double max_shift_m = std::numeric_limits<double>::infinity();
+  double max_turn_rad = std::numeric_limits<double>::infinity();
+  /// How far it is as a rule.
   double sigma_shift_m = std::numeric_limits<double>::infinity();
   double sigma_turn_rad = std::numeric_limits<double>::infinity();
-  /// The same where the motion before tells little.
-  double jump_shift_m = std::numeric_limits<double>::infinity();
-  double jump_turn_rad = std::numeric_limits<double>::infinity();
   /// How far the centre may have gone from there, along each axis, whatever has happened since a
   /// picture told last: standard deviation, m.
   double gap_sigma_m = std::numeric_limits<double>::infinity();
 
   PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
+  bool Allows(const Rigid3& other_camera_from_world) const {
+    const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
+    return between.translation.norm() <= max_shift_m && between.Angle() <= max_turn_rad;
+  }
   /// Whether the centre may have come to that of `other` (three axes: with 99.9 %).
   bool IsWithinGap(const Rigid3& other_camera_from_world) const {
     const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
@@ -54,8 +58,6 @@ struct PredictedPose {
   /// How much likelier `other` is by the motion before than an unusual change of it, in logarithms;
   /// 0 where that motion is not known.
   double LogOdds(const Rigid3& other_camera_from_world) const;
-  /// The same as votes (PointObservation::votes).
-  double VotesFor(const Rigid3& other_camera_from_world) const;
 };
 
 constexpr char kAgreesWithRival = 2;
@@ -64,8 +66,8 @@ constexpr char kAgreesWithRival = 2;
 /// found by RANSAC with samples of three (P3P) and the score of MSAC (Torr and Zisserman 2000) on
 /// the stereo reprojection errors in units of their standard deviation, promising hypotheses
 /// refined (Chum, Matas, Kittler 2003), then RefinePose on the inliers. Where more than half of the
-/// votes are for the refined prediction nothing else is tried; else the motion before
-/// has its votes as well. The prediction is never needed. Where many points that
+/// votes are for the refined prediction nothing else is tried; a pose that the prediction does not
+/// allow needs four times the votes. The prediction is never needed. Where many points that
 /// contradict the pose agree with one another there is a rival. Status kTooFewMatches below
 /// min_inliers observations, kNoConsensus where too few agree. `is_inlier`, if not null, becomes
 /// [N]: 1 where an observation agrees with the pose, kAgreesWithRival where it agrees with the

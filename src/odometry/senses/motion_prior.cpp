@@ -5,6 +5,9 @@
 namespace arfm_vo {
 namespace {
 
+/// What a vehicle, or a hand, cannot do; and how wrong the speed before may be.
+constexpr double kMaxAcceleration_m_s2 = 10, kMaxTurnAcceleration_rad_s2 = 10;
+constexpr double kMaxShift_m = 0.05, kMaxTurn_rad = 0.02;
 /// Poses err by so much however evenly the base moves.
 constexpr double kLeastShift_m = 0.005, kLeastTurn_rad = 0.001;
 /// Of a base of which nothing is known, and of one that was at rest.
@@ -77,11 +80,8 @@ std::optional<PredictedPose> MotionPrior::Predict(double stamp_s,
   PredictedPose predicted(base_from_camera.Inverse() * *base_from_world);
   if (KnowsSpeed()) {
     const double squared_s = model_.ChangeTime(stamp_s);
-    const Rigid3 moved = last_->base_from_world * base_from_world->Inverse();
-    predicted.jump_shift_m =
-        MotionModel::kAnyAcceleration_m_s2 * squared_s + moved.translation.norm() + kLeastShift_m;
-    predicted.jump_turn_rad =
-        MotionModel::kAnyTurnAcceleration_rad_s2 * squared_s + moved.Angle() + kLeastTurn_rad;
+    predicted.max_shift_m = kMaxAcceleration_m_s2 * squared_s + kMaxShift_m;
+    predicted.max_turn_rad = kMaxTurnAcceleration_rad_s2 * squared_s + kMaxTurn_rad;
     predicted.sigma_shift_m = model_.usual_acceleration_m_s2() * squared_s + kLeastShift_m;
     predicted.sigma_turn_rad = model_.usual_turn_acceleration_rad_s2() * squared_s + kLeastTurn_rad;
   }
