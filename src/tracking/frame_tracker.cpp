@@ -70,10 +70,11 @@ void FrameTracker::WeighSmooth(const StereoImages& images, const LocalMap& map,
   const auto& predicted = expected.predicted;
   const Rigid3 pose = tracked.pose.camera_from_world;
   if (!predicted || predicted->LogOdds(pose) >= 0) return;
-  const auto track = [&] {
-    return TrackByPatches(images, map, expected, patches_.LevelFor(map, *predicted).value_or(0));
-  };
-  auto smooth = by_patches ? by_patches : track();
+  std::optional<TrackedFrame> smooth = by_patches;
+  if (!smooth) {
+    const int level = patches_.LevelFor(map, *predicted).value_or(0);
+    smooth = TrackByPatches(images, map, expected, level);
+  }
   if (!smooth) return;
   const Rigid3& smooth_pose = smooth->pose.camera_from_world;
   if (IsSame(camera_, smooth->matches.landmarks, smooth_pose, pose)) return;

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <utility>
-#include <vector>
 
 #include "arfm_vo/simulation/hash_noise.h"
 
@@ -141,14 +140,14 @@ PairChange Miss(const PairRange& pairs) {
 }
 
 PairChange MissUntimed(int num, int period) {
-  auto stamps_s = std::make_shared<std::vector<double>>();
-  auto num_come = std::make_shared<size_t>(0);
+  auto stamps_s = std::make_shared<std::deque<double>>();
   return [=](int index, StereoImages& images) {
     stamps_s->push_back(images.stamp_s);
     if (index % period >= period - num) {
       images.left.release();
     } else {
-      images.stamp_s = stamps_s->at((*num_come)++);
+      images.stamp_s = stamps_s->front();
+      stamps_s->pop_front();
     }
   };
 }

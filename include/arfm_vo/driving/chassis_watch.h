@@ -77,7 +77,7 @@ class ChassisWatch {
   bool IsOurs() const { return status_ && status_->authority == ChassisAuthority::kUs; }
   /// It can be heard, and nobody else drives it, as far as it says.
   bool IsNobodyElses() const {
-    return is_bus_up_ && (IsOurs() || (status_ && status_->authority == ChassisAuthority::kNobody));
+    return is_bus_up_ && status_ && (IsOurs() || status_->authority == ChassisAuthority::kNobody);
   }
   bool IsRemote() const {
     return status_ && status_->authority == ChassisAuthority::kRemoteControl;
