@@ -95,6 +95,7 @@ void LocalOdometry::Implementation::Track(const StereoFrame& measured, const Ste
                                           OdometryUpdate& update) {
   StereoFrame frame = Corrected(measured, camera_, correction_.mean, skew_.later_from_now());
   verdict_.Look(frame);
+  contradicting_.clear();
   const bool is_left_good = verdict_.left_fault() == Reason::kNone;
   const bool is_right_good = verdict_.right_fault() == Reason::kNone;
   if (!is_right_good) frame.points.clear();
@@ -154,6 +155,10 @@ void LocalOdometry::Implementation::Accept(TrackedFrame tracked,
       AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);
   if (update.pose.IsTracked() && !are_depths_known) update.Degrade(Reason::kFarPoints);
   covariance_.FollowWay(update.pose.camera_from_world, are_depths_known);
+  std::optional<Rigid3> as_before;
+  if (predicted && predicted->IsSpeedKnown()) as_before = predicted->camera_from_world;
+  covariance_.FollowDoubt(update.stamp_s, update.pose.camera_from_world, as_before,
+                          update.log_odds);
   const auto resting = standstill_.Hold(tracked.pose, tracked.observations);
   if (resting) {
     update.pose.camera_from_world = *resting;

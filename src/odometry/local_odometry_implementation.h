@@ -62,7 +62,7 @@ class LocalOdometry::Implementation {
   KeyframeArchive archive_;
   Verdict verdict_;
   Features newest_features_;            ///< of the newest keyframe
-  LandmarkObservations contradicting_;  ///< of the last tracked frame
+  LandmarkObservations contradicting_;  ///< of this frame, with its pose
   PathCovariance covariance_;
   RightTurns turns_;
   EyeSkewEstimator skew_;

@@ -67,7 +67,6 @@ void LocalOdometry::Implementation::Recover(const StereoFrame& frame,
   covariance_.Begin(place->pose.camera_from_world, place->covariance_from_start);
   turns_.Interrupt(correction_, camera_);
   update.is_keyframe = update.is_relocalised = true;
-  contradicting_.clear();
 }
 
 void LocalOdometry::Implementation::Retire(const Keyframe& keyframe) {

@@ -64,6 +64,7 @@ void PathCovariance::Begin(const Rigid3& camera_from_world, const Matrix6& covar
   newest_ = PoseDrift{covariance};
   newest_rotation_ = camera_from_world.RotationMatrix();
   way_ = {};
+  doubt_ = {};
   FollowWay(camera_from_world, true);
   settled_covariance_.setZero();
 }
@@ -95,12 +96,13 @@ void PathCovariance::Settle(const Keyframe& keyframe) {
 void PathCovariance::Clear() {
   drift_.Clear();
   way_ = {};
+  doubt_ = {};
 }
 
 PathCovariance::Matrix6 PathCovariance::WithWay(Matrix6 covariance,
                                                 const Eigen::Matrix3d& camera_from_world) const {
   covariance.bottomRightCorner<3, 3>() +=
-      camera_from_world * way_.Covariance() * camera_from_world.transpose();
+      camera_from_world * (way_.Covariance() + doubt_.Covariance()) * camera_from_world.transpose();
   return covariance;
 }
 

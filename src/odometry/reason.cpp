@@ -19,7 +19,8 @@ const std::vector<ReasonRow>& ListReasons() {
        "alone tells",
        "tracked by the left image, new points by motion: their depths count in the covariance"},
       {Reason::kGroupsDiffer, "two groups of points move differently",
-       "degraded: pose of the likelier group, the covariance reaches to the other"},
+       "tracked: pose of the likelier group; the covariance reaches to the other, and to where the "
+       "motion before would have led since"},
       {Reason::kGroundHidden, "what is seen moves otherwise than the ground is known to", kLost},
       {Reason::kFixed,
        "something that is fixed before the camera hides the ground (a part of the rover, or a "

@@ -166,7 +166,9 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
         BaseCovariance(estimate.covariance, base_from_camera) * (2 / (interval_s * interval_s));
   }
   if (pose.update.is_keyframe) pose.keyframe = NewestKeyframe(base_from_camera);
-  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, twist};
+  // (Until it is measured in the new map it is taken to go on as before.)
+  const auto speed = is_new_epoch && last_ ? last_->twist : twist;
+  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, speed};
   gap_by_senses_.reset();
 }
 

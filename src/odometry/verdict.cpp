@@ -6,9 +6,7 @@
 namespace arfm_vo {
 namespace {
 
-// Prior rates: how long it takes, as a rule.
-/// Until something large moves through the image, and until it has left.
-constexpr double kAnotherComes_s = 600, kAnotherLeaves_s = 2;
+// Prior rates, besides those of PathDoubt: how long it takes, as a rule.
 /// A rival is so much more often seen where something moves, in logarithms; and none where not.
 constexpr double kRivalSeen = 4, kNoRival = -0.5;
 /// Until the right picture is not of its moment: a late frame, a knock.
@@ -140,7 +138,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
     update.doubt +=
         (1 - probability) * (of_rival / others) * SpreadTo(*pose.rival, pose.camera_from_world);
   }
-  if (predicted && std::isfinite(predicted->sigma_shift_m)) {
+  if (predicted && predicted->IsSpeedKnown()) {
     update.doubt +=
         (1 - probability) / others * SpreadTo(predicted->camera_from_world, pose.camera_from_world);
   }
@@ -155,7 +153,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
         static_cast<double>(num_right) / std::max<double>(1, static_cast<double>(seen.size()));
     right_belongs_.Add(LogRatioOfShare(share, kTogether, kApart));
   }
-  if (probability < 0.9) update.Degrade(Reason::kGroupsDiffer);
+  if (1 - probability > PathDoubt::kLikely) update.reason = Reason::kGroupsDiffer;
   if (tracked.is_odd_rest) update.Degrade(Reason::kFixed);
   return true;
 }

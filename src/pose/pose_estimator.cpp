@@ -19,7 +19,7 @@ double LogRatio(double error) {
 }  // namespace
 
 double PredictedPose::LogOdds(const Rigid3& other_camera_from_world) const {
-  if (!std::isfinite(sigma_shift_m)) return 0;
+  if (!IsSpeedKnown()) return 0;
   const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
   return LogRatio(between.translation.norm() / sigma_shift_m) +
          LogRatio(between.Angle() / sigma_turn_rad);

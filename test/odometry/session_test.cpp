@@ -38,6 +38,15 @@ class SessionTest : public testing::Test {
                             BaseFromCamera(pan_rad));
   }
 
+  /// A thing that moves with the camera, before 40 % of the picture.
+  void ShowObject(StereoImages& images) const {
+    const cv::Mat texture = TexturedWall(5).Render(0, Rigid3()).left(cv::Rect(0, 0, 300, 190));
+    const cv::Rect place(150, 60, 300, 190);
+    texture.copyTo(images.left(place));
+    texture.copyTo(images.right(place - cv::Point(40, 0)));
+    TexturedWall::AddNoise(stamp_s_, images);
+  }
+
   static LocalOdometryOptions Options() {
     LocalOdometryOptions options;
     options.restart_after_lost_s = 0.5;
@@ -202,13 +211,7 @@ TEST_F(SessionTest, SaysThatThePicturesAreNotOfOneMoment) {
 }
 
 TEST_F(SessionTest, IsNotMisledByALargeObjectThatMovesWithTheCamera) {
-  const cv::Mat texture = TexturedWall(5).Render(0, Rigid3()).left;
-  const auto show_object = [&](StereoImages& images) {
-    const cv::Rect place(150, 60, 300, 190);  // 40 % of the picture
-    texture(cv::Rect(0, 0, 300, 190)).copyTo(images.left(place));
-    texture(cv::Rect(0, 0, 300, 190)).copyTo(images.right(place - cv::Point(40, 0)));
-    TexturedWall::AddNoise(stamp_s_, images);
-  };
+  const auto show_object = [&](StereoImages& images) { ShowObject(images); };
   for (int i = 0; i < 6; ++i) Step(0.1 * i);
   for (int i = 6; i < 25; ++i) {
     const SessionUpdate pose = Step(0.1 * i, 0, false, show_object);
@@ -217,6 +220,22 @@ TEST_F(SessionTest, IsNotMisledByALargeObjectThatMovesWithTheCamera) {
     if (pose.IsTracked()) {
       EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0)) + 0.005) << i;
     }
+  }
+}
+
+TEST_F(SessionTest, ANewMapKnowsNothingOfWhatContradictedTheOneBefore) {
+  for (int i = 0; i < 6; ++i) Step(0.1 * i);
+  Step(0.6, 0, false, [&](StereoImages& images) { ShowObject(images); });
+  const TexturedWall elsewhere(2);
+  SessionUpdate pose;
+  for (int i = 0; i < 20 && pose.epoch < 2; ++i) {
+    pose = Step(0, 0, false,
+                [&](StereoImages& images) { images = elsewhere.Render(images.stamp_s, Rigid3()); });
+  }
+  ASSERT_TRUE(pose.keyframe);
+  EXPECT_GT(pose.keyframe->landmarks.size(), 100u);
+  for (const Landmark& landmark : pose.keyframe->landmarks) {
+    EXPECT_EQ(landmark.num_contradicted, 0) << landmark.keypoint.x << ", " << landmark.keypoint.y;
   }
 }
 
@@ -274,23 +293,27 @@ TEST_F(SessionTest, RowsThatTheCalibrationHasElsewhereDoNotTiltThePose) {
 TEST_F(SessionTest, DoubtsANewMapThatMovesOtherwiseThanTheOneBefore) {
   LocalOdometryOptions options;
   options.restart_after_lost_s = 0;
-  session_ = Session(options);
-  for (int i = 0; i < 4; ++i) Step(0.3 * i);
-  const TexturedWall object(2);  // hides the wall from now on and goes with the camera
-  int num_doubted = 0, num_named = 0;
-  for (int i = 4; i < 34; ++i) {
-    const SessionUpdate pose = Step(0, 0, false, [&](StereoImages& images) {
-      images = object.Render(images.stamp_s, Rigid3());
-    });
-    const bool is_doubted = pose.epoch == 2 && !pose.IsTracked();
-    num_doubted += is_doubted;
-    num_named += pose.update.reason == Reason::kNewMap;
-    if (!pose.IsTracked()) continue;
-    const double error_m = std::abs(pose.odom_from_base.translation.x() - 0.3 * i);
-    EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0))) << i;
+  // What hides the wall from now on and goes with the camera, and what soon hides that.
+  const TexturedWall object(2), nearer_object(3);
+  for (const uint32_t num_objects : {1, 2}) {
+    session_ = Session(options);
+    for (int i = 0; i < 4; ++i) Step(0.3 * i);
+    int num_doubted = 0, num_named = 0;
+    for (int i = 4; i < 34; ++i) {
+      const TexturedWall& seen = num_objects == 2 && i > 6 ? nearer_object : object;
+      const SessionUpdate pose = Step(0, 0, false, [&](StereoImages& images) {
+        images = seen.Render(images.stamp_s, Rigid3());
+      });
+      const bool is_doubted = pose.epoch == 1 + num_objects && !pose.IsTracked();
+      num_doubted += is_doubted;
+      num_named += is_doubted && pose.update.reason == Reason::kNewMap;
+      if (!pose.IsTracked()) continue;
+      const double error_m = std::abs(pose.odom_from_base.translation.x() - 0.3 * i);
+      EXPECT_LT(error_m, 3 * std::sqrt(pose.covariance(0, 0))) << num_objects << ", " << i;
+    }
+    EXPECT_NEAR(num_doubted * kInterval_s, 2, 0.15) << num_objects;
+    EXPECT_EQ(num_named, num_doubted) << num_objects;
   }
-  EXPECT_NEAR(num_doubted * kInterval_s, 2, 0.15);
-  EXPECT_EQ(num_named, num_doubted);
 }
 
 TEST_F(SessionTest, BeginsNoEpochWithPairsWhosePicturesDoNotAgree) {

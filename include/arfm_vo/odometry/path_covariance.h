@@ -6,6 +6,7 @@
 #include "arfm_vo/odometry/drift_estimator.h"
 #include "arfm_vo/odometry/local_bundle.h"
 #include "arfm_vo/odometry/odometry_update.h"
+#include "arfm_vo/odometry/path_doubt.h"
 
 namespace arfm_vo {
 
@@ -56,6 +57,11 @@ class PathCovariance {
   void FollowWay(const Rigid3& camera_from_world, bool are_depths_known) {
     way_.Follow(camera_from_world.Inverse().translation, are_depths_known);
   }
+  /// See PathDoubt::Follow.
+  void FollowDoubt(double stamp_s, const Rigid3& camera_from_world,
+                   const std::optional<Rigid3>& predicted, double log_odds) {
+    doubt_.Follow(stamp_s, camera_from_world, predicted, log_odds);
+  }
   void AddDoubtOfWay(double sigma_m) {
     way_.AddDoubt(sigma_m * sigma_m * Eigen::Matrix3d::Identity());
   }
@@ -86,6 +92,7 @@ class PathCovariance {
   PoseDrift newest_;
   Eigen::Matrix3d newest_rotation_ = Eigen::Matrix3d::Identity();  ///< camera_from_world
   UnknownWay way_;
+  PathDoubt doubt_;
   Rigid3 settled_from_world_;
   Matrix6 settled_covariance_ = Matrix6::Zero(), step_covariance_ = Matrix6::Zero();
 };

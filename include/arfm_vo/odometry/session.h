@@ -9,7 +9,7 @@
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/odometry/local_odometry.h"
 #include "arfm_vo/odometry/map_frame.h"
-#include "arfm_vo/odometry/new_map_doubt.h"
+#include "arfm_vo/odometry/path_doubt.h"
 #include "arfm_vo/odometry/senses/motion_prior.h"
 #include "arfm_vo/odometry/trajectory_log.h"
 

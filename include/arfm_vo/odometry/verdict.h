@@ -3,8 +3,9 @@
 #include <optional>
 
 #include "arfm_vo/base/belief.h"
-#include "arfm_vo/tracking/frame_tracker.h"
 #include "arfm_vo/odometry/odometry_update.h"
+#include "arfm_vo/odometry/path_doubt.h"
+#include "arfm_vo/tracking/frame_tracker.h"
 
 namespace arfm_vo {
 
@@ -27,7 +28,7 @@ class Verdict {
   Reason left_fault() const { return left_fault_; }
   Reason right_fault() const { return right_fault_; }
   /// Whether to look for a rival even where most points agree.
-  bool IsUnsure() const { return another_moves_.Probability() > kLikely; }
+  bool IsUnsure() const { return another_moves_.Probability() > PathDoubt::kLikely; }
   /// What a pair is tracked by, where the motion before predicts it.
   Expectation Expect(const std::optional<PredictedPose>& predicted) const;
 
@@ -44,8 +45,6 @@ class Verdict {
   void Reset(bool was_lost);
 
  private:
-  static constexpr double kLikely = 0.1;
-
   Reason FaultOfLeft(const StereoFrame& frame) const;
   Reason FaultOfRight(const StereoFrame& frame) const;
   /// Whether the left image is that of the right camera.

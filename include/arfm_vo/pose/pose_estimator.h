@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -45,6 +46,7 @@ struct PredictedPose {
   /// picture told last: standard deviation, m.
   double gap_sigma_m = std::numeric_limits<double>::infinity();
 
+  bool IsSpeedKnown() const { return std::isfinite(sigma_shift_m); }
   PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
   bool Allows(const Rigid3& other_camera_from_world) const {
     const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
