@@ -149,8 +149,8 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
     if (last_) {
       drift_.StartEpoch(pose.odom_from_base, last_->covariance,
                         gap_by_senses_.value_or(GapCovariance(last_->twist, interval_s)));
-      if (is_map_doubtful_ && last_->twist) {
-        new_map_ = NewMap{*last_, {pose.update.stamp_s, pose.odom_from_base, *last_->twist}};
+      if (is_map_doubtful_ && moving_) {
+        new_map_ = NewMap{*moving_, {pose.update.stamp_s, pose.odom_from_base, *moving_->twist}};
       }
     }
   }
@@ -166,9 +166,8 @@ void Session::FollowBase(const Rigid3& base_from_camera, SessionUpdate& pose) {
         BaseCovariance(estimate.covariance, base_from_camera) * (2 / (interval_s * interval_s));
   }
   if (pose.update.is_keyframe) pose.keyframe = NewestKeyframe(base_from_camera);
-  // (Until it is measured in the new map it is taken to go on as before.)
-  const auto speed = is_new_epoch && last_ ? last_->twist : twist;
-  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, speed};
+  last_ = Tracked{pose.update.stamp_s, pose.odom_from_base, pose.covariance, twist};
+  if (twist) moving_ = last_;
   gap_by_senses_.reset();
 }
 
