@@ -104,8 +104,8 @@ class Session {
   DriftCovariance drift_;
   MotionPrior motion_;                    // of the base in the odometry's world
   std::optional<Matrix6> gap_by_senses_;  // of the pose against last_, as of GapCovariance
-  std::optional<Tracked> last_;           ///< the last one that was measured
-  std::optional<Tracked> moving_;         ///< the last one whose speed is known
+  std::optional<Tracked> last_;           // the last one that was measured
+  std::optional<Tracked> moving_;         // the last one whose speed is known
   bool is_map_doubtful_ = false;          // begun after a loss
   std::optional<NewMap> new_map_;
   std::optional<double> lost_since_s_;
