@@ -16,29 +16,28 @@ std::string MotionText(double forward_mps, double turn_radps) {
   return ToString(EncodeFrame(MotionCommand{{forward_mps, turn_radps}}));
 }
 
-TEST(ChassisProtocol, MotionCommandsAreTheManualsExamples) {
-  EXPECT_EQ(MotionText(0.15, 0), "111#0096000000000000");
-  EXPECT_EQ(MotionText(0, 0.2), "111#000000C800000000");
-}
-
-TEST(ChassisProtocol, MotionCommandAtOurCapAndBackward) {
-  EXPECT_EQ(MotionText(0.1, 0), "111#0064000000000000");
-  EXPECT_EQ(MotionText(-0.1, -0.2), "111#FF9CFF3800000000");
-  EXPECT_EQ(MotionText(0, 0), "111#0000000000000000");
+TEST(ChassisProtocol, MotionIsAsTheManualHasItAndSaturatesInsteadOfWrapping) {
+  const struct {
+    double forward_mps, turn_radps;
+    const char* frame;
+  } rows[] = {{0.15, 0, "111#0096000000000000"},
+              {0, 0.2, "111#000000C800000000"},
+              {0.1, 0, "111#0064000000000000"},
+              {-0.1, -0.2, "111#FF9CFF3800000000"},
+              {0, 0, "111#0000000000000000"},
+              {40, -40, "111#7FFF800000000000"},
+              {kInfinity, -kInfinity, "111#7FFF800000000000"},
+              {1e300, -1e300, "111#7FFF800000000000"},
+              {32.767, -32.768, "111#7FFF800000000000"},
+              {32.766, -32.767, "111#7FFE800100000000"}};
+  for (const auto& [forward_mps, turn_radps, frame] : rows)
+    EXPECT_EQ(MotionText(forward_mps, turn_radps), frame);
 }
 
 TEST(ChassisProtocol, ModeAndClearCommandsAreOneByte) {
   EXPECT_EQ(ToString(EncodeFrame(ControlModeCommand{ControlMode::kCan})), "421#01");
   EXPECT_EQ(ToString(EncodeFrame(ControlModeCommand{ControlMode::kStandby})), "421#00");
   EXPECT_EQ(ToString(EncodeFrame(ClearErrorsCommand{})), "441#00");
-}
-
-TEST(ChassisProtocol, MotionSaturatesInsteadOfWrapping) {
-  EXPECT_EQ(MotionText(40, -40), "111#7FFF800000000000");
-  EXPECT_EQ(MotionText(kInfinity, -kInfinity), "111#7FFF800000000000");
-  EXPECT_EQ(MotionText(1e300, -1e300), "111#7FFF800000000000");
-  EXPECT_EQ(MotionText(32.767, -32.768), "111#7FFF800000000000");
-  EXPECT_EQ(MotionText(32.766, -32.767), "111#7FFE800100000000");
 }
 
 TEST(ChassisProtocol, NotANumberIsStandingStill) {
