@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "arfm_vo/odometry/stereo_frontend.h"
 #include "ros/textured_wall.h"
@@ -36,6 +37,17 @@ class SessionTest : public testing::Test {
     if (spoil) spoil(images);
     return session_.Process(frontend_.Process(images), wall_.camera(), images,
                             BaseFromCamera(pan_rad));
+  }
+
+  /// Of the first keyframe, which lies a metre further ahead.
+  MapUpdate MoveAhead(const SessionUpdate& first, int num_keyframes) const {
+    MapUpdate update;
+    update.correction = CorrectionBelief::OfCalibration(wall_.camera());
+    update.num_keyframes = num_keyframes;
+    const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));
+    update.keyframes.push_back(
+        {first.keyframe->keyframe.id, moved * first.keyframe->keyframe.camera_from_world});
+    return update;
   }
 
   static LocalOdometryOptions Options() {
@@ -122,37 +134,32 @@ TEST_F(SessionTest, IsLostWhenItHasBeenDarkForTwoSeconds) {
   EXPECT_EQ(lost.covariance(3, 3), kUnknownVariance);
 }
 
-TEST_F(SessionTest, ARepeatedPictureIsAFrozenCameraAndNotARest) {
-  Step(0);
-  Step(0.05);
+TEST_F(SessionTest, WhatIsWrongWithThePicturesIsToldAndDoesNotMoveThePose) {
   StereoImages last;
-  Step(0.1, 0, false, [&](StereoImages& images) { last = images; });
-  for (int i = 1; i <= 3; ++i) {
-    const SessionUpdate frozen = Step(0.1 + 0.05 * i, 0, false, [&](StereoImages& images) {
-      images.left = last.left;
-      images.right = last.right;
-    });
-    EXPECT_EQ(frozen.update.pose.status, PoseStatus::kDegraded);
-    EXPECT_THAT(frozen.text, testing::HasSubstr("repeats its picture"));
-    EXPECT_NEAR(frozen.odom_from_base.translation.x(), 0.1 + 0.05 * i, 0.02);
+  const std::pair<const char*, std::function<void(StereoImages&)>> rows[] = {
+      {"repeats its picture",
+       [&](StereoImages& images) {
+         images.left = last.left;
+         images.right = last.right;
+       }},
+      {"left and right are swapped",
+       [](StereoImages& images) { std::swap(images.left, images.right); }},
+      {"right camera sees nothing", [](StereoImages& images) { images.right.setTo(0); }}};
+  for (const auto& [text, spoil] : rows) {
+    session_ = Session(Options());
+    for (int i = 0; i < 3; ++i)
+      Step(0.05 * i, 0, false, [&](StereoImages& images) { last = images; });
+    for (int i = 3; i < 6; ++i) {
+      const SessionUpdate spoilt = Step(0.05 * i, 0, false, spoil);
+      EXPECT_EQ(spoilt.update.pose.status, PoseStatus::kDegraded) << text;
+      EXPECT_THAT(spoilt.text, testing::HasSubstr(text));
+      EXPECT_NEAR(spoilt.odom_from_base.translation.x(), 0.05 * i, 0.02) << text;
+      EXPECT_NEAR(spoilt.odom_from_base.translation.y(), 0, 0.02) << text;
+    }
+    const SessionUpdate good = Step(0.3);
+    EXPECT_TRUE(good.IsTracked()) << good.text;
+    EXPECT_NEAR(good.odom_from_base.translation.x(), 0.3, 0.01);
   }
-  EXPECT_TRUE(Step(0.3).IsTracked());
-}
-
-TEST_F(SessionTest, SwappedEyesAreToldAndDoNotMoveThePose) {
-  Step(0);
-  Step(0.05);
-  for (int i = 2; i <= 4; ++i) {
-    const SessionUpdate swapped = Step(
-        0.05 * i, 0, false, [](StereoImages& images) { std::swap(images.left, images.right); });
-    EXPECT_EQ(swapped.update.pose.status, PoseStatus::kDegraded);
-    EXPECT_THAT(swapped.text, testing::HasSubstr("left and right are swapped"));
-    EXPECT_NEAR(swapped.odom_from_base.translation.x(), 0.05 * i, 0.02);
-    EXPECT_NEAR(swapped.odom_from_base.translation.y(), 0, 0.02);
-  }
-  const SessionUpdate good = Step(0.25);
-  EXPECT_TRUE(good.IsTracked()) << good.text;
-  EXPECT_NEAR(good.odom_from_base.translation.x(), 0.25, 0.01);
 }
 
 TEST_F(SessionTest, OneEyeTellsThePoseForAWhile) {
@@ -174,15 +181,6 @@ TEST_F(SessionTest, OneEyeTellsThePoseForAWhile) {
   const SessionUpdate both = Step(3);
   EXPECT_TRUE(both.IsTracked()) << both.text;
   EXPECT_EQ(both.epoch, 1u);
-}
-
-TEST_F(SessionTest, SaysThatTheRightEyeSeesNothing) {
-  Step(0);
-  Step(0.05);
-  const SessionUpdate pose =
-      Step(0.1, 0, false, [](StereoImages& images) { images.right.setTo(0); });
-  EXPECT_EQ(pose.update.pose.status, PoseStatus::kDegraded);
-  EXPECT_THAT(pose.text, testing::HasSubstr("right camera sees nothing"));
 }
 
 TEST_F(SessionTest, SaysThatThePicturesAreNotOfOneMoment) {
@@ -311,12 +309,7 @@ TEST_F(SessionTest, BeginsNoEpochWithPairsWhosePicturesDoNotAgree) {
 TEST_F(SessionTest, AMapUpdateMovesTheTrajectoryAndNotThePose) {
   const SessionUpdate first = Step(0);
   Step(0.1);
-  MapUpdate update;
-  update.correction = CorrectionBelief::OfCalibration(wall_.camera());
-  update.num_keyframes = 1;
-  const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));  // 1 m ahead
-  update.keyframes.push_back(
-      {first.keyframe->keyframe.id, moved * first.keyframe->keyframe.camera_from_world});
+  const MapUpdate update = MoveAhead(first, 1);
   session_.Offer(update, 7);  // of an epoch that is not
   EXPECT_NEAR(Step(0.2).odom_from_base.translation.x(), 0.2, 0.01);
   EXPECT_NEAR(session_.MakeTrajectory()[1].world_from_camera.translation.z(), 0.1, 0.01);
@@ -327,12 +320,7 @@ TEST_F(SessionTest, AMapUpdateMovesTheTrajectoryAndNotThePose) {
 
 TEST_F(SessionTest, AnUpdateComesIntoForceAtItsFrameHoweverEarlyItIsOffered) {
   const SessionUpdate first = Step(0);
-  MapUpdate update;
-  update.correction = CorrectionBelief::OfCalibration(wall_.camera());
-  update.num_keyframes = 20;
-  const Rigid3 moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, -1));
-  update.keyframes.push_back(
-      {first.keyframe->keyframe.id, moved * first.keyframe->keyframe.camera_from_world});
+  const MapUpdate update = MoveAhead(first, 20);
   ASSERT_EQ(session_.TakeoverFrame(update), 3u);  // of frame 0, 1 + 20 / 10 later
   session_.Offer(update, 1);
   const auto adjusted_z = [&] {
