@@ -72,18 +72,15 @@ TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
   EXPECT_NEAR(MakeStereoCamera(left_info, right_info).baseline_m, 0.5, 1e-9);
 }
 
-TEST(KittiPlayer, AMistypedParameterStopsItWithItsName) {
-  int status = -1;
-  const std::string text = Finish(StartPlayer("mistyped", "_sequence:=x _rate:=3"), status);
-  EXPECT_EQ(status, 1);
-  EXPECT_NE(text.find("rate: unknown key"), std::string::npos) << text;
-}
-
-TEST(KittiPlayer, AMissingFolderStopsItWithItsName) {
-  int status = -1;
-  const std::string text = Finish(StartPlayer("missing", "_sequence:=/no/such/folder"), status);
-  EXPECT_EQ(status, 1);
-  EXPECT_NE(text.find("/no/such/folder: no such folder"), std::string::npos) << text;
+TEST(KittiPlayer, AMistypedParameterOrAMissingFolderStopsItWithItsName) {
+  for (const auto& [parameters, complaint] :
+       {std::pair("_sequence:=x _rate:=3", "rate: unknown key"),
+        {"_sequence:=/no/such/folder", "/no/such/folder: no such folder"}}) {
+    int status = -1;
+    const std::string text = Finish(StartPlayer("wrong", parameters), status);
+    EXPECT_EQ(status, 1);
+    EXPECT_NE(text.find(complaint), std::string::npos) << text;
+  }
 }
 
 }  // namespace
