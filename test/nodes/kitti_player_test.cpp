@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <map>
+#include <tuple>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
 #include "datasets/sequence_folder.h"
@@ -73,11 +74,11 @@ TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
 }
 
 TEST(KittiPlayer, AMistypedParameterOrAMissingFolderStopsItWithItsName) {
-  for (const auto& [parameters, complaint] :
-       {std::pair("_sequence:=x _rate:=3", "rate: unknown key"),
-        {"_sequence:=/no/such/folder", "/no/such/folder: no such folder"}}) {
+  for (const auto& [name, parameters, complaint] :
+       {std::tuple("mistyped", "_sequence:=x _rate:=3", "rate: unknown key"),
+        {"missing", "_sequence:=/no/such/folder", "/no/such/folder: no such folder"}}) {
     int status = -1;
-    const std::string text = Finish(StartPlayer("wrong", parameters), status);
+    const std::string text = Finish(StartPlayer(name, parameters), status);
     EXPECT_EQ(status, 1);
     EXPECT_NE(text.find(complaint), std::string::npos) << text;
   }
