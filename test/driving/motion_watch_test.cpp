@@ -49,7 +49,8 @@ TEST_F(MotionWatchTest, TheTracksAreComparedWithTheCommand) {
               {"moves at command zero", {rest, {0.5, {0, 0}, 0.1, 0.1}}, StopReason::kRunaway},
               {"responds to the stop", {ahead, {0.5, {0, 0}, 0.1, 0.1}}, StopReason::kNone},
               {"goes on after the stop", {ahead, {1, {0, 0}, 0.1, 0.1}}, StopReason::kRunaway},
-              {"one is faster", {ahead, {0.5, {0.05, 0}, 0.05, 0.16}}, StopReason::kRunaway},
+              {"right is faster", {ahead, {0.5, {0.05, 0}, 0.05, 0.16}}, StopReason::kRunaway},
+      {"left is faster", {ahead, {0.5, {0.05, 0}, 0.16, 0.05}}, StopReason::kRunaway},
               {"two short excesses", {rest, excess, rest, excess}, StopReason::kNone},
               {"a slow one stands", {{2.2, {0.02, 0}, 0, 0.02}}, StopReason::kTrackJammed}};
   for (const auto& [name, legs, reason] : rows) {

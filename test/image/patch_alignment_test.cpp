@@ -124,9 +124,10 @@ TEST(PatchAlignment, SaysWhyItFailed) {
   cv::Mat edge(kSize, kSize, CV_8U, cv::Scalar(50));
   edge.colRange(kSize / 2, kSize).setTo(200);
   cv::GaussianBlur(edge, edge, {0, 0}, 1.5);
-  PatchAlignmentLimits near = LooseLimits(), quick = LooseLimits();
+  PatchAlignmentLimits near = LooseLimits(), quick = LooseLimits(), sharp = LooseLimits();
   near.max_shift_px = 1;
   quick.max_iterations = 1;
+  sharp.max_sigma_px = 1e-6;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const struct {
     AlignmentStatus status;
@@ -135,6 +136,7 @@ TEST(PatchAlignment, SaysWhyItFailed) {
     PatchAlignmentLimits limits = LooseLimits();
   } rows[] = {{AlignmentStatus::kLowTexture, flat, flat},
               {AlignmentStatus::kLowTexture, edge, edge, {0.5f, 0}},
+              {AlignmentStatus::kLowTexture, image, image, {0.3f, 0}, sharp},
               {AlignmentStatus::kLowCorrelation, image, 255 - image},
               {AlignmentStatus::kMovedTooFar, image, texture.Render(1.5, 0), {0, 0}, near},
               {AlignmentStatus::kNotConverged, image, texture.Render(1, 0), {0, 0}, quick},

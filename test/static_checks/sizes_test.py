@@ -16,7 +16,7 @@ FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scri
 LARGER = {
     # Folders, files.
     "docs": 32, "include/arfm_vo/odometry": 30, "src/odometry": 35,
-    "test/hardware": 26, "test/nodes": 33, "test/recordings": 26,
+    "test/nodes": 33, "test/recordings": 26,
     # Lines.
     "src/mapping/local_map.cpp": 259,
     "test/bundle_adjustment/bundle_adjustment_test.cpp": 321, "test/bundle_adjustment/bundle_scene.h": 133,
