@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <regex>
 
@@ -34,6 +35,15 @@ class ChassisNodeTest : public ::testing::Test {
   }
   static void DriveFarAhead() {
     world_->Drive([] { world_->SendGoal(40, 0); });
+  }
+  /// Stops within `limit_s` of what is injected, not counting what a machine that is too busy holds
+  /// us up for, and says why.
+  static void ExpectToStop(const std::function<void()>& inject, double limit_s,
+                           const std::string& reason) {
+    const double injected_s = World::Now();
+    inject();
+    EXPECT_LT(SecondsToStop(injected_s), limit_s + kPatience_s);
+    EXPECT_TRUE(Says(reason)) << world_->status_.reason;
   }
   /// Waits for the stop and says how long after `since_s` it was on the bus, less what a machine
   /// that is too busy to run this test held it up for; the node it may hold up once more.
@@ -137,10 +147,7 @@ TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
 
 TEST_F(ChassisNodeTest, TheStopServiceStops) {
   DriveFarAhead();
-  const double called_s = World::Now();
-  world_->Call("stop");
-  EXPECT_LT(SecondsToStop(called_s), kPatience_s);
-  EXPECT_TRUE(Says("stopped by hand"));
+  ExpectToStop([] { world_->Call("stop"); }, 0, "stopped by hand");
 }
 
 TEST_F(ChassisNodeTest, TheEmergencyStopTopicStopsAndForbidsStart) {
@@ -173,10 +180,7 @@ TEST_F(ChassisNodeTest, NobodyElseClearsAnEmergencyStop) {
 TEST_F(ChassisNodeTest, WithoutTheOperatorTheRoverStopsWithinASecond) {
   DriveFarAhead();
   EXPECT_LT(world_->status_.operator_round_trip_s, 0.5);
-  const double gone_s = World::Now();
-  world_->has_operator_ = false;
-  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("operator does not answer"));
+  ExpectToStop([] { world_->has_operator_ = false; }, 1.0, "operator does not answer");
   EXPECT_TRUE(world_->RunUntil([] { return std::isnan(world_->status_.operator_round_trip_s); }));
   EXPECT_FALSE(world_->Call("start").success);
   world_->has_operator_ = true;
@@ -235,20 +239,14 @@ TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
 
 TEST_F(ChassisNodeTest, LosingTheOdometryStopsAndHavingItBackResumes) {
   DriveFarAhead();
-  const double lost_s = World::Now();
-  world_->variance_m2_ = 9999;
-  EXPECT_LT(SecondsToStop(lost_s), kPatience_s);
-  EXPECT_TRUE(Says("pose is too uncertain"));
+  ExpectToStop([] { world_->variance_m2_ = 9999; }, 0, "pose is too uncertain");
   world_->variance_m2_ = 1e-4;
   EXPECT_TRUE(Moves());
 }
 
 TEST_F(ChassisNodeTest, AStalePoseStops) {
   DriveFarAhead();
-  const double silent_s = World::Now();
-  world_->has_sight_ = false;
-  EXPECT_LT(SecondsToStop(silent_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("pose is stale"));
+  ExpectToStop([] { world_->has_sight_ = false; }, 1.0, "pose is stale");
   world_->Call("stop");
   EXPECT_FALSE(world_->Call("start").success) << "the start-up check misses the camera";
   world_->has_sight_ = true;
@@ -256,10 +254,7 @@ TEST_F(ChassisNodeTest, AStalePoseStops) {
 
 TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {
   DriveFarAhead();
-  const double taken_s = World::Now();
-  world_->chassis_.TakeRemoteControl({});
-  EXPECT_LT(SecondsToStop(taken_s), kPatience_s);
-  EXPECT_TRUE(Says("remote control has the rover"));
+  ExpectToStop([] { world_->chassis_.TakeRemoteControl({}); }, 0, "remote control has the rover");
   world_->chassis_.HandBack();
   EXPECT_TRUE(world_->RunUntil([] { return world_->chassis_.mode() == ControlMode::kCan; }));
   EXPECT_TRUE(world_->log_.last.IsZero());
@@ -333,10 +328,7 @@ TEST_F(ClockStall, AClockThatStandsStillStopsTheRover) {
 TEST_F(ClockStall, SimulatedTimeThatRunsSlowlyKeepsNoOperator) {
   world_->time_rate_ = 0.2;
   DriveFarAhead();
-  const double gone_s = World::Now();
-  world_->has_operator_ = false;
-  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("operator does not answer"));
+  ExpectToStop([] { world_->has_operator_ = false; }, 1.0, "operator does not answer");
 }
 
 }  // namespace
