@@ -8,20 +8,19 @@
 #include <random>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
 
-class NumberRowsTest : public testing::Test {
+class NumberRowsTest : public FolderTest {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   std::string ErrorOf(const std::string& text) {
     WriteWholeFile(path_, text);
     return RefusalBehind(path_, [&] { ReadNumberRows(path_, 2); });
   }
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / "arfm_vo_number_rows_test.txt").string();
+  const std::string path_ = folder_ / "test.txt";
 };
 
 TEST_F(NumberRowsTest, ReadsRowsAndKeepsTheirLineNumbers) {

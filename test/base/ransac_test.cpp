@@ -30,11 +30,6 @@ TEST(Ransac, FindsTheMajority) {
 
 TEST(Ransac, GivesNothingForTooFewData) { EXPECT_FALSE(FindConstant({})); }
 
-TEST(Ransac, IsRepeatable) {
-  const std::vector<double> values = {1, 2, 3, 3.1, 2.9, 8, 1.1};
-  EXPECT_EQ(FindConstant(values)->model, FindConstant(values)->model);
-}
-
 TEST(Ransac, AnImprovementThatIsWorseIsNotTaken) {
   const auto report = Ransac<int>(
       10, 1, RansacOptions(), [](const std::vector<int>&) { return std::vector<int>{5}; },

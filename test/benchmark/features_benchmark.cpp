@@ -1,5 +1,5 @@
 // SURF and its matching against what Debian offers for the same job, on a real stereo pair:
-// ARFM_VO_PAIR=LEFT.png:RIGHT.png (scripts/measure.sh benchmark), else a scene made of noise.
+// ARFM_VO_PAIR=LEFT.png:RIGHT.png (scripts/measure.sh benchmark).
 #include <benchmark/benchmark.h>
 #include <dlib/image_keypoint.h>
 #include <dlib/opencv.h>
@@ -19,21 +19,6 @@ namespace {
 const cv::Size kSize(1226, 370);
 constexpr int kPoints = 1000;
 
-/// Noise at many scales, seeded; the right eye sees it 20 px further left.
-cv::Mat MakeScene(int shift_px) {
-  cv::Mat scene(kSize.height, kSize.width + 64, CV_32F, cv::Scalar(128));
-  cv::RNG random(7);
-  for (int size = 4; size < scene.cols; size *= 2) {
-    cv::Mat noise(scene.rows / size + 2, scene.cols / size + 2, CV_32F), grown;
-    random.fill(noise, cv::RNG::NORMAL, 0, 20);
-    cv::resize(noise, grown, scene.size(), 0, 0, cv::INTER_CUBIC);
-    scene += grown;
-  }
-  cv::Mat grey;
-  scene(cv::Rect(cv::Point(shift_px, 0), kSize)).convertTo(grey, CV_8U);
-  return grey;
-}
-
 cv::Mat ReadGrey(const std::string& path) {
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw std::runtime_error(path + ": cannot be read as an image");
@@ -47,8 +32,10 @@ struct Pair {
     const char* chosen = std::getenv("ARFM_VO_PAIR");
     const std::string paths = chosen ? chosen : "";
     const size_t colon = paths.find(':');
-    left = chosen ? ReadGrey(paths.substr(0, colon)) : MakeScene(0);
-    right = chosen ? ReadGrey(paths.substr(colon + 1)) : MakeScene(20);
+    if (colon == std::string::npos)
+      throw std::runtime_error("ARFM_VO_PAIR is not LEFT.png:RIGHT.png");
+    left = ReadGrey(paths.substr(0, colon));
+    right = ReadGrey(paths.substr(colon + 1));
     cv::resize(left, left, kSize);
     cv::resize(right, right, kSize);
   }

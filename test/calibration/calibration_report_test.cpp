@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/calibration/pair_detection.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 #include "base/shared_data.h"
 #include "calibration/rendered_board.h"
@@ -17,10 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class CalibrationFolder : public testing::Test {
+class CalibrationFolder : public FolderTest {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   /// Renders `count` pairs of the board into the folder.
   void Render(const TrueRig& rig, const Chessboard& board, int count, uint32_t seed) {
     RandomEngine engine(seed);
@@ -44,9 +43,6 @@ class CalibrationFolder : public testing::Test {
   std::string MessageOf(const Chessboard& board) const {
     return RefusalOf<Error>([&] { Calibrate(board); });
   }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("arfm_vo_calibration_" + std::to_string(::getpid()));
 };
 
 TEST_F(CalibrationFolder, RenderedPairsGiveFilesThatHoldTheRig) {

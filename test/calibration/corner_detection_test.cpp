@@ -11,6 +11,23 @@ namespace {
 
 const Chessboard kCornerBoard{9, 6, 0.1};
 
+/// A picture of the board, and what the detector finds in it.
+struct SeenBoard {
+  cv::Mat image;
+  BoardCorners corners, truth;
+
+  explicit SeenBoard(uint32_t seed, double scale = 0.5, double tilt = 0.2) {
+    const TrueRig rig = MakeRig(scale);
+    RandomEngine engine(seed);
+    const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, tilt, engine)[0];
+    image = BoardCamera(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
+    corners = DetectCorners(image, kCornerBoard.Size()).value_or(BoardCorners());
+    const BoardCorners projected = ProjectBoard(rig.left, kCornerBoard, pose);
+    EXPECT_EQ(corners.size(), projected.size());
+    truth = AlignOrder(corners, projected, kCornerBoard.Size());
+  }
+};
+
 double Rms(const BoardCorners& a, const BoardCorners& b) {
   return cv::norm(a, b, cv::NORM_L2) / std::sqrt(double(a.size()));
 }
@@ -29,59 +46,30 @@ TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
 }
 
 TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
-  const TrueRig rig = MakeRig(1);  // wider than the search's image
-  RandomEngine engine(12);
-  const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, 0.3, engine)[0];
-  const cv::Mat image = BoardCamera(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kCornerBoard.Size());
-  ASSERT_TRUE(corners);
-  const BoardCorners truth =
-      AlignOrder(*corners, ProjectBoard(rig.left, kCornerBoard, pose), kCornerBoard.Size());
-  EXPECT_LT(Rms(*corners, truth), 0.06);
+  const SeenBoard seen(12, 1, 0.3);  // wider than the search's image
+  EXPECT_LT(Rms(seen.corners, seen.truth), 0.06);
   cv::Point2f mean(0, 0);
-  for (size_t i = 0; i < truth.size(); ++i)
-    mean += ((*corners)[i] - truth[i]) / double(truth.size());
+  for (size_t i = 0; i < seen.truth.size(); ++i)
+    mean += (seen.corners[i] - seen.truth[i]) / double(seen.truth.size());
   EXPECT_LT(cv::norm(mean), 0.015);
-}
-
-TEST(CornerDetection, NothingInAnImageWithoutTheWholeBoard) {
-  EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kCornerBoard.Size()));
-  const TrueRig rig = MakeRig(0.5);
-  RandomEngine engine(13);
-  cv::Mat image =
-      BoardCamera(rig.left, kCornerBoard)
-          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kCornerBoard.Size());
-  ASSERT_TRUE(corners);
-  cv::circle(image, (*corners)[4], 40, cv::Scalar(128), cv::FILLED);  // a hand over the board
-  EXPECT_FALSE(DetectCorners(image, kCornerBoard.Size()));
 }
 
 /// The detector guesses some corners that it does not see.
 TEST(CornerDetection, ABoardWithAHiddenCornerIsNotSeenWhole) {
-  const TrueRig rig = MakeRig(0.5);
-  RandomEngine engine(15);
-  const cv::Mat image =
-      BoardCamera(rig.left, kCornerBoard)
-          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
-  const auto corners = DetectCorners(image, kCornerBoard.Size());
-  ASSERT_TRUE(corners);
-  const double square_px = cv::norm((*corners)[1] - (*corners)[0]);
+  EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kCornerBoard.Size()));
+  const SeenBoard seen(15);
+  const double square_px = cv::norm(seen.corners[1] - seen.corners[0]);
   for (const int hidden : {0, 4, 9, 22, 31, 53}) {
-    cv::Mat covered = image.clone();
-    cv::circle(covered, (*corners)[hidden], cvRound(0.6 * square_px), cv::Scalar(128), cv::FILLED);
+    cv::Mat covered = seen.image.clone();
+    cv::circle(covered, seen.corners[hidden], cvRound(0.6 * square_px), cv::Scalar(128),
+               cv::FILLED);
     EXPECT_FALSE(DetectCorners(covered, kCornerBoard.Size())) << "corner " << hidden;
   }
 }
 
 TEST(CornerDetection, GuessesTheSizeOfTheBoard) {
   if (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 3) GTEST_SKIP() << "not by OpenCV " CV_VERSION;
-  const TrueRig rig = MakeRig(0.5);
-  RandomEngine engine(14);
-  const cv::Mat image =
-      BoardCamera(rig.left, kCornerBoard)
-          .Render(RandomBoardPoses(rig, kCornerBoard, 1, 0.2, engine)[0], 0.8, 2, engine);
-  const auto size = GuessBoardSize(image);
+  const auto size = GuessBoardSize(SeenBoard(14).image);
   ASSERT_TRUE(size);
   EXPECT_EQ(*size, cv::Size(9, 6));
   EXPECT_FALSE(GuessBoardSize(cv::Mat(480, 640, CV_8U, cv::Scalar(128))));

@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -13,10 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ImagePairs : public testing::Test {
+class ImagePairs : public FolderTest {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   void Touch(const std::string& name) {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << 'x';
@@ -24,9 +23,6 @@ class ImagePairs : public testing::Test {
   std::string Message() {
     return RefusalOf([&] { FindImagePairs(folder_); });
   }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("arfm_vo_image_pairs_" + std::to_string(::getpid()));
 };
 
 TEST_F(ImagePairs, FilesOfOneFolderPairByWhatFollowsTheEye) {

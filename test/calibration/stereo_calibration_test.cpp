@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "arfm_vo/calibration/rectification.h"
 #include "base/random_normal.h"
 #include "base/refusal.h"
@@ -146,28 +149,29 @@ TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
   EXPECT_THAT(MessageOf({}, synthetic.rig), testing::HasSubstr("too few views"));
 }
 
-TEST(StereoCalibration, SwappedEyesAreRefused) {
-  SyntheticPairs synthetic(8);
-  auto pairs = synthetic.See(synthetic.Poses(8), 0.1);
-  for (CornerPair& pair : pairs) std::swap(pair.left, pair.right);
-  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("swapped"));
-}
-
-TEST(StereoCalibration, AMirroredEyeIsRefused) {
-  SyntheticPairs synthetic(9);
-  auto pairs = synthetic.See(synthetic.Poses(8), 0.1);
-  for (CornerPair& pair : pairs)
-    pair.right = AlignOrder(pair.left,
-                            MirrorCorners(pair.right, kBoard.Size(), synthetic.rig.left.size.width),
-                            kBoard.Size());
-  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("one eye is mirrored"));
-}
-
-TEST(StereoCalibration, PairsOfDifferentMomentsAreRefused) {
-  SyntheticPairs synthetic(10);
-  auto pairs = synthetic.See(synthetic.Poses(9), 0.1);
-  for (size_t i = 0; i + 1 < pairs.size(); ++i) std::swap(pairs[i].right, pairs[i + 1].right);
-  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("eyes do not agree"));
+TEST(StereoCalibration, PairsThatAreNotOfTwoEyesAtOneMomentAreRefused) {
+  const std::pair<const char*, std::function<void(std::vector<CornerPair>&)>> rows[] = {
+      {"swapped",
+       [](auto& pairs) {
+         for (CornerPair& pair : pairs) std::swap(pair.left, pair.right);
+       }},
+      {"one eye is mirrored",
+       [](auto& pairs) {
+         const int width = MakeRig(0.5).left.size.width;
+         for (CornerPair& pair : pairs)
+           pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, kBoard.Size(), width),
+                                   kBoard.Size());
+       }},
+      {"eyes do not agree", [](auto& pairs) {
+         for (size_t i = 0; i + 1 < pairs.size(); ++i)
+           std::swap(pairs[i].right, pairs[i + 1].right);
+       }}};
+  for (const auto& [complaint, spoil] : rows) {
+    SyntheticPairs synthetic(9);
+    auto pairs = synthetic.See(synthetic.Poses(9), 0.1);
+    spoil(pairs);
+    EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr(complaint));
+  }
 }
 
 TEST(StereoCalibration, ParallelViewsAreRefused) {

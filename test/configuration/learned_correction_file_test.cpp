@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -14,15 +15,12 @@ namespace {
 
 const StereoCamera kCamera{707.0912, 707.0912, 601.8873, 183.1104, 0.537150, 1226, 370};
 
-class LearnedCorrectionFileTest : public testing::Test {
+class LearnedCorrectionFileTest : public FolderTest {
  protected:
-  LearnedCorrectionFileTest()
-      : folder_(std::filesystem::temp_directory_path() / ("learned." + std::to_string(getpid()))),
-        path_(folder_ / "deep" / "camera.yaml") {
+  LearnedCorrectionFileTest() {
     belief_ = CorrectionBelief::OfCalibration(kCamera);
     belief_.mean.coefficients_px.setLinSpaced(-0.3, 1.4);
   }
-  ~LearnedCorrectionFileTest() override { std::filesystem::remove_all(folder_); }
 
   void ExpectRefused(const std::string& from, const std::string& to, const std::string& why) {
     WriteLearnedCorrection(path_, kCamera, belief_);
@@ -34,7 +32,7 @@ class LearnedCorrectionFileTest : public testing::Test {
                 testing::AllOf(testing::HasSubstr(path_.string()), testing::HasSubstr(why)));
   }
 
-  std::filesystem::path folder_, path_;
+  const std::filesystem::path path_ = folder_ / "deep" / "camera.yaml";
   CorrectionBelief belief_;
 };
 

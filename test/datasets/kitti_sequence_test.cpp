@@ -148,8 +148,10 @@ TEST(KittiSequenceErrors, MissingFolders) {
   EXPECT_EQ(ErrorOf(folder.Path()), folder.File("image_1") + ": holds no PNG images");
 }
 
-TEST(KittiSequenceErrors, UnequalNumbersOfImages) {
+TEST(KittiSequenceErrors, UnequalImages) {
   const SequenceFolder folder(3);
+  folder.WriteImage(folder.Right(1), 1, {16, 13});
+  EXPECT_EQ(ErrorOf(folder.Path()), folder.Right(1) + ": is 16x13, the first image 16x12");
   fs::remove(folder.Right(1));
   EXPECT_EQ(ErrorOf(folder.Path()),
             folder.File("image_0") + " holds 3 images, " + folder.File("image_1") + " 2");
@@ -158,10 +160,21 @@ TEST(KittiSequenceErrors, UnequalNumbersOfImages) {
             folder.Left(1) + ": has no partner in " + folder.File("image_1"));
 }
 
-TEST(KittiSequenceErrors, ImagesOfDifferentSize) {
-  const SequenceFolder folder(3);
-  folder.WriteImage(folder.Right(1), 1, {16, 13});
-  EXPECT_EQ(ErrorOf(folder.Path()), folder.Right(1) + ": is 16x13, the first image 16x12");
+TEST(KittiSequenceErrors, TimesAndPoses) {
+  const SequenceFolder folder(2);
+  const std::string pose = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  const struct {
+    std::string file, text, error;
+  } rows[] = {{"poses.txt", pose, ": holds 1 lines for 2 pairs"},
+              {"poses.txt", pose + "1 0 0 nan 0 1 0 0 0 0 1 0\n", ":2: 'nan' is not finite"},
+              {"times.txt", "0\n0.1\n0.2\n", ": holds 3 lines for 2 pairs"},
+              {"times.txt", "0.1\n0.1\n", ": time 2 is not later than the one before"},
+              {"times.txt", "0\nnan\n", ":2: 'nan' is not finite"}};
+  for (const auto& [file, text, error] : rows) {
+    folder.Write("poses.txt", pose + pose);
+    folder.Write(file, text);
+    EXPECT_EQ(ErrorOf(folder.Path()), folder.File(file) + error);
+  }
 }
 
 TEST(KittiSequenceErrors, Calibration) {
@@ -189,26 +202,6 @@ TEST(KittiSequenceErrors, Calibration) {
             ": P0 and P1 differ in focal length or centre: not a rectified pair");
   fs::remove(path);
   EXPECT_EQ(ErrorOf(folder.Path()), path + ": cannot be read");
-}
-
-TEST(KittiSequenceErrors, Times) {
-  const SequenceFolder folder(2);
-  const std::string path = folder.File("times.txt");
-  folder.Write("times.txt", "0\n0.1\n0.2\n");
-  EXPECT_EQ(ErrorOf(folder.Path()), path + ": holds 3 lines for 2 pairs");
-  folder.Write("times.txt", "0.1\n0.1\n");
-  EXPECT_EQ(ErrorOf(folder.Path()), path + ": time 2 is not later than the one before");
-  folder.Write("times.txt", "0\nnan\n");
-  EXPECT_EQ(ErrorOf(folder.Path()), path + ":2: 'nan' is not finite");
-}
-
-TEST(KittiSequenceErrors, Poses) {
-  const SequenceFolder folder(2);
-  const std::string path = folder.File("poses.txt");
-  folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  EXPECT_EQ(ErrorOf(folder.Path()), path + ": holds 1 lines for 2 pairs");
-  folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 nan 0 1 0 0 0 0 1 0\n");
-  EXPECT_EQ(ErrorOf(folder.Path()), path + ":2: 'nan' is not finite");
 }
 
 }  // namespace

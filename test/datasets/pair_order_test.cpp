@@ -2,67 +2,37 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 namespace arfm_vo {
 namespace {
 
-TEST(PairNumbers, WhoComesLateMissesNothing) {
-  PairNumbers numbers;
-  for (uint32_t number = 17; number < 30; ++number) EXPECT_EQ(numbers.CountMissing(number), 0u);
-}
-
-TEST(PairNumbers, GapsAddUp) {
-  PairNumbers numbers;
-  EXPECT_EQ(numbers.CountMissing(5), 0u);
-  EXPECT_EQ(numbers.CountMissing(8), 2u);
-  EXPECT_EQ(numbers.CountMissing(9), 2u);
-  EXPECT_EQ(numbers.CountMissing(11), 3u);
-}
-
-TEST(PairNumbers, AnotherSenderBeginsAnew) {
-  PairNumbers numbers;
-  numbers.CountMissing(5);
-  numbers.CountMissing(9);
-  EXPECT_EQ(numbers.CountMissing(1), 0u);
-  EXPECT_EQ(numbers.CountMissing(3), 1u);
-}
-
-TEST(StampOrder, LaterPairsAreTaken) {
-  StampOrder<double> order;
-  EXPECT_EQ(order.Judge(5), StampVerdict::kNext);
-  EXPECT_EQ(order.Judge(5.1), StampVerdict::kNext);
-}
-
-TEST(StampOrder, APairThatComesAgainIsPassedOver) {
-  StampOrder<double> order;
-  order.Judge(5);
-  EXPECT_EQ(order.Judge(5), StampVerdict::kStray);
-  EXPECT_EQ(order.Judge(5.1), StampVerdict::kNext);
-}
-
-TEST(StampOrder, OldPairsAmongNewOnesArePassedOverHoweverOftenTheyCome) {
-  StampOrder<double> order;
-  order.Judge(5);
-  for (int i = 1; i < 5; ++i) {
-    EXPECT_EQ(order.Judge(4 + 0.1 * i), StampVerdict::kStray);
-    EXPECT_EQ(order.Judge(5 + i), StampVerdict::kNext);
+TEST(PairNumbers, CountsTheGapsOfOneSender) {
+  const std::vector<std::pair<uint32_t, unsigned>> rows[] = {
+      {{17, 0}, {18, 0}, {19, 0}, {20, 0}},  // who comes late misses nothing
+      {{5, 0}, {8, 2}, {9, 2}, {11, 3}},
+      {{5, 0}, {9, 3}, {1, 0}, {3, 1}}};  // another sender begins anew
+  for (const auto& row : rows) {
+    PairNumbers numbers;
+    for (const auto& [number, num_missing] : row)
+      EXPECT_EQ(numbers.CountMissing(number), num_missing) << number;
   }
 }
 
-TEST(StampOrder, TheSameOldPairTwiceIsNoJump) {
-  StampOrder<double> order;
-  order.Judge(5);
-  EXPECT_EQ(order.Judge(4), StampVerdict::kStray);
-  EXPECT_EQ(order.Judge(4), StampVerdict::kStray);
-  EXPECT_EQ(order.Judge(3), StampVerdict::kStray) << "time runs forward";
-  EXPECT_EQ(order.Judge(5.1), StampVerdict::kNext);
-}
-
-TEST(StampOrder, TwoInARowThatAreEarlierAreAJumpOfTime) {
-  StampOrder<double> order;
-  order.Judge(100);
-  EXPECT_EQ(order.Judge(5), StampVerdict::kStray);
-  EXPECT_EQ(order.Judge(5.1), StampVerdict::kJumpBack);
-  EXPECT_EQ(order.Judge(5.2), StampVerdict::kNext);
+TEST(StampOrder, TellsWhatComesNextAgainOrAfterAJumpBack) {
+  constexpr auto kNext = StampVerdict::kNext, kStray = StampVerdict::kStray,
+                 kJump = StampVerdict::kJumpBack;
+  const std::vector<std::pair<double, StampVerdict>> rows[] = {
+      {{5, kNext}, {5.1, kNext}},
+      {{5, kNext}, {5, kStray}, {5.1, kNext}},
+      {{5, kNext}, {4.1, kStray}, {6, kNext}, {4.2, kStray}, {7, kNext}, {4.3, kStray}},
+      {{5, kNext}, {4, kStray}, {4, kStray}, {3, kStray}, {5.1, kNext}},  // time runs forward
+      {{100, kNext}, {5, kStray}, {5.1, kJump}, {5.2, kNext}}};           // two in a row
+  for (const auto& row : rows) {
+    StampOrder<double> order;
+    for (const auto& [stamp_s, verdict] : row) EXPECT_EQ(order.Judge(stamp_s), verdict) << stamp_s;
+  }
 }
 
 }  // namespace

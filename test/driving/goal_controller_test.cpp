@@ -104,38 +104,24 @@ TEST(GoalController, TurnsInPlaceFirstWhereTheGoalLiesBeside) {
   EXPECT_DOUBLE_EQ(to_the_right.Update({}, false).turn_radps, -0.15);
 }
 
-TEST(GoalController, BacksToANearGoalBehind) {
-  GoalController controller({}, {{-0.5, 0, 0.0}});
-  IdealDrive drive;
-  EXPECT_TRUE(drive.DriveTo(controller));
-  ExpectAt(drive.pose, {-0.5, 0, 0.0});
-  EXPECT_EQ(drive.max_forward_mps, 0);
-  EXPECT_LT(drive.min_forward_mps, -0.05);
-}
-
-TEST(GoalController, TurnsRoundToAFarGoalBehind) {
-  GoalController controller({}, {{-3, 0, M_PI}});
-  IdealDrive drive;
-  EXPECT_TRUE(drive.DriveTo(controller));
-  ExpectAt(drive.pose, {-3, 0, M_PI});
-  EXPECT_EQ(drive.min_forward_mps, 0);
-}
-
-TEST(GoalController, NeverBacksWhereThatIsForbidden) {
-  GoalControllerOptions options;
-  options.max_backward_m = 0;
-  GoalController controller(options, {{-0.5, 0, 0.0}});
-  IdealDrive drive;
-  EXPECT_TRUE(drive.DriveTo(controller));
-  EXPECT_EQ(drive.min_forward_mps, 0);
-}
-
-TEST(GoalController, AGoalUnderTheRoverOnlyTurnsIt) {
-  GoalController controller({}, {{0, 0, -2.0}});
-  IdealDrive drive;
-  EXPECT_TRUE(drive.DriveTo(controller));
-  ExpectAt(drive.pose, {0, 0, -2.0});
-  EXPECT_EQ(drive.max_forward_mps, 0);
+TEST(GoalController, BacksToANearGoalOnlyWhereItMay) {
+  const struct {
+    Waypoint goal;
+    bool may_back, backs, drives_ahead;
+  } rows[] = {{{-0.5, 0, 0.0}, true, true, false},   // behind
+              {{-3, 0, M_PI}, true, false, true},    // far behind: turns round
+              {{-0.5, 0, 0.0}, false, false, true},  // backing is forbidden
+              {{0, 0, -2.0}, true, false, false}};   // under the rover: turns only
+  for (const auto& [goal, may_back, backs, drives_ahead] : rows) {
+    GoalControllerOptions options;
+    if (!may_back) options.max_backward_m = 0;
+    GoalController controller(options, {goal});
+    IdealDrive drive;
+    EXPECT_TRUE(drive.DriveTo(controller));
+    ExpectAt(drive.pose, goal);
+    EXPECT_EQ(drive.min_forward_mps < (backs ? -0.05 : 0), backs);
+    EXPECT_EQ(drive.max_forward_mps > 0, drives_ahead);
+  }
 }
 
 TEST(GoalController, ReachesAnyGoalInSpiteOfSlip) {

@@ -11,38 +11,29 @@ GoalLimitsOptions LShapedFence() {
   return options;
 }
 
-TEST(GoalLimits, AGoalTooFarIsNamed) {
-  const GoalLimits limits{GoalLimitsOptions{}};
-  EXPECT_EQ(limits.FindFlaw({{30, 40, {}}}, {}), "");
-  EXPECT_EQ(limits.FindFlaw({{30, 41, {}}}, {}), "it is 50.8 m away, farther than 50.0 m");
-  EXPECT_EQ(limits.FindFlaw({{1, 0, {}}, {60, 0, {}}}, {}),
-            "waypoint 1 is 60.0 m away, farther than 50.0 m");
-}
-
-TEST(GoalLimits, TheDistanceIsFromTheRover) {
-  const GoalLimits limits{GoalLimitsOptions{}};
-  EXPECT_EQ(limits.FindFlaw({{100, 65, {}}}, {90, 20, 0}), "");
-  EXPECT_EQ(limits.FindFlaw({{0, 0, {}}}, {-30, -41, 0}), "it is 50.8 m away, farther than 50.0 m");
-}
-
-TEST(GoalLimits, ARouteIsBounded) {
-  const GoalLimits limits{GoalLimitsOptions{}};
-  EXPECT_EQ(limits.FindFlaw(Route(100), {}), "");
-  EXPECT_EQ(limits.FindFlaw(Route(101), {}), "it has more than 100 waypoints");
-}
-
-TEST(GoalLimits, AGoalOutsideTheFenceIsRefused) {
-  const GoalLimits limits(LShapedFence());
-  EXPECT_EQ(limits.FindFlaw({{9, 0, {}}}, {}), "");
-  EXPECT_EQ(limits.FindFlaw({{5, 5, {}}}, {}), "it is outside the fence");
-  EXPECT_TRUE(limits.IsInsideFence(0, 9));
-  EXPECT_FALSE(limits.IsInsideFence(2, 2));
-}
-
-TEST(GoalLimits, AWayThatLeavesTheFenceIsRefused) {
-  const GoalLimits limits(LShapedFence());
-  EXPECT_EQ(limits.FindFlaw({{0, 9, {}}}, {9, 0, 0}), "the way to it leaves the fence");
-  EXPECT_EQ(limits.FindFlaw({{0, 0, {}}, {0, 9, {}}}, {9, 0, 0}), "");
+TEST(GoalLimits, AGoalOutsideThemIsRefusedAndTheReasonNamed) {
+  const GoalLimits open{GoalLimitsOptions{}}, fenced(LShapedFence());
+  const struct {
+    const GoalLimits& limits;
+    Route route;
+    RoverPose rover;
+    const char* flaw;
+  } rows[] = {
+      {open, {{30, 40, {}}}, {}, ""},
+      {open, {{30, 41, {}}}, {}, "it is 50.8 m away, farther than 50.0 m"},
+      {open, {{1, 0, {}}, {60, 0, {}}}, {}, "waypoint 1 is 60.0 m away, farther than 50.0 m"},
+      {open, {{100, 65, {}}}, {90, 20, 0}, ""},
+      {open, {{0, 0, {}}}, {-30, -41, 0}, "it is 50.8 m away, farther than 50.0 m"},
+      {open, Route(100), {}, ""},
+      {open, Route(101), {}, "it has more than 100 waypoints"},
+      {fenced, {{9, 0, {}}}, {}, ""},
+      {fenced, {{5, 5, {}}}, {}, "it is outside the fence"},
+      {fenced, {{0, 9, {}}}, {9, 0, 0}, "the way to it leaves the fence"},
+      {fenced, {{0, 0, {}}, {0, 9, {}}}, {9, 0, 0}, ""}};
+  for (const auto& [limits, route, rover, flaw] : rows)
+    EXPECT_EQ(limits.FindFlaw(route, rover), flaw);
+  EXPECT_TRUE(fenced.IsInsideFence(0, 9));
+  EXPECT_FALSE(fenced.IsInsideFence(2, 2));
 }
 
 TEST(GoalLimits, EdgesOfAFenceMayRunAskew) {

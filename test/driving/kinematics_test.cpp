@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "arfm_vo/driving/route.h"
 #include "arfm_vo/driving/speed_limiter.h"
@@ -130,52 +131,42 @@ TEST_F(SpeedLimiterTest, NoOptionRaisesThePapersLimit) {
   EXPECT_THROW(Limiter(options), std::invalid_argument);
 }
 
-TEST(TrackHistory, ReadsBetweenItsReadings) {
-  TrackHistory history(10);
-  EXPECT_FALSE(history.At(0));
-  history.Add(1, 500, -500);
-  history.Add(2, 600, -700);
-  EXPECT_NEAR(history.At(1.5)->left_m, 0.05, 1e-12);
-  EXPECT_NEAR(history.At(1.5)->right_m, -0.1, 1e-12);
-  EXPECT_NEAR(history.At(0)->left_m, 0, 1e-12);
-  EXPECT_NEAR(history.At(9)->left_m, 0.1, 1e-12);
-}
-
-TEST(TrackHistory, CountersMayWrapAround) {
-  TrackHistory history(10);
-  history.Add(1, std::numeric_limits<int>::max() - 1, std::numeric_limits<int>::min() + 2);
-  history.Add(2, std::numeric_limits<int>::min() + 3, std::numeric_limits<int>::max() - 2);
-  EXPECT_NEAR(history.At(2)->left_m, 0.005, 1e-12);
-  EXPECT_NEAR(history.At(2)->right_m, -0.005, 1e-12);
-}
-
-TEST(TrackHistory, ARestartedChassisMovesNobody) {
-  TrackHistory history(10);
-  history.Add(1, 54321, 54321);
-  history.Add(2, 54331, 54331);
-  history.Add(3, 0, 0);
-  history.Add(4, 7, 7);
-  EXPECT_NEAR(history.At(4)->left_m, 0.017, 1e-12);
-}
-
-TEST(TrackHistory, ALeapOfMoreThanAMetreIsNoWay) {
-  TrackHistory history(10);
-  history.Add(1, 0, 0);
-  history.Add(2, 1001, 0);
-  history.Add(3, 0, 0);
-  history.Add(4, 0, 1500);
-  EXPECT_EQ(history.At(4)->left_m, 0);
-  EXPECT_EQ(history.At(4)->right_m, 0);
-  history.Add(5, 1000, 1500);
-  EXPECT_NEAR(history.At(5)->left_m, 1, 1e-12);
-}
-
-TEST(TrackHistory, ReadingsAheadOfAClockThatWentBackAreForgotten) {
-  TrackHistory history(10);
-  history.Add(10, 0, 0);
-  history.Add(11, 100, 100);
-  history.Add(10.5, 110, 110);
-  EXPECT_NEAR(history.At(11)->left_m, 0.11, 1e-12);
+TEST(TrackHistory, GivesTheWaysOfItsReadings) {
+  constexpr int kMost = std::numeric_limits<int>::max(), kLeast = std::numeric_limits<int>::min();
+  struct Reading {
+    double time_s;
+    int left_mm, right_mm;
+  };
+  struct Way {
+    double time_s, left_m, right_m;
+  };
+  const struct {
+    const char* name;
+    std::vector<Reading> readings;
+    std::vector<Way> ways;
+  } rows[] = {
+      {"between them",
+       {{1, 500, -500}, {2, 600, -700}},
+       {{1.5, 0.05, -0.1}, {0, 0, 0}, {9, 0.1, -0.2}}},
+      {"wraps around",
+       {{1, kMost - 1, kLeast + 2}, {2, kLeast + 3, kMost - 2}},
+       {{2, 0.005, -0.005}}},
+      {"restarts",
+       {{1, 54321, 54321}, {2, 54331, 54331}, {3, 0, 0}, {4, 7, 7}},
+       {{4, 0.017, 0.017}}},
+      {"leaps by over a metre", {{1, 0, 0}, {2, 1001, 0}, {3, 0, 0}, {4, 0, 1500}}, {{4, 0, 0}}},
+      {"goes a metre", {{1, 0, 1500}, {5, 1000, 1500}}, {{5, 1, 0}}},
+      {"clock goes back", {{10, 0, 0}, {11, 100, 100}, {10.5, 110, 110}}, {{11, 0.11, 0.11}}}};
+  for (const auto& [name, readings, ways] : rows) {
+    TrackHistory history(10);
+    EXPECT_FALSE(history.At(0));
+    for (const Reading& reading : readings)
+      history.Add(reading.time_s, reading.left_mm, reading.right_mm);
+    for (const Way& way : ways) {
+      EXPECT_NEAR(history.At(way.time_s)->left_m, way.left_m, 1e-12) << name;
+      EXPECT_NEAR(history.At(way.time_s)->right_m, way.right_m, 1e-12) << name;
+    }
+  }
 }
 
 TEST(TrackHistory, ForgetsWhatIsTooOld) {

@@ -25,17 +25,18 @@ class PilotTest : public ::testing::Test {
   }
 
   void Observe() {
-    if (bus_up_) {
+    if (bus_up_ && tells_state_) {
       pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
       pilot_.chassis_watch().Observe(now_s_, chassis_);
-      pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     }
+    if (bus_up_ && tells_tracks_) pilot_.ObserveTracks(now_s_, way_mm_, way_mm_);
     pilot_.chassis_watch().ObserveBus(bus_up_);
     const auto challenge = pilot_.operator_watch().Advance(now_s_, 1);
     if (has_operator_ && challenge) pilot_.operator_watch().ObserveAnswer(now_s_, *challenge);
-    pilot_.ObserveEpoch(1, now_s_ - 0.1);
+    if (has_epoch_) pilot_.ObserveEpoch(1, now_s_ - 0.1);
     if (has_pose_) pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
-    if (has_pose_) pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, heading_sigma_rad_});
+    if (has_pose_ && has_covariance_)
+      pilot_.ObserveUncertainty(now_s_, {now_s_ - 0.1, sigma_m_, heading_sigma_rad_});
   }
 
   DriveCommand Run(double duration_s) {
@@ -47,6 +48,23 @@ class PilotTest : public ::testing::Test {
       command = pilot_.Tick(now_s_);
     }
     return command;
+  }
+
+  /// The tracks creep at 25 mm/s.
+  void Creep() {
+    for (int i = 0; i < 160; ++i, way_mm_ += i % 2) Run(kTick_s);
+  }
+
+  /// A pilot as at first, but for what change(options) does.
+  template <class Change>
+  void Remake(const Change& change) {
+    PilotOptions options = Options();
+    change(options);
+    pilot_ = Pilot(options);
+    chassis_ = {};
+  }
+  void Remake() {
+    Remake([](PilotOptions&) {});
   }
 
   /// Started and driving at a goal 5 m ahead.
@@ -67,9 +85,7 @@ class PilotTest : public ::testing::Test {
 
   /// Started in the mode that stops after each step to look.
   void StartStopLookGo() {
-    PilotOptions options = Options();
-    options.stop_look_go.is_on = true;
-    pilot_ = Pilot(options);
+    Remake([](PilotOptions& options) { options.stop_look_go.is_on = true; });
     Start();
   }
 
@@ -80,6 +96,7 @@ class PilotTest : public ::testing::Test {
   double now_s_ = 100;
   ChassisStatus chassis_;
   bool bus_up_ = true, has_pose_ = true, has_operator_ = true;
+  bool tells_state_ = true, tells_tracks_ = true, has_epoch_ = true, has_covariance_ = true;
   Rigid3 pose_;
   int way_mm_ = 0;  ///< of the tracks
   double sigma_m_ = 0.01, heading_sigma_rad_ = 0.01;

@@ -18,10 +18,10 @@ TEST_F(PilotTest, HoweverFreshTheGoalAMotionAfterAPauseIsWarnedOf) {
 }
 
 TEST_F(PilotTest, ACommandThatTheChassisWaitedLongWithIsWarnedOf) {
-  PilotOptions options = Options();
-  options.fresh_command_s = 1;
-  options.arming_timeout_s = 5;
-  pilot_ = Pilot(options);
+  Remake([](PilotOptions& options) {
+    options.fresh_command_s = 1;
+    options.arming_timeout_s = 5;
+  });
   Run(0.1);
   ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
   ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
@@ -92,42 +92,15 @@ TEST_F(PilotTest, AnUncertainHeadingPauses) {
   EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
 }
 
-TEST_F(PilotTest, APoseWithoutCovarianceIsNotTrusted) {
-  pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
-  pilot_.chassis_watch().Observe(now_s_, {false, false, ChassisAuthority::kUs});
-  pilot_.ObserveTracks(now_s_, 0, 0);
-  Attend(pilot_.operator_watch(), now_s_);
-  pilot_.ObserveEpoch(1, now_s_);
-  pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
-  pilot_.Start(now_s_);
-  pilot_.Tick(now_s_);
-  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
-}
-
-TEST_F(PilotTest, APoseWithoutEpochIsNotDrivenBy) {
-  pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
-  pilot_.chassis_watch().Observe(now_s_, {false, false, ChassisAuthority::kUs});
-  pilot_.ObserveTracks(now_s_, 0, 0);
-  Attend(pilot_.operator_watch(), now_s_);
-  pilot_.ObservePose(now_s_, {now_s_, pose_, {}});
-  pilot_.ObserveUncertainty(now_s_, {now_s_, 0.01, 0.01});
-  pilot_.Start(now_s_);
-  pilot_.Tick(now_s_);
-  EXPECT_EQ(Reason(), StopReason::kEpochMissing);
-}
-
-TEST_F(PilotTest, ACovarianceFromTheFutureIsNotTaken) {
-  StartDriving();
-  has_pose_ = false;
-  EXPECT_FALSE(pilot_.ObserveUncertainty(now_s_, {now_s_ + 1e9, 0.01, 0.01}));
-  EXPECT_FALSE(pilot_.ObserveUncertainty(now_s_, {kNaN, 0.01, 0.01}));
-  for (int i = 0; i < 60; ++i) {
-    now_s_ += kTick_s;
-    Observe();
-    pilot_.ObservePose(now_s_, {now_s_ - 0.1, pose_, {}});
-    pilot_.Tick(now_s_);
+TEST_F(PilotTest, APoseWithoutCovarianceOrEpochIsNotDrivenBy) {
+  for (const StopReason reason : {StopReason::kPoseUncertain, StopReason::kEpochMissing}) {
+    Remake();
+    has_covariance_ = reason != StopReason::kPoseUncertain;
+    has_epoch_ = reason != StopReason::kEpochMissing;
+    Start();
+    Run(kTick_s);
+    EXPECT_EQ(Reason(), reason);
   }
-  EXPECT_EQ(Reason(), StopReason::kPoseUncertain);
 }
 
 TEST_F(PilotTest, AnUncertaintyThatHasGrownIsMeasuredFromTheDatumThatAPersonConfirms) {
@@ -172,18 +145,6 @@ TEST_F(PilotTest, ALostPoseIsNoDatum) {
   sigma_m_ = std::sqrt(9999);
   Run(5);
   EXPECT_FALSE(pilot_.SetDatum().is_accepted);
-}
-
-TEST_F(PilotTest, PredictsThePoseBetweenSightsByTheTracks) {
-  StartDriving();
-  for (int i = 0; i < 10; ++i) {
-    now_s_ += kTick_s;
-    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
-    pilot_.chassis_watch().Observe(now_s_, chassis_);
-    pilot_.ObserveTracks(now_s_, 10 * i, 10 * i);
-    pilot_.Tick(now_s_);
-  }
-  EXPECT_NEAR(pilot_.Status().distance_to_goal_m, 5 - 0.09, 1e-6);
 }
 
 TEST_F(PilotTest, WhatTheTracksWentSinceALatePoseCounts) {

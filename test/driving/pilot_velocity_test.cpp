@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "pilot_fixture.h"
 
 namespace arfm_vo {
@@ -13,24 +15,27 @@ TEST_F(PilotTest, VelocityIsDrivenWhileItIsRenewed) {
   EXPECT_TRUE(Run(0.2).chassis_motion.IsZero());
 }
 
-TEST_F(PilotTest, AVelocityOfBeforeTheStopIsForgotten) {
-  Start();
-  pilot_.SetVelocity(now_s_, {0.1, 0});
-  ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
-  pilot_.Stop();
-  pilot_.Start(now_s_);
-  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
-}
-
-TEST_F(PilotTest, AVelocityOfBeforeABlockIsForgotten) {
-  Start();
-  pilot_.SetVelocity(now_s_, {0.1, 0});
-  ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
-  pilot_.SetEmergencyStop("test", true);
-  Run(kTick_s);
-  pilot_.SetEmergencyStop("test", false);
-  ASSERT_TRUE(pilot_.Start(now_s_).is_accepted);
-  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+TEST_F(PilotTest, AVelocityOfBeforeAStopABlockOrAGoalIsForgotten) {
+  const std::function<void()> kEnds[] = {[this] { pilot_.Stop(); },
+                                         [this] {
+                                           pilot_.SetEmergencyStop("test", true);
+                                           Run(kTick_s);
+                                           pilot_.SetEmergencyStop("test", false);
+                                         },
+                                         [this] {
+                                           pilot_.SetRoute({{5, 0, {}}});
+                                           pilot_.CancelRoute();
+                                         }};
+  for (const auto& end : kEnds) {
+    Remake();
+    Start();
+    pilot_.SetVelocity(now_s_, {0.1, 0});
+    ASSERT_FALSE(Run(kTick_s).chassis_motion.IsZero());
+    end();
+    pilot_.Start(now_s_);
+    EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
+    EXPECT_EQ(State(), DriveState::kReady);
+  }
 }
 
 TEST_F(PilotTest, AfterAStopTheSpeedGrowsFromNothing) {
@@ -67,15 +72,6 @@ TEST_F(PilotTest, VelocityIsRefusedWhileThereIsAGoalOrWhereItIsNotFinite) {
   pilot_.CancelRoute();
   EXPECT_FALSE(pilot_.SetVelocity(now_s_, {kNaN, 0}).is_accepted);
   EXPECT_TRUE(Run(1).chassis_motion.IsZero());
-}
-
-TEST_F(PilotTest, AVelocityOfBeforeAGoalIsForgotten) {
-  Start();
-  pilot_.SetVelocity(now_s_, {0.1, 0});
-  ASSERT_FALSE(Run(0.1).chassis_motion.IsZero());
-  ASSERT_TRUE(pilot_.SetRoute({{5, 0, {}}}).is_accepted);
-  pilot_.CancelRoute();
-  EXPECT_TRUE(Run(kTick_s).chassis_motion.IsZero());
 }
 
 TEST_F(PilotTest, VelocitiesOfTwoNodesBlock) {
@@ -126,16 +122,11 @@ TEST_F(PilotTest, VelocitiesThatStreamOnThroughAPauseAreWarnedOf) {
 
 TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
   StartStopLookGo();
+  has_pose_ = false;
   double way_m = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 500; ++i, way_mm_ = static_cast<int>(std::lround(1000 * way_m))) {
     pilot_.SetVelocity(now_s_, {0.1, 0});
-    now_s_ += kTick_s;
-    Attend(pilot_.operator_watch(), now_s_);
-    pilot_.chassis_watch().ObserveFeedback(now_s_, FeedbackKind::kMotion);
-    pilot_.chassis_watch().Observe(now_s_, chassis_);
-    const int way_mm = static_cast<int>(std::lround(1000 * way_m));
-    pilot_.ObserveTracks(now_s_, way_mm, way_mm);
-    way_m += kTick_s * pilot_.Tick(now_s_).chassis_motion.forward_mps;
+    way_m += kTick_s * Run(kTick_s).chassis_motion.forward_mps;
   }
   EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
 }

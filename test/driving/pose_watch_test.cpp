@@ -42,7 +42,8 @@ TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
 
 TEST_F(PoseWatchTest, ACovarianceFromTheFutureIsNotTaken) {
   EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10, 0.01, 0.01}));
-  EXPECT_FALSE(watch_.Observe(10, PoseUncertainty{11, 0.01, 0.01}));
+  for (const double later_s : {11.0, 1e9, static_cast<double>(NAN)})
+    EXPECT_FALSE(watch_.Observe(10, PoseUncertainty{later_s, 0.01, 0.01})) << later_s;
 }
 
 TEST_F(PoseWatchTest, ANewEpochHasNoPoseYet) {

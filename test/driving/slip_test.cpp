@@ -50,32 +50,20 @@ TEST(SlipEstimator, ALeapOfTheSightBeginsAnew) {
   EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
 }
 
-TEST(SlipEstimator, NoSlipIsZero) {
-  const auto slip = Driven(1, 1).Estimate();
-  EXPECT_NEAR(*slip->forward_ratio, 0, 1e-9);
-  EXPECT_FALSE(slip->turn_ratio);
-}
-
-TEST(SlipEstimator, TenPercentSlipIsATenth) {
-  const auto slip = Driven(1, 0.9).Estimate();
-  EXPECT_NEAR(*slip->forward_ratio, 0.1, 1e-9);
-  EXPECT_NEAR(slip->track_forward_m, 0.3, 0.03);
-}
-
-TEST(SlipEstimator, RunningTracksUnderAStandingRoverAreOne) {
-  EXPECT_NEAR(*Driven(1, 0).Estimate()->forward_ratio, 1, 1e-9);
-  EXPECT_TRUE(Driven(1, 0).FindExcess());
-  EXPECT_TRUE(Driven(-1, 0).FindExcess());
-}
-
-TEST(SlipEstimator, SlidingIsNegative) {
-  EXPECT_NEAR(*Driven(1, 2).Estimate()->forward_ratio, -0.5, 1e-9);
-  EXPECT_TRUE(Driven(1, 2.5).FindExcess());
-}
-
-TEST(SlipEstimator, TheLimitIsOnTheRatio) {
-  EXPECT_FALSE(Driven(1, 0.55).FindExcess());
-  EXPECT_TRUE(Driven(1, 0.45).FindExcess());
+TEST(SlipEstimator, TheRatioIsOfTheTracksWayAndHasALimit) {
+  const struct {
+    double track_m, share, ratio;
+    bool is_excess;
+  } rows[] = {{1, 1, 0, false},    {1, 0.9, 0.1, false},   {1, 0, 1, true},
+              {-1, 0, -1, true},    {1, 0.55, 0.45, false}, {1, 0.45, 0.55, true},
+              {1, 2, -0.5, false}, {1, 2.5, -0.6, true}};
+  for (const auto& [track_m, share, ratio, is_excess] : rows) {
+    const SlipEstimator slip = Driven(track_m, share);
+    EXPECT_NEAR(*slip.Estimate()->forward_ratio, ratio, 1e-9) << share;
+    EXPECT_FALSE(slip.Estimate()->turn_ratio);
+    EXPECT_NEAR(std::abs(slip.Estimate()->track_forward_m), 0.3, 0.03);
+    EXPECT_EQ(slip.FindExcess().has_value(), is_excess) << share;
+  }
 }
 
 /// A baseline that is 20 % too short looks like that much slip, wherever the rover drives.

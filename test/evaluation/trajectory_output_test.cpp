@@ -7,6 +7,7 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/odometry/trajectory_files.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -14,15 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TrajectoryOutputTest : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = fs::temp_directory_path() / "arfm_vo_XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
-};
+using TrajectoryOutputTest = FolderTest;
 
 TEST_F(TrajectoryOutputTest, WritesBothFormatsIntoAFolderThatItMakes) {
   const TrajectoryOutput output({folder_ / "run" / "one", false}, "base_link");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -12,14 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class KeypointMaskTest : public testing::Test {
+class KeypointMaskTest : public FolderTest {
  protected:
-  KeypointMaskTest() {
-    std::string pattern = fs::temp_directory_path() / "arfm_vo_mask_XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~KeypointMaskTest() override { fs::remove_all(folder_); }
-
   /// The left `num_hidden` columns of 100x60 are black.
   std::string Write(int num_hidden) const {
     cv::Mat mask(60, 100, CV_8UC1, cv::Scalar(255));
@@ -31,8 +26,6 @@ class KeypointMaskTest : public testing::Test {
   std::string Refusal(const std::string& path) const {
     return RefusalOf([&] { KeypointMask(path, {100, 60}); });
   }
-
-  fs::path folder_;
 };
 
 Features FeaturesAt(const std::vector<float>& columns) {

@@ -5,20 +5,19 @@
 #include <filesystem>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
 
-class KittiPosesTest : public testing::Test {
+class KittiPosesTest : public FolderTest {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   std::string ErrorOf(const std::string& text) {
     WriteWholeFile(path_, text);
     return RefusalBehind(path_, [&] { ReadKittiPoses(path_); });
   }
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / "arfm_vo_kitti_poses_test.txt").string();
+  const std::string path_ = folder_ / "test.txt";
 };
 
 TEST_F(KittiPosesTest, ReadsTheRowsOfRotationAndTranslation) {

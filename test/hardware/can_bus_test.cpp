@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <system_error>
+#include <vector>
 
 #include "arfm_vo/hardware/file_descriptor.h"
 #include "base/refusal.h"
@@ -20,14 +21,23 @@ struct LoopbackSocket {
   FileDescriptor fd{::socket(AF_INET, SOCK_DGRAM, 0)};
   sockaddr_in address{};
 
-  LoopbackSocket() {
+  /// Of a free port where it is 0.
+  explicit LoopbackSocket(uint16_t port = 0) {
     address.sin_family = AF_INET;
+    address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     ::bind(fd.Get(), reinterpret_cast<sockaddr*>(&address), sizeof(address));
     socklen_t size = sizeof(address);
     ::getsockname(fd.Get(), reinterpret_cast<sockaddr*>(&address), &size);
   }
   uint16_t Port() const { return ntohs(address.sin_port); }
+  void SendTo(uint16_t port, size_t size) const {
+    sockaddr_in to = address;
+    to.sin_port = htons(port);
+    const std::vector<char> bytes(size, 'x');
+    ASSERT_GT(
+        ::sendto(fd.Get(), bytes.data(), size, 0, reinterpret_cast<sockaddr*>(&to), sizeof(to)), 0);
+  }
 };
 
 uint16_t FreePort() { return LoopbackSocket().Port(); }
@@ -66,31 +76,13 @@ TEST_F(CanUdpBusTest, TheOtherEndMayComeBack) {
   EXPECT_EQ(AwaitFrame(*b), kUdpFrame);
 }
 
-TEST_F(CanUdpBusTest, StrangersAndGarbageAreNotFrames) {
+TEST_F(CanUdpBusTest, StrangersAreNotHeardAndDatagramsOfAWrongSizeAreOther) {
   const auto a = OpenCanBus(Address(port_a_, port_b_));
-  const LoopbackSocket stranger;
-  sockaddr_in to = stranger.address;
-  to.sin_port = htons(port_a_);
-  const char garbage[] = "not a frame at all, and longer than one";
-  ASSERT_GT(::sendto(stranger.fd.Get(), garbage, sizeof(garbage), 0,
-                     reinterpret_cast<sockaddr*>(&to), sizeof(to)),
-            0);
-  EXPECT_FALSE(a->Receive());
-}
-
-TEST_F(CanUdpBusTest, DatagramsOfAWrongSizeAreHandedOutAsOther) {
-  const auto a = OpenCanBus(Address(port_a_, port_b_));
-  FileDescriptor peer(::socket(AF_INET, SOCK_DGRAM, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(port_b_);
-  ASSERT_EQ(::bind(peer.Get(), reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-  address.sin_port = htons(port_a_);
+  const LoopbackSocket stranger, peer(port_b_);
   for (const size_t size : {size_t{3}, size_t{64}}) {
-    const std::vector<char> bytes(size, 'x');
-    ::sendto(peer.Get(), bytes.data(), size, 0, reinterpret_cast<sockaddr*>(&address),
-             sizeof(address));
+    stranger.SendTo(port_a_, size);
+    EXPECT_FALSE(a->Receive());
+    peer.SendTo(port_a_, size);
     EXPECT_EQ(AwaitFrame(*a).kind, CanFrameKind::kOther) << size;
   }
 }
@@ -110,6 +102,12 @@ TEST(CanAddress, IsAnInterfaceOrTwoPorts) {
 TEST(CanAddress, AnInterfaceThatIsNotThereIsNamedInTheError) {
   EXPECT_THAT(RefusalOf<std::system_error>([] { OpenCanBus("nocan7"); }),
               testing::HasSubstr("nocan7"));
+}
+
+TEST(CanFrame, HoldsEightBytesAndIsWrittenAsCanDumpDoes) {
+  EXPECT_EQ(ToString(MakeCanFrame(0x111, {0, 100, 0, 0, 0, 0, 0, 0})), "111#0064000000000000");
+  EXPECT_EQ(ToString(MakeCanFrame(0x7, {})), "007#");
+  EXPECT_THROW(MakeCanFrame(1, {0, 1, 2, 3, 4, 5, 6, 7, 8}), std::invalid_argument);
 }
 
 TEST(CanBusState, EachHasANameOfItsOwn) {

@@ -38,23 +38,20 @@ class ChassisLinkTest : public ::testing::Test {
   const DriveCommand standing_{true, true, {}};
 };
 
-TEST_F(ChassisLinkTest, SendsNothingWithoutLeaveToSpeak) {
-  SayMode(ControlMode::kStandby);
-  link_.Send(0, silent_);
-  link_.SendFarewell();
-  EXPECT_EQ(Heard(), "");
-}
-
-TEST_F(ChassisLinkTest, AsksForCanModeAndSendsTheMotion) {
-  SayMode(ControlMode::kStandby);
-  link_.Send(0, {true, true, {0.1, -0.2}});
-  EXPECT_EQ(Heard(), "421#01 111#0064FF3800000000 ");
-}
-
-TEST_F(ChassisLinkTest, InCanModeOnlyTheMotionIsSent) {
-  SayMode(ControlMode::kCan);
-  link_.Send(0, standing_);
-  EXPECT_EQ(Heard(), "111#0000000000000000 ");
+TEST_F(ChassisLinkTest, SendsTheMotionAndAsksForCanModeWhereItMaySpeak) {
+  const struct {
+    ControlMode mode;
+    DriveCommand command;
+    const char* frames;
+  } rows[] = {{ControlMode::kStandby, silent_, ""},
+              {ControlMode::kStandby, {true, true, {0.1, -0.2}}, "421#01 111#0064FF3800000000 "},
+              {ControlMode::kCan, standing_, "111#0000000000000000 "}};
+  for (const auto& [mode, command, frames] : rows) {
+    SayMode(mode);
+    link_.Send(0, command);
+    if (!command.may_speak) link_.SendFarewell();
+    EXPECT_EQ(Heard(), frames);
+  }
 }
 
 TEST_F(ChassisLinkTest, TheRequestIsRepeatedUntilItIsHeard) {
@@ -83,16 +80,10 @@ TEST_F(ChassisLinkTest, TheRemoteControlIsNotArguedWithAndTheModeIsAskedForWhenI
 
 TEST_F(ChassisLinkTest, NoSpeedAboveTheLimitGoesOut) {
   SayMode(ControlMode::kCan);
-  link_.Send(0, {true, true, {0.5, 0}});
-  link_.Send(0, {true, true, {-0.5, 0}});
-  EXPECT_EQ(Heard(), "111#0064000000000000 111#FF9C000000000000 ");
-}
-
-TEST_F(ChassisLinkTest, NoTurnRateAboveTheLimitGoesOut) {
-  SayMode(ControlMode::kCan);
-  link_.Send(0, {true, true, {0, 3}});
-  link_.Send(0, {true, true, {0, -3}});
-  EXPECT_EQ(Heard(), "111#0000015E00000000 111#0000FEA200000000 ");
+  for (const PlanarMotion& motion : {PlanarMotion{0.5, 0}, {-0.5, 0}, {0, 3}, {0, -3}})
+    link_.Send(0, {true, true, motion});
+  EXPECT_EQ(Heard(),
+            "111#0064000000000000 111#FF9C000000000000 111#0000015E00000000 111#0000FEA200000000 ");
 }
 
 TEST_F(ChassisLinkTest, TheLampIsSwitchedOnceAndRepeatedWhileItIsOn) {

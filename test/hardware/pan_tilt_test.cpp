@@ -33,6 +33,10 @@ class PanTiltTest : public testing::Test {
     return StepUntil([&] { return head_->state() == state; }, limit_s);
   }
   bool BecomeReady() { return Reach(PanTiltState::kReady, 60); }
+  void MakeReady(const PanTiltOptions& options = {}) {
+    Make(options);
+    ASSERT_TRUE(BecomeReady());
+  }
   double TrueRad(PtuAxis axis) { return bench_.ptu.Position(axis, bench_.now_s) * kCount; }
 
   SimulatedBench bench_;
@@ -40,8 +44,7 @@ class PanTiltTest : public testing::Test {
 };
 
 TEST_F(PanTiltTest, ReadsLimitsResolutionAndSpeedFromTheUnit) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   const auto pan = head_->properties(PtuAxis::kPan), tilt = head_->properties(PtuAxis::kTilt);
   ASSERT_TRUE(pan && tilt);
   EXPECT_NEAR(pan->resolution_rad, kCount, 1e-12);
@@ -67,8 +70,7 @@ TEST_F(PanTiltTest, HomesAtTheStartWhereAsked) {
 }
 
 TEST_F(PanTiltTest, GoesToAGoalAndSettles) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   ASSERT_TRUE(StepUntil([this] { return head_->IsSettled(); }, 2));
   EXPECT_EQ(head_->MoveTo({0.7, -0.3}), std::nullopt);
   head_->Step();
@@ -82,8 +84,7 @@ TEST_F(PanTiltTest, GoesToAGoalAndSettles) {
 }
 
 TEST_F(PanTiltTest, StampsAnAxisInTheMiddleOfItsRoundTrip) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   ASSERT_EQ(head_->MoveTo({1.5, -0.5}), std::nullopt);
   for (int i = 0; i < 20; ++i, bench_.now_s += 0.02) {
     SimulatedPtu truth = bench_.ptu;  // moves on by itself
@@ -99,8 +100,7 @@ TEST_F(PanTiltTest, StampsAnAxisInTheMiddleOfItsRoundTrip) {
 }
 
 TEST_F(PanTiltTest, RefusesGoalsOutsideTheLimitsBothAxesOrNone) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   bench_.sent.clear();
   EXPECT_THAT(*head_->MoveTo({0.5, 1.0}), testing::HasSubstr("tilt 57.30 deg is outside the limits "
                                                              "-46.65 .. 31.06 deg"));
@@ -119,8 +119,7 @@ TEST_F(PanTiltTest, SaysWhyWhileThereIsNoUnit) {
 }
 
 TEST_F(PanTiltTest, SurvivesAnUnpluggedLineWithGrowingWaits) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   bench_.is_plugged = false;
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kClosed);
@@ -134,8 +133,7 @@ TEST_F(PanTiltTest, SurvivesAnUnpluggedLineWithGrowingWaits) {
 }
 
 TEST_F(PanTiltTest, AUnitThatIsSilentIsOpenedAnew) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   bench_.disturb = [](const std::string&) { return std::string(); };
   EXPECT_TRUE(Reach(PanTiltState::kClosed, 30));
   bench_.disturb = [](const std::string& bytes) { return bytes; };
@@ -143,8 +141,7 @@ TEST_F(PanTiltTest, AUnitThatIsSilentIsOpenedAnew) {
 }
 
 TEST_F(PanTiltTest, AnUnexpectedLimitMeansTheCountIsLostUntilHomed) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   EXPECT_FALSE(head_->HasLostPosition());
   bench_.ptu.HitLimit(PtuAxis::kPan, 40, bench_.now_s);
   bench_.now_s += 0.05;
@@ -156,8 +153,7 @@ TEST_F(PanTiltTest, AnUnexpectedLimitMeansTheCountIsLostUntilHomed) {
 }
 
 TEST_F(PanTiltTest, ALateReplyIsNotTakenForTheNextQuestions) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   ASSERT_EQ(head_->MoveTo({1.0, -0.5}), std::nullopt);
   ASSERT_TRUE(StepUntil([this] { return head_->IsSettled(); }, 5));
   // Everything comes 0.3 s late for a while: later than the driver waits.
@@ -181,8 +177,7 @@ TEST_F(PanTiltTest, ALateReplyIsNotTakenForTheNextQuestions) {
 }
 
 TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
+  MakeReady();
   LineNoise noise(46);
   RandomEngine engine(7);
   int num_read = 0;
@@ -218,29 +213,23 @@ TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
   EXPECT_EQ(bench_.ptu.num_eeprom_writes(), 0);
 }
 
-TEST_F(PanTiltTest, ALineThatGoesWithACommandClosesTheUnitAndIsNamed) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
-  bench_.is_plugged = false;
-  EXPECT_THAT(*head_->MoveTo({0.2, 0.1}), testing::HasSubstr("line is gone"));
-  EXPECT_EQ(head_->state(), PanTiltState::kClosed);
-  EXPECT_FALSE(head_->properties(PtuAxis::kPan));
-  EXPECT_FALSE(head_->counts());
-}
-
-TEST_F(PanTiltTest, ALineThatGoesWithHomingClosesTheUnit) {
-  Make();
-  ASSERT_TRUE(BecomeReady());
-  bench_.is_plugged = false;
-  EXPECT_THAT(*head_->Home(), testing::HasSubstr("line is gone"));
-  EXPECT_EQ(head_->state(), PanTiltState::kClosed);
+TEST_F(PanTiltTest, ALineThatGoesWithACommandOrHomingClosesTheUnitAndIsNamed) {
+  for (const bool is_homing : {false, true}) {
+    bench_.is_plugged = true;
+    MakeReady();
+    bench_.is_plugged = false;
+    EXPECT_THAT(*(is_homing ? head_->Home() : head_->MoveTo({0.2, 0.1})),
+                testing::HasSubstr("line is gone"));
+    EXPECT_EQ(head_->state(), PanTiltState::kClosed);
+    EXPECT_FALSE(head_->properties(PtuAxis::kPan));
+    EXPECT_FALSE(head_->counts());
+  }
 }
 
 TEST_F(PanTiltTest, HomingThatDoesNotEndClosesTheUnit) {
   PanTiltOptions options;
   options.home_timeout_s = 1;
-  Make(options);
-  ASSERT_TRUE(BecomeReady());
+  MakeReady(options);
   ASSERT_EQ(head_->Home(), std::nullopt);
   EXPECT_THAT(*head_->MoveTo({0.1, {}}), testing::HasSubstr("homing"));
   bench_.disturb = [](const std::string&) { return std::string(); };
@@ -248,23 +237,17 @@ TEST_F(PanTiltTest, HomingThatDoesNotEndClosesTheUnit) {
   EXPECT_THAT(head_->problem(), testing::HasSubstr("homing"));
 }
 
-TEST_F(PanTiltTest, ASpeedThatTheUnitDoesNotHaveIsSaidWithItsLimits) {
-  PanTiltOptions options;
-  options.pan_speed_rad_s = 50;
-  Make(options);
-  ASSERT_TRUE(BecomeReady());
-  EXPECT_THAT(head_->problem(),
-              testing::AllOf(testing::HasSubstr("pan speed"), testing::HasSubstr("is outside")));
-}
-
-TEST_F(PanTiltTest, ASpeedWithinTheLimitsIsSet) {
+TEST_F(PanTiltTest, ASpeedWithinTheLimitsIsSetAndAnotherSaidWithThem) {
   PanTiltOptions options;
   options.pan_speed_rad_s = 0.2;
-  Make(options);
-  ASSERT_TRUE(BecomeReady());
+  MakeReady(options);
   EXPECT_EQ(head_->problem(), "");
   const auto pan = head_->properties(PtuAxis::kPan);
   EXPECT_NEAR(pan->speed * pan->resolution_rad, 0.2, pan->resolution_rad);
+  options.pan_speed_rad_s = 50;
+  MakeReady(options);
+  EXPECT_THAT(head_->problem(),
+              testing::AllOf(testing::HasSubstr("pan speed"), testing::HasSubstr("is outside")));
 }
 
 TEST(PanTiltOptions, BadValuesAreNamed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace arfm_vo {
@@ -36,11 +37,17 @@ TEST(PtuCommand, BytesAreThoseOfTheManual) {
   EXPECT_EQ(FormatPtuSet(kTilt, 'S', 600), "ts600 ");
 }
 
-TEST(PtuReplyParser, RepliesOfTheManualInTerseMode) {
-  EXPECT_EQ(ParseAll("*\r\n"), std::vector{Done()});
-  EXPECT_EQ(ParseAll("* 22\r\n"), std::vector{Value("22")});
-  EXPECT_EQ(ParseAll("* -2500\r"), std::vector{Value("-2500")});
-  EXPECT_EQ(ParseAll("* 185.1428\r\n"), std::vector{Value("185.1428")});
+TEST(PtuReplyParser, TerseRepliesOfTheManualAndLimitHitsBetweenAndWithinThem) {
+  const std::pair<const char*, std::vector<PtuReply>> rows[] = {
+      {"*\r\n", {Done()}},
+      {"* 22\r\n", {Value("22")}},
+      {"* -2500\r", {Value("-2500")}},
+      {"* 185.1428\r\n", {Value("185.1428")}},
+      {"!T!T!P!P*\r\n", {Hit(kTilt), Hit(kTilt), Hit(kPan), Hit(kPan), Done()}},  // a reset
+      {"!P* 22\r\n!T", {Hit(kPan), Hit(kTilt), Value("22")}},
+      {"* 25!P00\r\n", {Hit(kPan), Value("2500")}},
+      {"*!P\r\n", {Hit(kPan), Done()}}};
+  for (const auto& [bytes, replies] : rows) EXPECT_EQ(ParseAll(bytes), replies) << bytes;
 }
 
 TEST(PtuReplyParser, RepliesOfTheManualInVerboseModeWithEcho) {
@@ -59,17 +66,6 @@ TEST(PtuReplyParser, RepliesOfTheManualInVerboseModeWithEcho) {
   EXPECT_EQ(ParsePtuNumber(replies[5].text, kTilt, kVerbose), 604);
   EXPECT_EQ(replies[6], Error("Maximum allowable Pan position is 3090"));
   EXPECT_EQ(replies[7], Error("Pan speed cannot exceed 2902 positions/sec"));
-}
-
-TEST(PtuReplyParser, ResetEndsWithTheLimitsOfBothAxes) {
-  EXPECT_EQ(ParseAll("!T!T!P!P*\r\n"),
-            (std::vector{Hit(kTilt), Hit(kTilt), Hit(kPan), Hit(kPan), Done()}));
-}
-
-TEST(PtuReplyParser, LimitHitsBetweenAndWithinReplies) {
-  EXPECT_EQ(ParseAll("!P* 22\r\n!T"), (std::vector{Hit(kPan), Hit(kTilt), Value("22")}));
-  EXPECT_EQ(ParseAll("* 25!P00\r\n"), (std::vector{Hit(kPan), Value("2500")}));
-  EXPECT_EQ(ParseAll("*!P\r\n"), (std::vector{Hit(kPan), Done()}));
 }
 
 TEST(PtuReplyParser, PiecesOfAnySizeGiveTheSameReplies) {

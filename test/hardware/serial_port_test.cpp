@@ -87,34 +87,5 @@ TEST(SerialPort, SaysWhatDoesNotOpen) {
   EXPECT_THROW(SerialPort(Link(), 12345), std::invalid_argument);
 }
 
-TEST(SimulatedPtuPort, TheDriverMovesItAndSurvivesThePlugOverARealLine) {
-  SimulatedPtuOptions simulation;
-  simulation.baud = 115200;
-  simulation.reset_time_s = 0.1;
-  SimulatedPtuPort unit(Link(), simulation);
-  PanTiltOptions options;
-  options.reopen.first_s = 0.01;
-  PanTilt head(
-      options, [] { return std::make_unique<SerialPort>(Link(), 9600); }, &MonotonicNow);
-  const auto step_until = [&](const std::function<bool()>& is_reached) {
-    for (const double limit = MonotonicNow() + 10; MonotonicNow() < limit;) {
-      head.Step();
-      if (is_reached()) return true;
-    }
-    return false;
-  };
-  const auto is_ready = [&] { return head.state() == PanTiltState::kReady; };
-  ASSERT_TRUE(step_until(is_ready)) << head.problem();
-  ASSERT_EQ(head.MoveTo({0.2, -0.1}), std::nullopt);
-  ASSERT_TRUE(step_until([&] { return head.IsSettled(); }));
-  EXPECT_NEAR(unit.Position(PtuAxis::kPan), 0.2 * 180 / M_PI * 3600 / 185.1428, 0.5);
-  unit.Unplug();
-  ASSERT_TRUE(step_until([&] { return head.state() == PanTiltState::kClosed; }));
-  unit.Plug();
-  ASSERT_TRUE(step_until(is_ready)) << head.problem();
-  EXPECT_EQ(head.num_reopened(), 1);
-  ASSERT_TRUE(step_until([&] { return head.IsSettled(); }));  // where it was left
-}
-
 }  // namespace
 }  // namespace arfm_vo

@@ -27,15 +27,6 @@ TEST(SimulatedPtu, AnswersTheManualsExamples) {
   EXPECT_EQ(Converse(ptu, now, "XX "), "! Illegal command entered\r\n");
 }
 
-TEST(SimulatedPtu, GoesWhereItIsSent) {
-  SimulatedPtu ptu;
-  double now = 0;
-  Converse(ptu, now, "ED FT ");
-  EXPECT_EQ(Converse(ptu, now, "PP-2500 "), "*\r\n");
-  now += 4;
-  EXPECT_EQ(Converse(ptu, now, "PP "), "* -2500\r\n");
-}
-
 TEST(SimulatedPtu, MovesUnderTrapezoidalAcceleration) {
   SimulatedPtuAxisOptions options;  // 1000 counts/s, 2000 counts/s^2, base 57 counts/s
   PtuAxisMotion motion(options);
@@ -68,14 +59,6 @@ TEST(SimulatedPtu, TurnsBackOnTheFly) {
   }
   EXPECT_NEAR(highest, turning + 1000.0 * 1000 / (2 * 2000), 30);  // braking distance
   EXPECT_EQ(motion.Position(), -100);
-}
-
-TEST(SimulatedPtu, ResetTakesItsTimeAndEndsWithItsWord) {
-  SimulatedPtu ptu;
-  double now = 0;
-  Converse(ptu, now, "ED ");
-  EXPECT_EQ(Converse(ptu, now, "R ", 7), "");
-  EXPECT_EQ(Converse(ptu, now, "", 2), "!T!T!P!P*\r\n");
 }
 
 TEST(SimulatedPtu, AnInstantOneAnswersWhileTheClockStandsAndMovesAsItRuns) {

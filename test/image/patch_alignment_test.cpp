@@ -118,16 +118,36 @@ TEST(PatchAlignment, AWarpThatChangesNothingGivesTheSamePatch) {
   EXPECT_LT(cv::norm(difference), 1e-3);
 }
 
-TEST(PatchAlignment, OfAFlatImageHasTooLittleTexture) {
-  const cv::Mat flat(kSize, kSize, CV_8U, cv::Scalar(100));
-  EXPECT_EQ(AlignMiddle(flat, flat, {0, 0}).status, AlignmentStatus::kLowTexture);
-}
-
-TEST(PatchAlignment, OfAStraightEdgeHasTooLittleTexture) {
+TEST(PatchAlignment, SaysWhyItFailed) {
+  const BlobTexture texture(kSize, 1.5, 1);
+  const cv::Mat image = texture.Render(0, 0), flat(kSize, kSize, CV_8U, cv::Scalar(100));
   cv::Mat edge(kSize, kSize, CV_8U, cv::Scalar(50));
   edge.colRange(kSize / 2, kSize).setTo(200);
   cv::GaussianBlur(edge, edge, {0, 0}, 1.5);
-  EXPECT_EQ(AlignMiddle(edge, edge, {0.5f, 0}).status, AlignmentStatus::kLowTexture);
+  PatchAlignmentLimits near = LooseLimits(), quick = LooseLimits(), sharp = LooseLimits();
+  near.max_shift_px = 1;
+  quick.max_iterations = 1;
+  sharp.max_sigma_px = 1e-6;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const struct {
+    AlignmentStatus status;
+    cv::Mat image, moved;
+    cv::Point2f offset = {0, 0};
+    PatchAlignmentLimits limits = LooseLimits();
+  } rows[] = {{AlignmentStatus::kLowTexture, flat, flat},
+              {AlignmentStatus::kLowTexture, edge, edge, {0.5f, 0}},
+              {AlignmentStatus::kLowTexture, image, image, {0.3f, 0}, sharp},
+              {AlignmentStatus::kLowCorrelation, image, 255 - image},
+              {AlignmentStatus::kMovedTooFar, image, texture.Render(1.5, 0), {0, 0}, near},
+              {AlignmentStatus::kNotConverged, image, texture.Render(1, 0), {0, 0}, quick},
+              {AlignmentStatus::kOutOfImage, image, image, {78, 0}},
+              {AlignmentStatus::kOutOfImage, image, image, {0, -78}},
+              {AlignmentStatus::kOutOfImage, image, image, {nan, 0}},
+              {AlignmentStatus::kOutOfImage, image, image, {1e9f, 0}},
+              {AlignmentStatus::kOutOfImage, image, image, {-1e9f, 0}}};
+  for (const auto& row : rows)
+    EXPECT_EQ(AlignMiddle(row.image, row.moved, row.offset, row.limits).status, row.status)
+        << &row - rows;
 }
 
 TEST(PatchAlignment, InAnotherTextureHasLowCorrelationOrDoesNotSettle) {
@@ -138,36 +158,6 @@ TEST(PatchAlignment, InAnotherTextureHasLowCorrelationOrDoesNotSettle) {
   for (int x = 20; x < 140; x += 5) {
     const cv::Point2f point(x, 80);
     EXPECT_FALSE(AlignPatch(*Patch::Sample(image, point), other, point, limits).IsAligned());
-  }
-}
-
-TEST(PatchAlignment, InTheNegativeHasLowCorrelation) {
-  const cv::Mat image = BlobTexture(kSize, 1.5, 1).Render(0, 0);
-  EXPECT_EQ(AlignMiddle(image, 255 - image, {0, 0}).status, AlignmentStatus::kLowCorrelation);
-}
-
-TEST(PatchAlignment, MovesNoFartherThanAllowed) {
-  const BlobTexture texture(kSize, 2.5, 1);
-  PatchAlignmentLimits limits = LooseLimits();
-  limits.max_shift_px = 1;
-  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1.5, 0), {0, 0}, limits);
-  EXPECT_EQ(alignment.status, AlignmentStatus::kMovedTooFar);
-}
-
-TEST(PatchAlignment, GivesUpAfterTooManyIterations) {
-  const BlobTexture texture(kSize, 1.5, 1);
-  PatchAlignmentLimits limits = LooseLimits();
-  limits.max_iterations = 1;
-  const auto alignment = AlignMiddle(texture.Render(0, 0), texture.Render(1, 0), {0, 0}, limits);
-  EXPECT_EQ(alignment.status, AlignmentStatus::kNotConverged);
-}
-
-TEST(PatchAlignment, OutsideTheImageIsSaid) {
-  const cv::Mat image = BlobTexture(kSize, 1.5, 1).Render(0, 0);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const cv::Point2f& offset : {cv::Point2f(78, 0), cv::Point2f(0, -78), cv::Point2f(nan, 0),
-                                    cv::Point2f(1e9f, 0), cv::Point2f(-1e9f, 0)}) {
-    EXPECT_EQ(AlignMiddle(image, image, offset).status, AlignmentStatus::kOutOfImage) << offset;
   }
 }
 

@@ -6,12 +6,13 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/base/whole_file.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
 
-class PngImageTest : public testing::Test {
+class PngImageTest : public FolderTest {
  protected:
   PngImageTest() {
     cv::Mat image(40, 50, CV_8UC1);
@@ -19,7 +20,6 @@ class PngImageTest : public testing::Test {
     cv::imwrite(path_, image);
     bytes_ = ReadWholeFile(path_);
   }
-  ~PngImageTest() override { std::filesystem::remove(path_); }
 
   /// What reading a file of these bytes complains of, without the file's name.
   std::string ErrorOf(const std::string& bytes) {
@@ -27,8 +27,7 @@ class PngImageTest : public testing::Test {
     return RefusalBehind(path_, [&] { ReadGreyPng(path_, window_); });
   }
 
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / "arfm_vo_png_image_test.png").string();
+  const std::string path_ = folder_ / "test.png";
   std::string bytes_;
   GreyWindow window_;
 };

@@ -61,6 +61,12 @@ class LocaliserTest : public ::testing::Test {
     return {"map", kCamera, {}, std::move(keyframes)};
   }
 
+  Localiser WithMap(int num_keyframes) const {
+    Localiser localiser;
+    localiser.Keep(MapOf(Epoch(0, num_keyframes, 0)), kMaxPoints);
+    return localiser;
+  }
+
   /// View `number` of a drive that began at `first_m` and says that each metre is `said_m`.
   std::optional<Rigid3> Drive(Localiser& localiser, double first_m, int number,
                               double said_m = 1) const {
@@ -83,8 +89,7 @@ class LocaliserTest : public ::testing::Test {
 };
 
 TEST_F(LocaliserTest, IsFoundByTwoViewsAndNotBefore) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  Localiser localiser = WithMap(10);
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
   EXPECT_FALSE(Drive(localiser, 4.3, 0));
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
@@ -98,8 +103,7 @@ TEST_F(LocaliserTest, IsFoundByTwoViewsAndNotBefore) {
 }
 
 TEST_F(LocaliserTest, IsFoundAtRest) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  Localiser localiser = WithMap(10);
   EXPECT_FALSE(Drive(localiser, 4.3, 0));
   EXPECT_TRUE(Drive(localiser, 4.3, 0));
 }
@@ -110,23 +114,20 @@ TEST_F(LocaliserTest, APoseOnWhichAThirdOfTheMatchesAgreeMayBeChance) {
   for (const bool is_exact : {true, false}) {
     for (size_t i = 30; !is_exact && i + 1 < view.size(); ++i)
       std::swap(view[i].observation, view[i + 1].observation);
-    Localiser localiser;
-    localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+    Localiser localiser = WithMap(10);
     for (int i = 0; i < 3; ++i) localiser.Localise(view, Rigid3(), Rigid3());
     EXPECT_EQ(localiser.state() == MapState::kLocalised, is_exact);
   }
 }
 
 TEST_F(LocaliserTest, PlacesThatAreNotWhereTheMotionLeadsAreNotTaken) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  Localiser localiser = WithMap(10);
   for (int k = 0; k < 8; ++k) EXPECT_FALSE(Drive(localiser, 1, k, 1.5));
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
 }
 
 TEST_F(LocaliserTest, ElsewhereNothingIsFound) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 8, 0)), kMaxPoints);
+  Localiser localiser = WithMap(8);
   for (int k = 0; k < 10; ++k) EXPECT_FALSE(Drive(localiser, 30, k));
   EXPECT_EQ(localiser.state(), MapState::kLocalising);
 }
@@ -183,8 +184,7 @@ TEST_F(LocaliserTest, APlaceThatContradictsAStatementIsNotTaken) {
   };
   for (const auto& [stated_m, sigma_m, is_taken] :
        {Case{4, 0.5, true}, {4.8, 0.5, true}, {9, 0.5, false}, {9, 3, true}, {9, 0, true}}) {
-    Localiser localiser;
-    localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+    Localiser localiser = WithMap(10);
     const Eigen::Vector3d variances(sigma_m * sigma_m, sigma_m * sigma_m, 0.07 * sigma_m);
     localiser.Move(Rigid3(), {At(stated_m), At(0), variances.asDiagonal()});
     for (int k = 0; k < 4; ++k) Drive(localiser, 4, k);
@@ -195,8 +195,7 @@ TEST_F(LocaliserTest, APlaceThatContradictsAStatementIsNotTaken) {
 }
 
 TEST_F(LocaliserTest, AStatementTakesAFoundDriveOutOfTheMapUntilItIsFoundAgain) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  Localiser localiser = WithMap(10);
   for (int k = 0; k < 3; ++k) Drive(localiser, 2, k);
   ASSERT_EQ(localiser.state(), MapState::kLocalised);
   localiser.Move(At(1), {At(3), At(0), Eigen::Matrix3d::Zero()});
@@ -208,8 +207,7 @@ TEST_F(LocaliserTest, AStatementTakesAFoundDriveOutOfTheMapUntilItIsFoundAgain) 
 }
 
 TEST_F(LocaliserTest, WhatSeesTheSameIsKeptOnceAndAnUnseenFrameNotAtAll) {
-  Localiser localiser;
-  localiser.Keep(MapOf(Epoch(0, 10, 0)), kMaxPoints);
+  Localiser localiser = WithMap(10);
   const size_t known = NumPoints(localiser.keyframes());
   std::vector<KnownKeyframe> again = Epoch(0, 10, 0);
   EXPECT_EQ(NumPoints(localiser.WithNewest(again, kCamera).keyframes), known);

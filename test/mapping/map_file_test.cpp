@@ -10,6 +10,7 @@
 
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/base/whole_file.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -44,12 +45,8 @@ std::string Refusal(const std::string& bytes) {
   return RefusalOf([&] { ParseMap(bytes, "a.map"); });
 }
 
-class MapFileTest : public ::testing::Test {
+class MapFileTest : public FolderTest {
  protected:
-  MapFileTest() { fs::create_directories(folder_); }
-  ~MapFileTest() override { fs::remove_all(folder_); }
-
-  const fs::path folder_ = fs::temp_directory_path() / ("map_file_" + std::to_string(getpid()));
   const std::string path_ = folder_ / "a.map";
 };
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdio>
-#include <string>
+#include <utility>
 
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/odometry/session.h"
@@ -42,21 +40,6 @@ class OdometryChain {
   StereoFrontend frontend_;
   Session session_;
   PlacedMap map_;
-};
-
-/// A place is right within 5 cm and 1 % of the distance of what is seen there, and 1 degree.
-struct Result {
-  int starts = 0, found = 0, wrong = 0;
-  double wait_s = 0, worst_m = 0, worst_deg = 0;
-
-  void Judge(const Rigid3& error, double distance_m, const std::string& text) {
-    const double error_m = error.translation.norm(), error_deg = error.Angle() * 180 / M_PI;
-    worst_m = std::max(worst_m, error_m);
-    worst_deg = std::max(worst_deg, error_deg);
-    if (error_m <= 0.05 + 0.01 * distance_m && error_deg <= 1) return;
-    ++wrong;
-    std::printf("  wrong: %.3f m, %.2f deg: %s\n", error_m, error_deg, text.c_str());
-  }
 };
 
 }  // namespace arfm_vo

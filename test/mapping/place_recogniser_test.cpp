@@ -5,56 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "matching/random_features.h"
+#include "mapping/random_place.h"
 
 namespace arfm_vo {
 namespace {
-
-constexpr int kPoints = 120;  ///< of a place
 
 /// Knows five places; what looks at one of them stands aside, and sees its points' looks a little
 /// changed.
 class PlaceRecogniserTest : public ::testing::Test {
  protected:
-  struct Point {
-    Eigen::Vector3d x_in_place;
-    std::vector<float> descriptor;  ///< [64] unit
-    int8_t sign;
-  };
-  using Points = std::vector<Point>;
+  using Points = std::vector<RandomPoint>;
 
   PlaceRecogniserTest() {
-    for (int i = 0; i < 5; ++i) places_.push_back(MakePlace());
-  }
-
-  double Random(double low, double high) { return low + (high - low) * RandomUnit(engine_); }
-
-  Points MakePlace() {
-    Points points;
-    for (int i = 0; i < kPoints; ++i) {
-      Point point{{Random(-3, 3), Random(-2, 2), Random(4, 9)},
-                  std::vector<float>(64),
-                  static_cast<int8_t>(i % 2 == 0 ? 1 : -1)};
-      for (float& value : point.descriptor) value = static_cast<float>(Random(-1, 1));
-      Normalise(point.descriptor.data());
-      points.push_back(point);
-    }
-    return points;
-  }
-
-  Appearance Look(const Point& point) {
-    std::vector<float> descriptor = point.descriptor;
-    for (float& value : descriptor) value += static_cast<float>(Random(-0.02, 0.02));
-    Normalise(descriptor.data());
-    return {descriptor.data(), point.sign};
+    for (int i = 0; i < 5; ++i) places_.push_back(MakeRandomPlace(engine_));
   }
 
   std::vector<SeenPoint> See(const Points& points) {
     std::vector<SeenPoint> view;
-    for (const Point& point : points) {
+    for (const RandomPoint& point : points) {
       auto& [id, appearance, observation] = view.emplace_back();
       id = static_cast<LandmarkId>(view.size()) - 1;
-      appearance = Look(point);
+      appearance = point.LookAgain(engine_);
       observation.pixels = camera_.ProjectStereo(aside_ * point.x_in_place);
     }
     return view;
@@ -68,7 +39,7 @@ class PlaceRecogniserTest : public ::testing::Test {
     LandmarkId next = 0;
     for (const Points& points : places_) {
       Place place;
-      for (const Point& point : points) {
+      for (const RandomPoint& point : points) {
         place.push_back({next++, point.x_in_place, {point.descriptor.data(), point.sign}});
       }
       recogniser.Add(place);
@@ -104,7 +75,7 @@ TEST_F(PlaceRecogniserTest, APoseIsNeverMoreCertainThanThePlaceItself) {
 }
 
 TEST_F(PlaceRecogniserTest, DoesNotFindAnUnknownPlaceNorOneOfTooFewPoints) {
-  EXPECT_FALSE(Find(See(MakePlace())));
+  EXPECT_FALSE(Find(See(MakeRandomPlace(engine_))));
   EXPECT_FALSE(Find({}));
   for (Points& points : places_) points.resize(24);
   EXPECT_FALSE(Find(See(places_[0])));
@@ -120,18 +91,18 @@ TEST_F(PlaceRecogniserTest, PointsThatLookAlikeAndLieElsewhereAreNoPlace) {
 
 TEST_F(PlaceRecogniserTest, DarkOnBrightIsNotBrightOnDark) {
   Points points = places_[0];
-  for (Point& point : points) point.sign = static_cast<int8_t>(-point.sign);
+  for (RandomPoint& point : points) point.sign = static_cast<int8_t>(-point.sign);
   EXPECT_FALSE(Find(See(points)));
 }
 
 TEST_F(PlaceRecogniserTest, AFewPointsThatLookAlikeAreNoPlace) {
-  Points points = MakePlace();
+  Points points = MakeRandomPlace(engine_);
   std::copy(places_[0].begin(), places_[0].begin() + 40, points.begin());
   const auto found = Find(See(points));
   ASSERT_TRUE(found);
   EXPECT_GE(found->same.size(), 30u);
   EXPECT_LE(found->same.size(), 40u);
-  points = MakePlace();
+  points = MakeRandomPlace(engine_);
   std::copy(places_[0].begin(), places_[0].begin() + 24, points.begin());
   EXPECT_FALSE(Find(See(points)));
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "arfm_vo/matching/flann_matcher.h"
 #include "matching/exact_kernel.h"
 #include "matching/random_features.h"
 
@@ -52,19 +53,6 @@ Features AxisFeatures(const std::vector<int>& axes) {
     features.descriptors.at<float>(static_cast<int>(i), axes[i]) = 1;
   }
   return features;
-}
-
-TEST(ExactMatcher, FindsEqualDescriptorsAndTheirDistances) {
-  const auto found = FindNeighboursExactly(AxisFeatures({3, 63}), AxisFeatures({63, 7, 3}));
-  ASSERT_EQ(found.of_first.size(), 2u);
-  EXPECT_EQ(found.of_first[0].nearest, 2);
-  EXPECT_EQ(found.of_first[1].nearest, 0);
-  EXPECT_FLOAT_EQ(found.of_first[0].squared_distance, 0);
-  EXPECT_FLOAT_EQ(found.of_first[0].second_squared_distance, 2);
-  ASSERT_EQ(found.of_second.size(), 3u);
-  EXPECT_EQ(found.of_second[0].nearest, 1);
-  EXPECT_EQ(found.of_second[2].nearest, 0);
-  EXPECT_FLOAT_EQ(found.of_second[1].squared_distance, 2);
 }
 
 TEST(ExactMatcher, OfEqualCandidatesTheFirstWinsAndTheRatioIsOne) {
@@ -131,29 +119,55 @@ TEST_P(ExactMatcherSizes, BothKernelsGiveTheSameBits) {
             KernelScores(SearchExactlyAvx2, first, second).All());
 }
 
-TEST(ExactMatcher, FindsAllOfNoisyCopies) {
-  const Features first = RandomFeatures(500, 3);
-  const Features second = ReversedWithNoise(first, 0.1, 4);
-  const auto found = FindNeighboursExactly(first, second);
-  for (int i = 0; i < first.size(); ++i) EXPECT_EQ(found.of_first[i].nearest, 499 - i);
+/// What holds of both searches.
+class NeighbourSearch
+    : public testing::TestWithParam<TwoWayNeighbours (*)(const Features&, const Features&)> {
+ protected:
+  static TwoWayNeighbours Find(const Features& first, const Features& second) {
+    return GetParam()(first, second);
+  }
+};
+
+TEST_P(NeighbourSearch, FindsNoisyCopiesBothWays) {
+  const Features first = RandomFeatures(300, 1), second = ReversedWithNoise(first, 0.02, 2);
+  const auto found = Find(first, second);
+  int num_right = 0;
+  for (int i = 0; i < 300; ++i) {
+    num_right += found.of_first[i].nearest == 299 - i;
+    num_right += found.of_second[299 - i].nearest == i;
+  }
+  EXPECT_GT(num_right, GetParam() == FindNeighboursExactly ? 599 : 570);
 }
 
-TEST(ExactMatcher, TheLaplacianSignSplitsCandidates) {
-  Features first = AxisFeatures({1, 2}), second = AxisFeatures({1, 2});
-  second.keypoints[0].laplacian_sign = -1;
-  const auto found = FindNeighboursExactly(first, second);
-  EXPECT_EQ(found.of_first[0].nearest, 1);
-  EXPECT_EQ(found.of_second[0].nearest, -1);
+TEST_P(NeighbourSearch, DistancesAreSquaredEuclidean) {
+  const auto found = Find(AxisFeatures({3, 63}), AxisFeatures({63, 7, 3}));
+  EXPECT_EQ(found.of_first[0].nearest, 2);
+  EXPECT_EQ(found.of_first[1].nearest, 0);
+  EXPECT_FLOAT_EQ(found.of_first[0].squared_distance, 0);
+  EXPECT_FLOAT_EQ(found.of_first[0].second_squared_distance, 2);
+  EXPECT_FLOAT_EQ(found.of_second[1].squared_distance, 2);
 }
 
-TEST(ExactMatcher, EmptyInputFindsNothing) {
-  const Features none, some = AxisFeatures({1, 2});
-  const auto found = FindNeighboursExactly(none, some);
-  EXPECT_TRUE(found.of_first.empty());
-  ASSERT_EQ(found.of_second.size(), 2u);
-  EXPECT_EQ(found.of_second[0].nearest, -1);
-  EXPECT_TRUE(FindNeighboursExactly(some, none).of_second.empty());
+TEST_P(NeighbourSearch, OneCandidateHasNoSecondAndNoneIsNoNeighbour) {
+  const Features none, one = AxisFeatures({1}), some = AxisFeatures({1, 2});
+  EXPECT_EQ(Find(some, one).of_first[1].nearest, 0);
+  EXPECT_EQ(Find(some, one).of_first[1].second_squared_distance, Neighbours::kNone);
+  EXPECT_TRUE(Find(none, some).of_first.empty());
+  ASSERT_EQ(Find(none, some).of_second.size(), 2u);
+  EXPECT_EQ(Find(none, some).of_second[0].nearest, -1);
+  EXPECT_TRUE(Find(some, none).of_second.empty());
 }
+
+TEST_P(NeighbourSearch, WrongDescriptorShapeThrows) {
+  Features narrow = AxisFeatures({1, 2}), short_of_one = narrow;
+  narrow.descriptors = narrow.descriptors.colRange(0, 32);
+  short_of_one.keypoints.pop_back();
+  EXPECT_THROW(Find(narrow, AxisFeatures({1})), std::invalid_argument);
+  EXPECT_THROW(Find(AxisFeatures({1}), short_of_one), std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, NeighbourSearch,
+                         testing::Values(&FindNeighboursExactly, &FindNeighboursByFlann));
 
 TEST(ExactMatcher, DescriptorsThatAreNotFiniteAreNobodysNeighbours) {
   Features first = AxisFeatures({1, 2, 3}), second = AxisFeatures({1, 2, 3});
@@ -164,15 +178,6 @@ TEST(ExactMatcher, DescriptorsThatAreNotFiniteAreNobodysNeighbours) {
   EXPECT_EQ(found.of_second[2].nearest, -1);
   EXPECT_EQ(found.of_first[0].nearest, 0);
   EXPECT_NE(found.of_first[2].nearest, 2);
-}
-
-TEST(ExactMatcher, WrongDescriptorShapeThrows) {
-  Features wrong = AxisFeatures({1, 2});
-  wrong.descriptors = wrong.descriptors.colRange(0, 32);
-  EXPECT_THROW(FindNeighboursExactly(wrong, AxisFeatures({1})), std::invalid_argument);
-  wrong = AxisFeatures({1, 2});
-  wrong.keypoints.pop_back();
-  EXPECT_THROW(FindNeighboursExactly(AxisFeatures({1}), wrong), std::invalid_argument);
 }
 
 }  // namespace

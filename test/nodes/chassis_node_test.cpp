@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <regex>
 
@@ -24,24 +25,25 @@ class ChassisNodeTest : public ::testing::Test {
   static void SetUpTestSuite() { world_ = new World; }
   static void TearDownTestSuite() { delete world_; }
   void SetUp() override { ASSERT_TRUE(world_->IsConnected()); }
+  void TearDown() override {
+    std_srvs::Trigger stop;  // there is nobody to take it where the test has ended the node
+    ros::service::call("chassis_node/stop", stop);
+  }
 
   static bool Moves() {
     return world_->RunUntil([] { return world_->log_.last.forward_mps > 0.09; });
   }
   static void DriveFarAhead() {
-    Drive([] { world_->SendGoal(40, 0); });
+    world_->Drive([] { world_->SendGoal(40, 0); });
   }
-  /// A machine that holds one of us up for a second stops the rover: then once more.
-  template <class Command>
-  static void Drive(Command&& command) {
-    bool moves = false;
-    for (int i = 0; i < 5 && !moves; ++i) {
-      if (!world_->RunUntil([] { return world_->Call("start").success; })) break;
-      command();
-      moves = world_->RunUntil([] { return world_->log_.last.forward_mps > 0.09; }, 12);
-    }
-    ASSERT_TRUE(moves) << world_->status_.state_text << ": " << world_->status_.reason;
-    world_->held_up_s_ = 0;
+  /// Stops within `limit_s` of what is injected, not counting what a machine that is too busy holds
+  /// us up for, and says why.
+  static void ExpectToStop(const std::function<void()>& inject, double limit_s,
+                           const std::string& reason) {
+    const double injected_s = World::Now();
+    inject();
+    EXPECT_LT(SecondsToStop(injected_s), limit_s + kPatience_s);
+    EXPECT_TRUE(Says(reason)) << world_->status_.reason;
   }
   /// Waits for the stop and says how long after `since_s` it was on the bus, less what a machine
   /// that is too busy to run this test held it up for; the node it may hold up once more.
@@ -128,7 +130,7 @@ TEST_F(ChassisNodeTest, DrivesToAGoalBeforeTheRoverAndReportsIt) {
 }
 
 TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
-  ASSERT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  ASSERT_TRUE(world_->Start());
   const Eigen::Vector2d start = Place().head<2>(), corner(start.x() + 0.3, start.y()),
                         end(start.x() + 0.3, start.y() + 0.35);
   const int num_arrived = NumArrived();
@@ -145,10 +147,7 @@ TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
 
 TEST_F(ChassisNodeTest, TheStopServiceStops) {
   DriveFarAhead();
-  const double called_s = World::Now();
-  world_->Call("stop");
-  EXPECT_LT(SecondsToStop(called_s), kPatience_s);
-  EXPECT_TRUE(Says("stopped by hand"));
+  ExpectToStop([] { world_->Call("stop"); }, 0, "stopped by hand");
 }
 
 TEST_F(ChassisNodeTest, TheEmergencyStopTopicStopsAndForbidsStart) {
@@ -160,9 +159,8 @@ TEST_F(ChassisNodeTest, TheEmergencyStopTopicStopsAndForbidsStart) {
   const auto check = world_->Call("check");
   EXPECT_NE(check.message.find("\nno emergency_stop: by /"), std::string::npos) << check.message;
   world_->SetEmergencyStop(false);
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  EXPECT_TRUE(world_->Start());
   EXPECT_TRUE(Moves());
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, NobodyElseClearsAnEmergencyStop) {
@@ -176,22 +174,17 @@ TEST_F(ChassisNodeTest, NobodyElseClearsAnEmergencyStop) {
   EXPECT_NE(answer.message.find(ros::this_node::getName()), std::string::npos) << answer.message;
   EXPECT_TRUE(world_->Call("release_emergency_stop").success);
   world_->SetEmergencyStop(false);  // it is latched: who comes later is told the last
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
-  world_->Call("stop");
+  EXPECT_TRUE(world_->Start());
 }
 
 TEST_F(ChassisNodeTest, WithoutTheOperatorTheRoverStopsWithinASecond) {
   DriveFarAhead();
   EXPECT_LT(world_->status_.operator_round_trip_s, 0.5);
-  const double gone_s = World::Now();
-  world_->has_operator_ = false;
-  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("operator does not answer"));
+  ExpectToStop([] { world_->has_operator_ = false; }, 1.0, "operator does not answer");
   EXPECT_TRUE(world_->RunUntil([] { return std::isnan(world_->status_.operator_round_trip_s); }));
   EXPECT_FALSE(world_->Call("start").success);
   world_->has_operator_ = true;
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
-  world_->Call("stop");
+  EXPECT_TRUE(world_->Start());
 }
 
 TEST_F(ChassisNodeTest, AnOdometryThatIsRestartedDropsTheGoalAndBlocks) {
@@ -212,18 +205,6 @@ TEST_F(ChassisNodeTest, AnOdometryThatIsRestartedDropsTheGoalAndBlocks) {
   EXPECT_TRUE(world_->Call("start").success);
   world_->Run(1);
   EXPECT_EQ(world_->status_.state, DriveStatus::READY);
-  world_->Call("stop");
-}
-
-TEST_F(ChassisNodeTest, APoseThatJumpsBlocksAndSaysHowFar) {
-  DriveFarAhead();
-  const Eigen::Vector3d place = Place();
-  world_->odom_from_world_.translation.x() += 39;  // near the goal
-  EXPECT_TRUE(Says("pose contradicts the tracks"));
-  EXPECT_NE(world_->status_.detail.find("39."), std::string::npos) << world_->status_.detail;
-  world_->Run(1);
-  EXPECT_LE((Place() - place).norm(), 0.1);
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, AMapFrameThatIsNoLongerToldStops) {
@@ -232,7 +213,6 @@ TEST_F(ChassisNodeTest, AMapFrameThatIsNoLongerToldStops) {
   EXPECT_TRUE(Says("map frame is no longer told"));
   EXPECT_TRUE(world_->log_.last.IsZero());
   world_->has_map_ = true;
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, StampsOfTheEndOfTimeAreIgnored) {
@@ -241,7 +221,6 @@ TEST_F(ChassisNodeTest, StampsOfTheEndOfTimeAreIgnored) {
   EXPECT_TRUE(Refuses("its stamp is in the future"));
   world_->Run(2);
   EXPECT_EQ(world_->status_.state, DriveStatus::DRIVING) << world_->status_.reason;
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
@@ -260,21 +239,14 @@ TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
 
 TEST_F(ChassisNodeTest, LosingTheOdometryStopsAndHavingItBackResumes) {
   DriveFarAhead();
-  const double lost_s = World::Now();
-  world_->variance_m2_ = 9999;
-  EXPECT_LT(SecondsToStop(lost_s), kPatience_s);
-  EXPECT_TRUE(Says("pose is too uncertain"));
+  ExpectToStop([] { world_->variance_m2_ = 9999; }, 0, "pose is too uncertain");
   world_->variance_m2_ = 1e-4;
   EXPECT_TRUE(Moves());
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, AStalePoseStops) {
   DriveFarAhead();
-  const double silent_s = World::Now();
-  world_->has_sight_ = false;
-  EXPECT_LT(SecondsToStop(silent_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("pose is stale"));
+  ExpectToStop([] { world_->has_sight_ = false; }, 1.0, "pose is stale");
   world_->Call("stop");
   EXPECT_FALSE(world_->Call("start").success) << "the start-up check misses the camera";
   world_->has_sight_ = true;
@@ -282,14 +254,10 @@ TEST_F(ChassisNodeTest, AStalePoseStops) {
 
 TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {
   DriveFarAhead();
-  const double taken_s = World::Now();
-  world_->chassis_.TakeRemoteControl({});
-  EXPECT_LT(SecondsToStop(taken_s), kPatience_s);
-  EXPECT_TRUE(Says("remote control has the rover"));
+  ExpectToStop([] { world_->chassis_.TakeRemoteControl({}); }, 0, "remote control has the rover");
   world_->chassis_.HandBack();
   EXPECT_TRUE(world_->RunUntil([] { return world_->chassis_.mode() == ControlMode::kCan; }));
   EXPECT_TRUE(world_->log_.last.IsZero());
-  world_->Call("stop");
 }
 
 TEST_F(ChassisNodeTest, AnswersThatAreLateRepeatedOrForeignAreNobody) {
@@ -314,12 +282,11 @@ TEST_F(ChassisNodeTest, AnswersThatAreLateRepeatedOrForeignAreNobody) {
   };
   expect_nobody("repeated");
   world_->spoil_answer_ = [](OperatorChallenge&) {};
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
-  world_->Call("stop");
+  EXPECT_TRUE(world_->Start());
 }
 
 TEST_F(ChassisNodeTest, VelocitiesOfTwoNodesBlock) {
-  Drive([] { world_->velocity_mps_ = 0.1; });
+  world_->Drive([] { world_->velocity_mps_ = 0.1; });
   FILE* stranger = ::popen(
       "timeout 60 rostopic pub __name:=stranger -r 5 /cmd_vel geometry_msgs/Twist "
       "'{linear: {x: 0.05}}'",
@@ -354,18 +321,14 @@ TEST_F(ClockStall, AClockThatStandsStillStopsTheRover) {
   world_->has_clock_ = true;
   EXPECT_TRUE(Says("chassis_node was held up"));
   EXPECT_TRUE(world_->log_.last.IsZero());
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  EXPECT_TRUE(world_->Start());
   EXPECT_TRUE(Moves());
-  world_->Call("stop");
 }
 
 TEST_F(ClockStall, SimulatedTimeThatRunsSlowlyKeepsNoOperator) {
   world_->time_rate_ = 0.2;
   DriveFarAhead();
-  const double gone_s = World::Now();
-  world_->has_operator_ = false;
-  EXPECT_LT(SecondsToStop(gone_s), 1.0 + kPatience_s);
-  EXPECT_TRUE(Says("operator does not answer"));
+  ExpectToStop([] { world_->has_operator_ = false; }, 1.0, "operator does not answer");
 }
 
 }  // namespace

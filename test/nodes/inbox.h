@@ -1,8 +1,10 @@
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +21,21 @@ inline void WaitUntil(const std::function<bool()>& condition, const std::string&
     ros::spinOnce();
     ros::WallDuration(0.002).sleep();
   }
+}
+
+/// The same, doing `repeat` before, and again each period.
+inline void RepeatUntil(const std::function<bool()>& condition, const std::function<void()>& repeat,
+                        double period_s, const std::string& what) {
+  ros::WallTime due;
+  WaitUntil(
+      [&] {
+        if (condition()) return true;
+        if (ros::WallTime::now() < due) return false;
+        due = ros::WallTime::now() + ros::WallDuration(period_s);
+        repeat();
+        return false;
+      },
+      what);
 }
 
 /// All messages that came on a topic.
@@ -43,6 +60,36 @@ class Inbox {
  private:
   std::vector<Message> all_;
   ros::Subscriber subscriber_;
+};
+
+/// What nodes say of themselves on /diagnostics.
+class Diagnoses {
+ public:
+  using Status = diagnostic_msgs::DiagnosticStatus;
+
+  /// Waits for one that matches, of those that came after the one waited for before.
+  void Await(const std::string& what, const std::function<bool(const Status&)>& matches) {
+    const auto has_come = [&] {
+      while (next_ < inbox_.size()) {
+        const auto& all = inbox_.all()[next_++].status;
+        if (std::any_of(all.begin(), all.end(), matches)) return true;
+      }
+      return false;
+    };
+    WaitUntil(has_come, "a diagnosis: " + what);
+  }
+  /// Waits for a level and a text of what has `part` in its name.
+  void Await(const std::string& part, int level, const std::string& text) {
+    Await(part + ": " + text, [&](const Status& status) {
+      return status.name.find(part) != std::string::npos && status.level == level &&
+             status.message.find(text) != std::string::npos;
+    });
+  }
+  int size() const { return inbox_.size(); }
+
+ private:
+  Inbox<diagnostic_msgs::DiagnosticArray> inbox_{"/diagnostics"};
+  int next_ = 0;
 };
 
 }  // namespace arfm_vo

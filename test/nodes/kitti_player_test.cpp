@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <map>
+#include <tuple>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
 #include "datasets/sequence_folder.h"
@@ -72,18 +73,15 @@ TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
   EXPECT_NEAR(MakeStereoCamera(left_info, right_info).baseline_m, 0.5, 1e-9);
 }
 
-TEST(KittiPlayer, AMistypedParameterStopsItWithItsName) {
-  int status = -1;
-  const std::string text = Finish(StartPlayer("mistyped", "_sequence:=x _rate:=3"), status);
-  EXPECT_EQ(status, 1);
-  EXPECT_NE(text.find("rate: unknown key"), std::string::npos) << text;
-}
-
-TEST(KittiPlayer, AMissingFolderStopsItWithItsName) {
-  int status = -1;
-  const std::string text = Finish(StartPlayer("missing", "_sequence:=/no/such/folder"), status);
-  EXPECT_EQ(status, 1);
-  EXPECT_NE(text.find("/no/such/folder: no such folder"), std::string::npos) << text;
+TEST(KittiPlayer, AMistypedParameterOrAMissingFolderStopsItWithItsName) {
+  for (const auto& [name, parameters, complaint] :
+       {std::tuple("mistyped", "_sequence:=x _rate:=3", "rate: unknown key"),
+        {"missing", "_sequence:=/no/such/folder", "/no/such/folder: no such folder"}}) {
+    int status = -1;
+    const std::string text = Finish(StartPlayer(name, parameters), status);
+    EXPECT_EQ(status, 1);
+    EXPECT_NE(text.find(complaint), std::string::npos) << text;
+  }
 }
 
 }  // namespace

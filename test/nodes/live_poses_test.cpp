@@ -62,17 +62,12 @@ TEST_F(LivePoses, AreThoseOfTheProgram) {
   VisualOdometry program(wall_.camera(), {});
   // arfm_node listens once pose_node does, which may be a moment after it was seen to be there.
   double stamp_s = 2000;
-  ros::WallTime next;
-  WaitUntil(
-      [&] {
-        if (ros::WallTime::now() > next) {
-          publisher_.Publish(ToMessages({wall_.Render(++stamp_s, CameraFromWall(0)), std::nullopt},
-                                        wall_.camera(), "left_camera_optical"));
-          next = ros::WallTime::now() + ros::WallDuration(2);
-        }
-        return odom_.size() > 0 && status_.size() > 0;
-      },
-      "the chain to answer");
+  const auto send = [&] {
+    publisher_.Publish(ToMessages({wall_.Render(++stamp_s, CameraFromWall(0)), std::nullopt},
+                                  wall_.camera(), "left_camera_optical"));
+  };
+  RepeatUntil([&] { return odom_.size() > 0 && status_.size() > 0; }, send, 2,
+              "the chain to answer");
   num_keyframes_ = 1;
   program.Process(wall_.Render(stamp_s, CameraFromWall(0)));
   double way_m = 0, farthest_m = 0;

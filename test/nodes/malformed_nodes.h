@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -16,7 +17,11 @@
 
 namespace arfm_vo {
 
-inline int NumMessages() { return NumMalformedMessages(500); }
+/// How many malformed messages a topic gets.
+inline int NumMessages() {
+  const char* number = std::getenv("ARFM_VO_MALFORMED_MESSAGES");
+  return number ? std::atoi(number) : 500;
+}
 
 class MalformedNodes : public testing::Test {
  protected:

@@ -1,5 +1,4 @@
 #include <arfm_vo/DriveStatus.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -35,28 +34,17 @@ class PanTiltNodeTest : public testing::Test {
   }
   /// Sends until the refusal is heard.
   void ExpectRefused(double pan_rad, double tilt_rad, const std::string& why) {
-    ros::WallTime due;
     const auto is_heard = [&] {
-      if (ros::WallTime::now() > due) {
-        Send(pan_rad, tilt_rad);
-        due = ros::WallTime::now() + ros::WallDuration(0.5);
-      }
       return refused_.size() > 0 && refused_.last().data.find(why) != std::string::npos;
     };
-    WaitUntil(is_heard, "the refusal: " + why);
+    RepeatUntil(
+        is_heard, [&] { Send(pan_rad, tilt_rad); }, 0.5, "the refusal: " + why);
   }
   bool IsSettled() const { return settled_.size() > 0 && settled_.all().back().data; }
   /// The newest position of a joint.
   double Position(const std::string& joint) const {
     if (joint_states_.size() == 0) return NAN;
     return joint_states_.all().back().position.at(joint == "pan" ? 0 : 1);
-  }
-  std::string Diagnosis(uint8_t level) const {
-    for (auto array = diagnostics_.all().rbegin(); array != diagnostics_.all().rend(); ++array)
-      for (const auto& status : array->status)
-        if (status.name.find("pan-tilt") != std::string::npos && status.level == level)
-          return status.message;
-    return "";
   }
   void GoTo(double pan_rad, double tilt_rad) {
     WaitUntil([this] { return IsSettled(); }, "settled");
@@ -73,7 +61,7 @@ class PanTiltNodeTest : public testing::Test {
   Inbox<sensor_msgs::JointState> joint_states_{"/joint_states"};
   Inbox<std_msgs::Bool> settled_{"/head/settled"};
   Inbox<std_msgs::String> refused_{"/head/refused"};
-  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+  Diagnoses diagnoses_;
 };
 
 TEST_F(PanTiltNodeTest, DoesNotMoveAtItsStartAndGoesWhereItIsSent) {
@@ -144,7 +132,7 @@ TEST_F(PanTiltNodeTest, HomesWhenItIsAskedToAndNotWhileTheRoverDrives) {
 TEST_F(PanTiltNodeTest, AnUnpluggedLineIsAnErrorAndSurvived) {
   GoTo(0.2, 0);
   ptu->Unplug();
-  WaitUntil([this] { return Diagnosis(diagnostic_msgs::DiagnosticStatus::ERROR) != ""; }, "ERROR");
+  diagnoses_.Await("pan-tilt", diagnostic_msgs::DiagnosticStatus::ERROR, "");
   WaitUntil([this] { return !IsSettled(); }, "unsettled");
   const int num_before = joint_states_.size();
   ptu->Plug();

@@ -1,4 +1,3 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -66,24 +65,7 @@ const std::set<std::string> kWays = {
 
 class RoverTest : public testing::Test {
  protected:
-  /// The newest diagnosis whose name has `part`, as "LEVEL MESSAGE".
-  std::string Diagnosis(const std::string& part) const {
-    for (auto array = diagnostics_.all().rbegin(); array != diagnostics_.all().rend(); ++array)
-      for (const auto& status : array->status)
-        if (status.name.find(part) != std::string::npos)
-          return std::to_string(status.level) + " " + status.message;
-    return "";
-  }
-  void AwaitDiagnosis(const std::string& part, uint8_t level, const std::string& text) {
-    WaitUntil(
-        [&] {
-          const std::string said = Diagnosis(part);
-          return said.rfind(std::to_string(level), 0) == 0 && said.find(text) != std::string::npos;
-        },
-        part + " to say \"" + text + "\"");
-  }
-
-  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+  Diagnoses diagnoses_;
 };
 
 TEST_F(RoverTest, AllNodesAreUpAndTheirTopicsConnected) {
@@ -99,12 +81,12 @@ TEST_F(RoverTest, AllNodesAreUpAndTheirTopicsConnected) {
 }
 
 TEST_F(RoverTest, DiagnosticsSayWhatIsMissing) {
-  AwaitDiagnosis("stereo_camera_node: camera", DiagnosticStatus::ERROR, "/dev/no_left_eye");
-  AwaitDiagnosis("stereo_camera_node: calibration", DiagnosticStatus::WARN, "calibrat");
-  AwaitDiagnosis("arfm_node", DiagnosticStatus::WARN, "no pairs");
-  AwaitDiagnosis("pose_node: odometry", DiagnosticStatus::WARN, "no pairs");
-  AwaitDiagnosis("pan_tilt_node: pan-tilt", DiagnosticStatus::OK, "settled");
-  AwaitDiagnosis("chassis_node: driving", DiagnosticStatus::WARN, "standby");
+  diagnoses_.Await("stereo_camera_node: camera", DiagnosticStatus::ERROR, "/dev/no_left_eye");
+  diagnoses_.Await("stereo_camera_node: calibration", DiagnosticStatus::WARN, "calibrat");
+  diagnoses_.Await("arfm_node", DiagnosticStatus::WARN, "no pairs");
+  diagnoses_.Await("pose_node: odometry", DiagnosticStatus::WARN, "no pairs");
+  diagnoses_.Await("pan_tilt_node: pan-tilt", DiagnosticStatus::OK, "settled");
+  diagnoses_.Await("chassis_node: driving", DiagnosticStatus::WARN, "standby");
 }
 
 TEST_F(RoverTest, TheHeadAndTheTracksAreThere) {
@@ -128,9 +110,9 @@ TEST_F(RoverTest, WithoutCamerasNoNodeIsBusy) {
   std::map<std::string, double> cpu_s;
   for (const std::string& node : nodes) cpu_s[node] = CpuSeconds(PidOf(node));
   const double start_s = MonotonicNow();
-  const int num_before = diagnostics_.size();
+  const int num_before = diagnoses_.size();
   // Some seconds: each node says how it is once in one.
-  WaitUntil([&] { return diagnostics_.size() > num_before + 25; }, "diagnostics");
+  WaitUntil([&] { return diagnoses_.size() > num_before + 25; }, "diagnostics");
   const double passed_s = MonotonicNow() - start_s;
   for (const std::string& node : nodes)
     EXPECT_LT(CpuSeconds(PidOf(node)) - cpu_s[node], 0.3 * passed_s) << node;

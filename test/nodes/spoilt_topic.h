@@ -71,16 +71,12 @@ class Answers {
   template <class... Topics>
   void Await(Topics&... topics) const {
     ros::Time stamp;
-    ros::WallTime next;
-    const auto is_answered = [&] {
-      if (!stamp.isZero() && stamp_ == stamp) return true;
-      if (ros::WallTime::now() < next) return false;
-      next = ros::WallTime::now() + ros::WallDuration(0.2);
+    const auto send = [&] {
       stamp = ros::Time::now();
       (topics.SendValid(stamp), ...);
-      return false;
     };
-    WaitUntil(is_answered, "a message on " + subscriber_.getTopic());
+    RepeatUntil([&] { return !stamp.isZero() && stamp_ == stamp; }, send, 0.2,
+                "a message on " + subscriber_.getTopic());
   }
 
  private:

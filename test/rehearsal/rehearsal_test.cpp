@@ -51,17 +51,6 @@ TEST_P(ClosedLoopTest, ReachesTheGoalBySightAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Goals, ClosedLoopTest, ::testing::Values(7, 9, 12));
 
-TEST(Rehearsal, TheSameSeedsGiveTheSameDrive) {
-  const RehearsalOptions options = ShortDrive().options;
-  const RehearsedDrive first = Rehearse(NearScene(), options),
-                       second = Rehearse(NearScene(), options);
-  ASSERT_GT(first.num_pairs, 10);
-  EXPECT_EQ(first.final_error_m, second.final_error_m);
-  EXPECT_EQ(first.num_frames, second.num_frames);
-  ASSERT_EQ(first.track.size(), second.track.size());
-  EXPECT_EQ(first.track.back().sight.x_m, second.track.back().sight.x_m);
-}
-
 TEST(Rehearsal, DrawnPosesDriveAsRenderedOnesDo) {
   const RehearsalOptions options = ShortDrive().options;
   const std::vector<SightRecord> records = Rehearse(NearScene(), options).sight;

@@ -28,12 +28,6 @@ namespace arfm_vo {
 constexpr double kMaxGrowth_mb = 30;
 const StereoCamera kSmallCamera{50, 50, 31.5, 23.5, 0.5, 64, 48};
 
-/// How many malformed messages a topic gets: the environment's ARFM_VO_MALFORMED_MESSAGES.
-inline int NumMalformedMessages(int usual) {
-  const char* number = std::getenv("ARFM_VO_MALFORMED_MESSAGES");
-  return number ? std::atoi(number) : usual;
-}
-
 /// Prints a row of a table, and appends it to the file of the environment's
 /// ARFM_VO_MALFORMED_TABLE.
 inline void TellRow(const std::string& row) {

@@ -66,76 +66,70 @@ const Action kNothing = [](SimulatedDrive&) {};
 
 std::vector<Fault> OperatorFaults() {
   return {
-      {"stop service called", [](SimulatedDrive& d) { d.pilot().Stop(); }, "", kNothing},
-      {"software emergency stop set",
-       [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", true); },
+      {"stop service called", [](auto& d) { d.pilot().Stop(); }, "", kNothing},
+      {"software emergency stop set", [](auto& d) { d.pilot().SetEmergencyStop("joystick", true); },
        "its source clears the emergency stop",
-       [](SimulatedDrive& d) { d.pilot().SetEmergencyStop("joystick", false); }},
-      {"operator does not answer", [](SimulatedDrive& d) { d.has_operator_ = false; },
-       "the operator is back", [](SimulatedDrive& d) { d.has_operator_ = true; },
-       "no answer for 0.9 s",
-       [](const SimulatedDrive& d, double) { return d.Now() - d.LastAnswer() > 0.9; }},
-      {"goal cancelled", [](SimulatedDrive& d) { d.pilot().CancelRoute(); }, "", kNothing},
-      {"velocity commands cease", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", kNothing,
-       "0.15 s", TimeSince(0.15), Stopper::kDriver, true},
+       [](auto& d) { d.pilot().SetEmergencyStop("joystick", false); }},
+      {"operator does not answer", [](auto& d) { d.has_operator_ = false; }, "the operator is back",
+       [](auto& d) { d.has_operator_ = true; }, "no answer for 0.9 s",
+       [](const auto& d, double) { return d.Now() - d.LastAnswer() > 0.9; }},
+      {"goal cancelled", [](auto& d) { d.pilot().CancelRoute(); }, "", kNothing},
+      {"velocity commands cease", [](auto& d) { d.each_tick_ = [] {}; }, "", kNothing, "0.15 s",
+       TimeSince(0.15), Stopper::kDriver, true},
       {"velocity command is not a number",
-       [](SimulatedDrive& d) {
-         d.each_tick_ = [&d] { d.pilot().SetVelocity(d.Now(), {kNaN, 0}); };
-       },
-       "", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", TimeSince(0), Stopper::kDriver,
-       true},
+       [](auto& d) { d.each_tick_ = [&d] {
+                       d.pilot().SetVelocity(d.Now(), {kNaN, 0});
+                     }; }, "",
+       [](auto& d) { d.each_tick_ = [] {}; }, "", TimeSince(0), Stopper::kDriver, true},
       {"velocity commands of two nodes",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.each_tick_ = [&d] {
            SendVelocity(d);
            d.pilot().SetVelocity(d.Now(), {-0.1, 0}, "/another");
          };
        },
-       "both are let go", [](SimulatedDrive& d) { d.each_tick_ = [] {}; }, "", TimeSince(0),
-       Stopper::kDriver, true},
+       "both are let go", [](auto& d) { d.each_tick_ = [] {}; }, "", TimeSince(0), Stopper::kDriver,
+       true},
   };
 }
 
 std::vector<Fault> PoseFaults() {
-  const auto mend_pose = [](SimulatedDrive& d) {
+  const auto mend_pose = [](auto& d) {
     d.has_pose_ = d.has_covariance_ = true;
     d.is_tf_missing_ = false;
     d.sigma_m_ = 0.01;
     d.stamp_offset_s_ = 0;
     d.false_pose_.reset();
   };
-  const auto covariance_old = [](const SimulatedDrive& d, double) {
+  const auto covariance_old = [](const auto& d, double) {
     return d.Now() - d.LastCovarianceTaken() > 1.0;
   };
   return {
-      {"odometry falls silent (pose stale)", [](SimulatedDrive& d) { d.has_pose_ = false; }, "",
-       mend_pose, "pose older than 1 s", PoseOlderThan(1.0)},
-      {"odometry is lost (covariance 9999)", [](SimulatedDrive& d) { d.sigma_m_ = 99.99; }, "",
-       mend_pose},
-      {"covariance too large", [](SimulatedDrive& d) { d.sigma_m_ = 2.1; }, "", mend_pose,
-       "sigma above 2 m"},
-      {"covariance is not a number", [](SimulatedDrive& d) { d.sigma_m_ = kNaN; }, "", mend_pose},
-      {"covariance ceases", [](SimulatedDrive& d) { d.has_covariance_ = false; }, "", mend_pose,
+      {"odometry falls silent (pose stale)", [](auto& d) { d.has_pose_ = false; }, "", mend_pose,
+       "pose older than 1 s", PoseOlderThan(1.0)},
+      {"odometry is lost (covariance 9999)", [](auto& d) { d.sigma_m_ = 99.99; }, "", mend_pose},
+      {"covariance too large", [](auto& d) { d.sigma_m_ = 2.1; }, "", mend_pose, "sigma above 2 m"},
+      {"covariance is not a number", [](auto& d) { d.sigma_m_ = kNaN; }, "", mend_pose},
+      {"covariance ceases", [](auto& d) { d.has_covariance_ = false; }, "", mend_pose,
        "older than 1 s", covariance_old},
-      {"tf from map to base is missing", [](SimulatedDrive& d) { d.is_tf_missing_ = true; }, "",
-       mend_pose},
+      {"tf from map to base is missing", [](auto& d) { d.is_tf_missing_ = true; }, "", mend_pose},
       {"pose is not a number",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.false_pose_ = Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(kNaN, 0, 0));
        },
        "", mend_pose},
       {"pose's quaternion is all zeros",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.false_pose_.emplace();
          d.false_pose_->rotation.coeffs().setZero();
        },
        "", mend_pose},
-      {"clock leaps back (poses from the future)",
-       [](SimulatedDrive& d) { d.stamp_offset_s_ = 30; }, "", mend_pose},
-      {"clock leaps ahead (poses of long ago)", [](SimulatedDrive& d) { d.stamp_offset_s_ = -30; },
-       "", mend_pose, "pose older than 1 s", PoseOlderThan(1.0)},
-      {"tracks run and the rover is stuck", [](SimulatedDrive& d) { d.plant().SetForwardSlip(1); },
-       "free the rover", [](SimulatedDrive& d) { d.plant().SetForwardSlip(0.1); },
+      {"clock leaps back (poses from the future)", [](auto& d) { d.stamp_offset_s_ = 30; }, "",
+       mend_pose},
+      {"clock leaps ahead (poses of long ago)", [](auto& d) { d.stamp_offset_s_ = -30; }, "",
+       mend_pose, "pose older than 1 s", PoseOlderThan(1.0)},
+      {"tracks run and the rover is stuck", [](auto& d) { d.plant().SetForwardSlip(1); },
+       "free the rover", [](auto& d) { d.plant().SetForwardSlip(0.1); },
        "slip ratio above 0.5 over 0.3 m", IsSlipBeyondLimit},
   };
 }
@@ -147,88 +141,85 @@ void CreepSideways(SimulatedDrive& d) {
 }
 
 std::vector<Fault> WrongPoseFaults() {
-  const auto mend = [](SimulatedDrive& d) {
+  const auto mend = [](auto& d) {
     d.told_from_true_ = d.map_from_odom_ = d.base_from_told_ = Rigid3();
     d.each_tick_ = [] {};
   };
   const Rigid3 aside = LiftFromPlane({0, 0, M_PI / 12});
-  const auto tilt = [](SimulatedDrive& d) {
+  const auto tilt = [](auto& d) {
     d.told_from_true_ = Rigid3(ExpSO3({26 * M_PI / 180, 0, 0}), Eigen::Vector3d::Zero());
   };
   return {
       {"odometry restarts elsewhere, unannounced",
-       [](SimulatedDrive& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", kNothing},
-      {"odometry announces a new epoch", [](SimulatedDrive& d) { ++d.epoch_; }, "", kNothing},
+       [](auto& d) { d.told_from_true_ = PlaceAt(9, 0); }, "", kNothing},
+      {"odometry announces a new epoch", [](auto& d) { ++d.epoch_; }, "", kNothing},
       {"odometry restarts elsewhere with a new epoch",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          ++d.epoch_;
          d.told_from_true_ = PlaceAt(9, 0);
        },
        "", kNothing},
-      {"map -> odom jumps by 0.5 m", [](SimulatedDrive& d) { d.map_from_odom_ = PlaceAt(0, 0.5); },
-       "", kNothing},
+      {"map -> odom jumps by 0.5 m", [](auto& d) { d.map_from_odom_ = PlaceAt(0, 0.5); }, "",
+       kNothing},
       {"map -> odom is no longer told (ba_node is gone)",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.is_tf_missing_ = true;
          d.no_pose_reason_ = StopReason::kMapStale;
        },
-       "", [](SimulatedDrive& d) { d.is_tf_missing_ = false; }},
+       "", [](auto& d) { d.is_tf_missing_ = false; }},
       {"rover slides sideways at 0.1 m/s", CreepSideways, "", mend,
        "0.1 m and 30 % of the way, in 3 s", TimeSince(1.85)},
-      {"head's belt slips by 15 degrees", [aside](SimulatedDrive& d) { d.base_from_told_ = aside; },
-       "", mend},
+      {"head's belt slips by 15 degrees", [aside](auto& d) { d.base_from_told_ = aside; }, "",
+       mend},
       {"rover is tilted by 26 degrees", tilt, "level it", mend, "25 degrees"},
   };
 }
 
 std::vector<Fault> MotionFaults() {
   return {
-      {"remote control is lost (0x211)", [](SimulatedDrive& d) { d.chassis().SetRemoteLost(true); },
-       "switch it on", [](SimulatedDrive& d) { d.chassis().SetRemoteLost(false); }},
-      {"motor driver reports a fault (0x261)",
-       [](SimulatedDrive& d) { d.chassis().SetMotorStatus(0x44); }, "mend it",
-       [](SimulatedDrive& d) { d.chassis().SetMotorStatus(0x40); }},
+      {"remote control is lost (0x211)", [](auto& d) { d.chassis().SetRemoteLost(true); },
+       "switch it on", [](auto& d) { d.chassis().SetRemoteLost(false); }},
+      {"motor driver reports a fault (0x261)", [](auto& d) { d.chassis().SetMotorStatus(0x44); },
+       "mend it", [](auto& d) { d.chassis().SetMotorStatus(0x40); }},
       {"tracks run away at 0.2 m/s",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.chassis().SetRunaway(PlanarMotion{0.2, 0});
        },
-       "mend it", [](SimulatedDrive& d) { d.chassis().SetRunaway({}); },
+       "mend it", [](auto& d) { d.chassis().SetRunaway({}); },
        "0.05 m/s over the command for 0.2 s", TimeSince(0.27), Stopper::kDriver, false, true},
-      {"left track is jammed", [](SimulatedDrive& d) { d.chassis().JamLeftTrack(true); }, "free it",
-       [](SimulatedDrive& d) { d.chassis().JamLeftTrack(false); },
-       "below 10 % of the command for 2 s", TimeSince(1.9), Stopper::kDriver, false, true},
-      {"feedback repeats itself", [](SimulatedDrive& d) { d.chassis().SetFrozenFeedback(true); },
-       "mend it", [](SimulatedDrive& d) { d.chassis().SetFrozenFeedback(false); },
-       "counter stands for 1 s", TimeSince(1)},
+      {"left track is jammed", [](auto& d) { d.chassis().JamLeftTrack(true); }, "free it",
+       [](auto& d) { d.chassis().JamLeftTrack(false); }, "below 10 % of the command for 2 s",
+       TimeSince(1.9), Stopper::kDriver, false, true},
+      {"feedback repeats itself", [](auto& d) { d.chassis().SetFrozenFeedback(true); }, "mend it",
+       [](auto& d) { d.chassis().SetFrozenFeedback(false); }, "counter stands for 1 s",
+       TimeSince(1)},
   };
 }
 
 std::vector<Fault> ChassisFaults() {
-  const auto power_on = [](SimulatedDrive& d) { d.chassis().SetPower(true); };
-  const auto clear = [](SimulatedDrive& d) { d.driver().link().SendClearErrors(); };
+  const auto power_on = [](auto& d) { d.chassis().SetPower(true); };
+  const auto clear = [](auto& d) { d.driver().link().SendClearErrors(); };
   const auto silence = [](std::optional<FeedbackKind> kind) {
-    return [kind](SimulatedDrive& d) { d.chassis().Silence(kind); };
+    return [kind](auto& d) { d.chassis().Silence(kind); };
   };
   return {
-      {"emergency stop button (0x211)",
-       [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(true); }, "release the button",
-       [](SimulatedDrive& d) { d.chassis().PressEmergencyStop(false); }},
-      {"battery fault (0x211)", [](SimulatedDrive& d) { d.chassis().SetFault(0x0001); },
+      {"emergency stop button (0x211)", [](auto& d) { d.chassis().PressEmergencyStop(true); },
+       "release the button", [](auto& d) { d.chassis().PressEmergencyStop(false); }},
+      {"battery fault (0x211)", [](auto& d) { d.chassis().SetFault(0x0001); },
        "charge, clear_errors", clear},
       {"remote control takes over (0x211)",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.chassis().TakeRemoteControl({0.05, 0});
        },
-       "hand back (CAN mode is asked for again)",
-       [](SimulatedDrive& d) { d.chassis().HandBack(); }},
+       "hand back (CAN mode is asked for again)", [](auto& d) { d.chassis().HandBack(); }},
       {"chassis restarts into standby (0x211)",
-       [power_on](SimulatedDrive& d) {
+       [power_on](auto& d) {
          d.chassis().SetPower(false);
          power_on(d);
        },
        "", kNothing},
-      {"chassis loses power (silent)", [](SimulatedDrive& d) { d.chassis().SetPower(false); },
-       "switch it on", power_on, "silent for 0.5 s", TimeSince(0.5)},
+      {"chassis loses power (silent)", [](auto& d) { d.chassis().SetPower(false); }, "switch it on",
+       power_on, "silent for 0.5 s", TimeSince(0.5)},
       {"track odometer falls silent", silence(FeedbackKind::kOdometer), "mend it", silence({}),
        "silent for 0.5 s", TimeSince(0.5)},
       {"motion feedback falls silent (0x221)", silence(FeedbackKind::kMotion), "mend it",
@@ -247,19 +238,18 @@ void FloodAndPress(SimulatedDrive& d) {
 
 std::vector<Fault> BusFaults() {
   const auto set_state = [](CanBusState state) {
-    return [state](SimulatedDrive& d) { d.bus_.SetState(state); };
+    return [state](auto& d) { d.bus_.SetState(state); };
   };
   return {
       {"CAN controller goes bus-off", set_state(CanBusState::kBusOff), "controller restarts",
        set_state(CanBusState::kUp), "", TimeSince(0), Stopper::kChassisTimeout},
       {"CAN interface goes down", set_state(CanBusState::kDown), "interface up",
        set_state(CanBusState::kUp), "", TimeSince(0), Stopper::kChassisTimeout},
-      {"send queue stays full (ENOBUFS)", [](SimulatedDrive& d) { d.bus_.SetBusy(true); },
-       "queue runs again", [](SimulatedDrive& d) { d.bus_.SetBusy(false); }, "", TimeSince(0),
-       Stopper::kChassisTimeout},
+      {"send queue stays full (ENOBUFS)", [](auto& d) { d.bus_.SetBusy(true); }, "queue runs again",
+       [](auto& d) { d.bus_.SetBusy(false); }, "", TimeSince(0), Stopper::kChassisTimeout},
       {"flood of foreign frames, and the button is pressed", FloodAndPress,
        "end the flood, release the button",
-       [](SimulatedDrive& d) {
+       [](auto& d) {
          d.each_tick_ = [] {};
          d.chassis().PressEmergencyStop(false);
        }},
@@ -268,12 +258,11 @@ std::vector<Fault> BusFaults() {
 
 std::vector<Fault> NodeFaults() {
   return {
-      {"node ends (SIGINT, SIGTERM)", [](SimulatedDrive& d) { d.EndDriver(); }, "new node",
-       kNothing},
-      {"computer's clock is set by 30 s",
-       [](SimulatedDrive& d) { d.pilot().ObserveClockSet(d.Now(), 30); }, "", kNothing},
-      {"node hangs or is killed", [](SimulatedDrive& d) { d.is_driver_hung_ = true; }, "new node",
-       kNothing, "", TimeSince(0), Stopper::kChassisTimeout},
+      {"node ends (SIGINT, SIGTERM)", [](auto& d) { d.EndDriver(); }, "new node", kNothing},
+      {"computer's clock is set by 30 s", [](auto& d) { d.pilot().ObserveClockSet(d.Now(), 30); },
+       "", kNothing},
+      {"node hangs or is killed", [](auto& d) { d.is_driver_hung_ = true; }, "new node", kNothing,
+       "", TimeSince(0), Stopper::kChassisTimeout},
   };
 }
 
@@ -380,8 +369,6 @@ process and no ROS clock takes part: what the nodes do in the running graph is n
   }
   return text.str();
 }
-
-TEST(FaultTable, HoldsAtLeastFifteenFaults) { EXPECT_GE(Rows().size(), 15u); }
 
 TEST(FaultTable, EveryFaultStopsTheRoverWithin200Milliseconds) {
   for (const Row& row : Rows()) {

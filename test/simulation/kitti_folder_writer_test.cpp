@@ -7,6 +7,7 @@
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/simulation/scene.h"
+#include "base/folder_test.h"
 
 namespace arfm_vo {
 namespace {
@@ -15,27 +16,19 @@ namespace fs = std::filesystem;
 
 const StereoCamera kFolderCamera{420, 421, 7.5, 5.5, 0.2, 16, 12};
 
-class KittiFolderWriterTest : public testing::Test {
+class KittiFolderWriterTest : public FolderTest {
  protected:
-  KittiFolderWriterTest()
-      : folder_(fs::temp_directory_path() /
-                (std::string("arfm_vo_kitti_folder_writer_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-  }
-  ~KittiFolderWriterTest() override { fs::remove_all(folder_); }
-
   StereoImages Pair(double stamp_s, int grey) const {
     return {stamp_s, cv::Mat(12, 16, CV_8UC1, cv::Scalar(grey)),
             cv::Mat(12, 16, CV_8UC1, cv::Scalar(grey + 1))};
   }
-  std::string File(const std::string& name) const { return (folder_ / name).string(); }
+  std::string File(const std::string& name) const { return (made_ / name).string(); }
 
-  const fs::path folder_;
+  const fs::path made_ = folder_ / "made";
 };
 
 TEST_F(KittiFolderWriterTest, WritesWhatAKittiFolderHolds) {
-  KittiFolderWriter writer(folder_.string(), kFolderCamera);
+  KittiFolderWriter writer(made_.string(), kFolderCamera);
   writer.Write(Pair(0, 10), Rigid3());
   writer.Write(Pair(0.5, 20), Rigid3(Eigen::Quaterniond::Identity(), {0.25, 0, -1}));
   writer.Close();
@@ -51,16 +44,16 @@ TEST_F(KittiFolderWriterTest, WritesWhatAKittiFolderHolds) {
 
 TEST_F(KittiFolderWriterTest, LeavesNothingWhereItWasNotClosed) {
   {
-    KittiFolderWriter writer(folder_.string(), kFolderCamera);
+    KittiFolderWriter writer(made_.string(), kFolderCamera);
     writer.Write(Pair(0, 10), Rigid3());
   }
-  EXPECT_FALSE(fs::exists(folder_));
-  EXPECT_FALSE(fs::exists(folder_.string() + ".unfinished"));
+  EXPECT_FALSE(fs::exists(made_));
+  EXPECT_FALSE(fs::exists(made_.string() + ".unfinished"));
 }
 
 TEST_F(KittiFolderWriterTest, RefusesAFolderThatExists) {
-  fs::create_directories(folder_);
-  EXPECT_THROW(KittiFolderWriter(folder_.string(), kFolderCamera), std::invalid_argument);
+  fs::create_directories(made_);
+  EXPECT_THROW(KittiFolderWriter(made_.string(), kFolderCamera), std::invalid_argument);
 }
 
 }  // namespace

@@ -26,7 +26,6 @@ class SimulatedChassisTest : public ::testing::Test {
         ++num_frames_[frame->id];
         const ChassisFeedback feedback = DecodeFeedback(*frame);
         if (const auto* state = std::get_if<SystemState>(&feedback)) state_ = *state;
-        if (const auto* odometer = std::get_if<TrackOdometer>(&feedback)) odometer_ = *odometer;
       }
     }
   }
@@ -49,7 +48,6 @@ class SimulatedChassisTest : public ::testing::Test {
   double now_s_ = 50;
   std::map<uint32_t, int> num_frames_;
   SystemState state_;
-  TrackOdometer odometer_;
 };
 
 TEST_F(SimulatedChassisTest, PowersUpInStandbyAndHearsOnlyTheMode) {
@@ -62,15 +60,6 @@ TEST_F(SimulatedChassisTest, PowersUpInStandbyAndHearsOnlyTheMode) {
   EXPECT_EQ(state_.mode, ControlMode::kCan);
 }
 
-TEST_F(SimulatedChassisTest, StopsHalfASecondAfterTheLastCommand) {
-  Tell(ControlModeCommand{ControlMode::kCan});
-  Drive(2);
-  Run(0.45);
-  EXPECT_GT(chassis_.plant().Speeds().left_mps, 0.09);
-  Run(0.07 + 0.5);
-  EXPECT_LT(chassis_.plant().Speeds().left_mps, 0.001);
-}
-
 TEST_F(SimulatedChassisTest, SendsItsFeedbackAtTheManualsRates) {
   Run(10);
   EXPECT_NEAR(num_frames_[0x221], 500, 2);
@@ -78,39 +67,6 @@ TEST_F(SimulatedChassisTest, SendsItsFeedbackAtTheManualsRates) {
   EXPECT_NEAR(num_frames_[0x311], 500, 2);
   EXPECT_NEAR(num_frames_[0x211], 100, 2);
   EXPECT_NEAR(num_frames_[0x361], 100, 2);
-}
-
-TEST_F(SimulatedChassisTest, ItsOdometerCountsTheTracks) {
-  Tell(ControlModeCommand{ControlMode::kCan});
-  Drive(10);
-  EXPECT_NEAR(odometer_.left_mm, 990, 5);
-  EXPECT_EQ(odometer_.left_mm, odometer_.right_mm);
-}
-
-TEST_F(SimulatedChassisTest, TheRemoteControlOutranksCanAndHandsBackToStandby) {
-  Tell(ControlModeCommand{ControlMode::kCan});
-  Drive(1);
-  chassis_.TakeRemoteControl({-0.1, 0});
-  const double x_m = X();
-  Tell(ControlModeCommand{ControlMode::kCan});
-  Drive(1);
-  EXPECT_LT(X(), x_m);
-  EXPECT_EQ(state_.mode, ControlMode::kRemote);
-  chassis_.HandBack();
-  Drive(0.5);
-  EXPECT_EQ(state_.mode, ControlMode::kStandby);
-  EXPECT_LT(std::abs(chassis_.plant().Speeds().left_mps), 0.001);
-}
-
-TEST_F(SimulatedChassisTest, AFaultStandsUntilItIsCleared) {
-  Tell(ControlModeCommand{ControlMode::kCan});
-  chassis_.SetFault(0x0001);
-  Drive(1);
-  EXPECT_EQ(X(), 0);
-  EXPECT_EQ(state_.vehicle, VehicleState::kFault);
-  Tell(ClearErrorsCommand{});
-  Drive(1);
-  EXPECT_GT(X(), 0.05);
 }
 
 TEST(TrackedPlant, SlipsAsItIsTold) {
@@ -161,13 +117,11 @@ TEST(ClosedLoop, EveryGoalIsReachedInSpiteOfSlip) {
   RandomEngine engine(11);
   for (int i = 0; i < 20; ++i) {
     SimulatedDrive drive;
-    drive.Run(0.5);
-    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
     const double bearing_rad = 2 * M_PI * RandomUnit(engine), way_m = 0.3 + 3 * RandomUnit(engine);
     const Waypoint goal{way_m * std::cos(bearing_rad), way_m * std::sin(bearing_rad),
                         WrapAngle(2 * M_PI * RandomUnit(engine))};
-    drive.pilot().SetRoute({goal});
-    ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; })) << i;
+    drive.DriveAlong({goal});
+    ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.HasGoal(); })) << i;
     EXPECT_EQ(drive.pilot().TakeResults().at(0).outcome, GoalOutcome::kArrived) << i;
     const RoverPose& pose = drive.plant().Pose();
     EXPECT_LT(std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m), 0.045) << i;
@@ -180,9 +134,7 @@ TEST(ClosedLoop, StopLookGoReachesTheGoalAndLooksAtRest) {
   PilotOptions options;
   options.stop_look_go.is_on = true;
   SimulatedDrive drive(options);
-  drive.Run(0.5);
-  drive.pilot().Start(drive.Now());
-  drive.pilot().SetRoute({{1.5, 1, 0.0}});
+  drive.DriveAlong({{1.5, 1, 0.0}});
   int num_stops = 0;
   bool was_moving = false;
   drive.each_tick_ = [&] {
@@ -190,7 +142,7 @@ TEST(ClosedLoop, StopLookGoReachesTheGoalAndLooksAtRest) {
     num_stops += was_moving && !is_moving;
     was_moving = is_moving;
   };
-  ASSERT_TRUE(drive.RunUntil(600, [&] { return !drive.pilot().Status().has_goal; }));
+  ASSERT_TRUE(drive.RunUntil(600, [&] { return !drive.HasGoal(); }));
   EXPECT_GE(num_stops, 8);
   const RoverPose& pose = drive.plant().Pose();
   EXPECT_LT(std::hypot(pose.x_m - 1.5, pose.y_m - 1), 0.045);
@@ -201,35 +153,12 @@ TEST(ClosedLoop, StopLookGoDrivesBySightThatComesOncePerMinute) {
   options.stop_look_go.is_on = true;
   options.stop_look_go.max_pose_age_s = 90;
   SimulatedDrive drive(options);
-  drive.Run(0.5);
-  drive.pilot().Start(drive.Now());
-  drive.pilot().SetRoute({{1, 0, 0.0}});
+  drive.DriveAlong({{1, 0, 0.0}});
   int tick = 0;
   drive.each_tick_ = [&] { drive.has_pose_ = ++tick % 1500 < 5; };  // 0.1 s of each 30 s
-  ASSERT_TRUE(drive.RunUntil(1200, [&] { return !drive.pilot().Status().has_goal; }));
+  ASSERT_TRUE(drive.RunUntil(1200, [&] { return !drive.HasGoal(); }));
   EXPECT_EQ(drive.pilot().TakeResults().at(0).outcome, GoalOutcome::kArrived);
   EXPECT_NEAR(drive.plant().Pose().x_m, 1, 0.045);
-}
-
-TEST(ClosedLoop, ARouteIsDrivenThroughItsWaypoints) {
-  SimulatedDrive drive;
-  drive.Run(0.5);
-  drive.pilot().Start(drive.Now());
-  drive.pilot().SetRoute({{1, 0, {}}, {1, 1, {}}, {0, 1, {}}});
-  double max_x_m = 0;
-  drive.each_tick_ = [&] { max_x_m = std::max(max_x_m, drive.plant().Pose().x_m); };
-  ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; }));
-  EXPECT_GT(max_x_m, 0.84);
-  EXPECT_NEAR(drive.plant().Pose().x_m, 0, 0.045);
-  EXPECT_NEAR(drive.plant().Pose().y_m, 1, 0.045);
-}
-
-TEST(ClosedLoop, NoFrameIsSentBeforeStart) {
-  SimulatedDrive drive;
-  drive.pilot().SetRoute({{1, 0, {}}});
-  drive.Run(5);
-  EXPECT_EQ(drive.NumCommandFrames(), 0);
-  EXPECT_EQ(drive.plant().DrivenDistance(), 0);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <deque>
 #include <functional>
 #include <memory>
@@ -30,8 +32,7 @@ class SimulatedDrive {
 
   /// Goes on by `duration_s`.
   void Run(double duration_s) {
-    const long end_ms = now_ms_ + std::lround(duration_s * 1000);
-    while (now_ms_ < end_ms) Step();
+    RunUntil(duration_s, [] { return false; });
   }
   /// Goes on until done() or for `limit_s`; says whether it was done.
   template <class Done>
@@ -40,6 +41,15 @@ class SimulatedDrive {
     while (now_ms_ < end_ms && !done()) Step();
     return done();
   }
+
+  /// Is started and takes a route.
+  void DriveAlong(const Route& route) {
+    Run(0.5);
+    ASSERT_TRUE(pilot().Start(Now()).is_accepted);
+    ASSERT_TRUE(pilot().SetRoute(route).is_accepted);
+  }
+  bool IsBlocked() const { return pilot().Status().state == DriveState::kBlocked; }
+  bool HasGoal() const { return pilot().Status().has_goal; }
 
   double Now() const { return 0.001 * now_ms_; }
   Pilot& pilot() { return driver_->pilot(); }
@@ -61,15 +71,13 @@ class SimulatedDrive {
   double LastCovarianceTaken() const { return covariance_taken_s_; }
   double FastestCommand() const { return fastest_mps_; }
   double FastestTrack() const {
-    return std::max(std::abs(chassis_->plant().Speeds().left_mps),
-                    std::abs(chassis_->plant().Speeds().right_mps));
+    const TrackSpeeds speeds = chassis_->plant().Speeds();
+    return std::max(std::abs(speeds.left_mps), std::abs(speeds.right_mps));
   }
-  long NumCommandFrames() const { return num_command_frames_; }
 
   CanMemoryBus bus_;
   bool is_driver_hung_ = false, has_pose_ = true, has_covariance_ = true, is_tf_missing_ = false;
-  double sigma_m_ = 0.01;
-  double stamp_offset_s_ = 0;
+  double sigma_m_ = 0.01, stamp_offset_s_ = 0;
   std::optional<Rigid3> false_pose_;
   Rigid3 told_from_true_, map_from_odom_, base_from_told_;  ///< how odometry, map, head go wrong
   uint32_t epoch_ = 1;
@@ -80,11 +88,6 @@ class SimulatedDrive {
  private:
   static constexpr int kDriverPeriod_ms = 20, kChassisPeriod_ms = 5, kPosePeriod_ms = 100;
   static constexpr double kLatency_s = 0.1;
-
-  struct Sight {
-    double taken_s;
-    Rigid3 world_from_base;
-  };
 
   void Step() {
     ++now_ms_;
@@ -101,20 +104,18 @@ class SimulatedDrive {
   }
 
   void See() {
-    sights_.push_back({Now(), chassis_->plant().WorldFromBase()});
-    while (!sights_.empty() && sights_.front().taken_s <= Now() - kLatency_s + 1e-9) {
-      if (driver_) Tell(sights_.front());
-      sights_.pop_front();
-    }
+    sights_.emplace_back(Now(), chassis_->plant().WorldFromBase());
+    for (; sights_.front().first <= Now() - kLatency_s + 1e-9; sights_.pop_front())
+      if (driver_) Tell(sights_.front().first, sights_.front().second);
   }
 
-  void Tell(const Sight& sight) {
-    const double taken_s = sight.taken_s + stamp_offset_s_;
+  void Tell(double seen_s, const Rigid3& world_from_base) {
+    const double taken_s = seen_s + stamp_offset_s_;
     if (has_pose_) pose_taken_s_ = taken_s;
     if (has_pose_ && has_covariance_) covariance_taken_s_ = taken_s;
     if (has_pose_) pilot().ObserveEpoch(epoch_, taken_s);
     if (is_tf_missing_) pilot().ObserveNoPose(no_pose_reason_);
-    const Rigid3 told = told_from_true_ * sight.world_from_base * base_from_told_;
+    const Rigid3 told = told_from_true_ * world_from_base * base_from_told_;
     if (has_pose_ && !is_tf_missing_)
       pilot().ObservePose(Now(), {taken_s, false_pose_.value_or(told), map_from_odom_});
     if (has_pose_ && has_covariance_) pilot().ObserveUncertainty(Now(), {taken_s, sigma_m_, 0.01});
@@ -123,7 +124,6 @@ class SimulatedDrive {
   void Listen() {
     while (const auto frame = listener_->Receive()) {
       const ChassisCommand command = DecodeCommand(*frame);
-      num_command_frames_ += command.index() != 0;
       if (const auto* motion = std::get_if<MotionCommand>(&command)) {
         commanded_ = motion->motion;
         fastest_mps_ = std::max(fastest_mps_, std::abs(commanded_.forward_mps));
@@ -136,8 +136,8 @@ class SimulatedDrive {
   std::unique_ptr<CanBus> listener_;
   std::optional<SimulatedChassis> chassis_;
   std::optional<ChassisDriver> driver_;
-  std::deque<Sight> sights_;
-  long now_ms_ = 100000, num_command_frames_ = 0;
+  std::deque<std::pair<double, Rigid3>> sights_;  ///< when seen, world_from_base
+  long now_ms_ = 100000;
   PlanarMotion commanded_;
   double last_moving_s_ = -1, first_stop_s_ = -2, fastest_mps_ = 0;
   double pose_taken_s_ = 0, covariance_taken_s_ = 0, answered_s_ = 0;

@@ -15,11 +15,8 @@ TEST(SlippedBelt, OneThatHasSlippedBeforeTheDriveStopsItWithinAMetre) {
     SimulatedDrive drive;
     drive.told_from_true_ = Aside(aside_deg);
     drive.base_from_told_ = Aside(-aside_deg);
-    drive.Run(0.5);
-    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
-    ASSERT_TRUE(drive.pilot().SetRoute({{5, 0, {}}}).is_accepted);
-    const auto is_blocked = [&] { return drive.pilot().Status().state == DriveState::kBlocked; };
-    EXPECT_EQ(drive.RunUntil(100, is_blocked), aside_deg != 0);
+    drive.DriveAlong({{5, 0, {}}});
+    EXPECT_EQ(drive.RunUntil(100, [&] { return drive.IsBlocked(); }), aside_deg != 0);
     if (aside_deg == 0) continue;
     EXPECT_EQ(drive.pilot().Status().reason, StopReason::kSlip);
     EXPECT_NE(drive.pilot().Status().detail.find("aside"), std::string::npos);
@@ -29,13 +26,11 @@ TEST(SlippedBelt, OneThatHasSlippedBeforeTheDriveStopsItWithinAMetre) {
 
 TEST(SlippedBelt, OneThatSlipsInTheDriveStopsItAtOnce) {
   SimulatedDrive drive;
-  drive.Run(0.5);
-  ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
-  ASSERT_TRUE(drive.pilot().SetRoute({{6, 0, {}}}).is_accepted);
+  drive.DriveAlong({{6, 0, {}}});
   drive.Run(5);
   drive.base_from_told_ = Aside(15);
   drive.Run(0.3);
-  EXPECT_EQ(drive.pilot().Status().state, DriveState::kBlocked);
+  EXPECT_TRUE(drive.IsBlocked());
   EXPECT_EQ(drive.pilot().Status().reason, StopReason::kPoseContradiction);
 }
 
@@ -68,13 +63,8 @@ TEST(SlippedBelt, HillsSlipAndNoiseAreNone) {
       const auto noise = [&] { return 0.001 * (2 * RandomUnit(engine) - 1); };
       drive.told_from_true_.translation = {noise(), noise(), noise()};
     };
-    drive.Run(0.5);
-    ASSERT_TRUE(drive.pilot().Start(drive.Now()).is_accepted);
-    const double bearing_rad = 0.3 * seed;
-    ASSERT_TRUE(drive.pilot()
-                    .SetRoute({{10 * std::cos(bearing_rad), 10 * std::sin(bearing_rad), {}}})
-                    .is_accepted);
-    drive.RunUntil(300, [&] { return !drive.pilot().Status().has_goal; });
+    drive.DriveAlong({{10 * std::cos(0.3 * seed), 10 * std::sin(0.3 * seed), {}}});
+    drive.RunUntil(300, [&] { return !drive.HasGoal(); });
     drive.Run(0.1);
     const PilotStatus status = drive.pilot().Status();
     EXPECT_EQ(status.state, DriveState::kReady)

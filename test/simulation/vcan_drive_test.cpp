@@ -159,12 +159,6 @@ TEST_F(VcanDriveTest, CandumpSeesWhatTheDriverSendsByteForByte) {
   EXPECT_EQ(seen.back().substr(0, 9), "121#01000") << "the lamp is off";
 }
 
-TEST_F(VcanDriveTest, NothingIsSentBeforeStart) {
-  wants_velocity_ = true;
-  Run(1);
-  EXPECT_TRUE(sent_.empty());
-}
-
 TEST_F(VcanDriveTest, AnInterfaceThatGoesDownBlocksAndIsNotResumedWithoutStart) {
   StartDriving();
   ASSERT_TRUE(RunsWell("ip link set vcan0 down"));

@@ -22,19 +22,6 @@ int64_t CellKey(int x, int y, int z) {
 
 }  // namespace
 
-void ObservationSimulatorOptions::Check() const {
-  Require(landmarks_in_view >= 1, "simulator: landmarks_in_view must be at least 1");
-  Require(min_depth_m > 0 && max_depth_m > min_depth_m, "simulator: depths must be 0 < min < max");
-  Require(camera_height_m > 0, "simulator: camera_height_m must be positive");
-  Require(noise_px >= 0, "simulator: noise_px must not be negative");
-  Require(outlier_fraction >= 0 && outlier_fraction < 1,
-          "simulator: outlier_fraction must be in [0, 1)");
-  Require(mean_track_frames >= 1, "simulator: mean_track_frames must be at least 1");
-  Require(rest_frames >= 0, "simulator: rest_frames must not be negative");
-  Require(max_view_change_deg > 0, "simulator: max_view_change_deg must be positive");
-  Require(max_range_ratio >= 1, "simulator: max_range_ratio must be at least 1");
-}
-
 ObservationSimulator::ObservationSimulator(const StereoCamera& camera,
                                            std::vector<Rigid3> world_from_camera,
                                            const ObservationSimulatorOptions& options)
@@ -43,7 +30,6 @@ ObservationSimulator::ObservationSimulator(const StereoCamera& camera,
       options_(options),
       engine_(options.seed) {
   camera_.Check();
-  options_.Check();
 }
 
 std::optional<SimulatedFrame> ObservationSimulator::Next() {

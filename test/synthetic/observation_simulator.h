@@ -27,8 +27,6 @@ struct ObservationSimulatorOptions {
   int rest_frames = 50;           ///< after its track a landmark is not seen for so long
   double max_view_change_deg = 40;  ///< how far round a landmark can be seen from
   double max_range_ratio = 1.5;     ///< how far off it can be seen, over the first distance
-
-  void Check() const;
 };
 
 struct SimulatedObservation {

@@ -42,24 +42,6 @@ TEST(ObservationSimulator, ErrorsAreWhatTheOptionsSay) {
   EXPECT_NEAR(std::sqrt(squares / (num_all - num_outliers)), 0.5, 0.01);
 }
 
-TEST(ObservationSimulator, DepthsAreWithinTheLimitsAndNothingIsUnderTheGround) {
-  ObservationSimulator simulator(kCamera, StraightPath(20));
-  std::vector<double> depths;
-  while (const auto frame = simulator.Next()) {
-    for (const SimulatedObservation& seen : frame->observations) {
-      const Eigen::Vector3d x =
-          frame->world_from_camera.Inverse() * simulator.Landmark(seen.landmark_id);
-      EXPECT_LT(x.y(), 1.66);
-      depths.push_back(x.z());
-    }
-  }
-  std::sort(depths.begin(), depths.end());
-  EXPECT_GT(depths.front(), 2);
-  EXPECT_LT(depths.back(), 150);
-  EXPECT_GT(depths[depths.size() / 2], 8);
-  EXPECT_LT(depths[depths.size() / 2], 30);
-}
-
 TEST(ObservationSimulator, TracksHaveTheLengthAskedForAndNoGaps) {
   ObservationSimulatorOptions options;
   options.mean_track_frames = 6;
@@ -104,41 +86,6 @@ TEST(ObservationSimulator, LandmarksAreSeenAgainWhenTheCameraComesBack) {
     }
   }
   EXPECT_GT(num_returned, num_in_last / 2);
-}
-
-TEST(ObservationSimulator, SameSeedSameNumbers) {
-  ObservationSimulatorOptions other;
-  other.seed = 2;
-  ObservationSimulator a(kCamera, StraightPath(10)), b(kCamera, StraightPath(10)),
-      c(kCamera, StraightPath(10), other);
-  for (int i = 0; i < 10; ++i) {
-    const auto frame_a = a.Next(), frame_b = b.Next(), frame_c = c.Next();
-    ASSERT_EQ(frame_a->observations.size(), frame_b->observations.size());
-    EXPECT_EQ(frame_a->observations[7].pixels, frame_b->observations[7].pixels);
-    EXPECT_NE(frame_a->observations[7].pixels, frame_c->observations[7].pixels);
-  }
-  EXPECT_FALSE(a.Next());
-}
-
-TEST(ObservationSimulator, DescriptorsAreAlikeOnlyForTheSameLandmark) {
-  ObservationSimulator simulator(kCamera, StraightPath(1));
-  const auto distance = [&](int id_a, int id_b) {
-    const auto a = simulator.Describe(id_a, 0.3), b = simulator.Describe(id_b, 0.3);
-    double squares = 0;
-    for (int i = 0; i < 64; ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
-    return std::sqrt(squares);
-  };
-  for (int id = 0; id < 100; ++id) {
-    EXPECT_LT(distance(id, id), 0.65) << id;
-    EXPECT_GT(distance(id, id + 1), 0.8) << id;
-  }
-}
-
-TEST(ObservationSimulator, RefusesBadOptions) {
-  ObservationSimulatorOptions options;
-  options.outlier_fraction = 1;
-  EXPECT_THROW(ObservationSimulator(kCamera, {}, options), std::invalid_argument);
-  EXPECT_FALSE(ObservationSimulator(kCamera, {}).Next());
 }
 
 TEST(ObservationSimulator, FollowsARealPathOfThousandsOfFrames) {

@@ -131,27 +131,6 @@ TEST_P(GuardedBusTest, WhatAGuardFindsOldWhenItWakesIsNotSent) {
   for (const std::string& frame : sent_) EXPECT_EQ(frame, "111#0000000000000000");
 }
 
-TEST_P(GuardedBusTest, APacketStopsUntilReleasedAndIsAnswered) {
-  StartGuard();
-  ASSERT_TRUE(IsUp());
-  ASSERT_TRUE(Sends(kCommand, "111#0064000000000000"));
-  FileDescriptor person(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(stop_port_);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ::connect(person.Get(), reinterpret_cast<sockaddr*>(&address), sizeof(address));
-  ::send(person.Get(), "", 0, 0);  // of any content
-  char answer[64] = {};
-  RunUntil([&] { return answer[0] || ::recv(person.Get(), answer, sizeof(answer) - 1, 0) > 0; });
-  EXPECT_STREQ(answer, "stopped by chassis_guard");
-  EXPECT_TRUE(Sends(kCommand, "111#0000000000000000"));
-  EXPECT_TRUE(RunUntil([&] { return bus_->GuardStop() == "a UDP packet"; }));
-  bus_->ReleaseGuard();
-  EXPECT_EQ(bus_->GuardStop(), "");
-  EXPECT_TRUE(Sends(kCommand, "111#0064000000000000"));
-}
-
 TEST_P(GuardedBusTest, ASecondNodeWaitsUntilTheFirstIsGone) {
   StartGuard();
   ASSERT_TRUE(IsUp());

@@ -149,6 +149,16 @@ void World::TellTime() {
   clock_.publish(time);
 }
 
+void World::Drive(const std::function<void()>& command) {
+  bool moves = false;
+  for (int i = 0; i < 5 && !moves && Start(); ++i) {
+    command();
+    moves = RunUntil([this] { return log_.last.forward_mps > 0.09; }, 12);
+  }
+  ASSERT_TRUE(moves) << status_.state_text << ": " << status_.reason;
+  held_up_s_ = 0;
+}
+
 bool World::RunUntil(const std::function<bool()>& done, double limit_s) {
   const double end_s = Now() + limit_s;
   double looked_s = Now();

@@ -31,6 +31,12 @@ class World {
 
   /// Goes on until done(), at most for a minute; says whether it was done.
   bool RunUntil(const std::function<bool()>& done, double limit_s = 60);
+  bool Start() {
+    return RunUntil([this] { return Call("start").success; });
+  }
+  /// Starts the rover and sends it `command` until it moves: a machine that holds one of us up for
+  /// a second stops it, then once more.
+  void Drive(const std::function<void()>& command);
   void Run(double duration_s) {
     RunUntil([] { return false; }, duration_s);
   }

@@ -49,16 +49,11 @@ class MoveBaseTest : public testing::Test {
   }
   void TearDown() override { world_->Call("stop"); }
 
-  /// A machine that holds one of us up for a second stops the rover: then once more.
   void Drive(const MoveBaseGoal& goal) {
-    bool moves = false;
-    for (int i = 0; i < 5 && !moves; ++i) {
-      if (!world_->RunUntil([] { return world_->Call("start").success; })) break;
+    world_->Drive([&] {
       client_->sendGoal(goal, {}, {},
                         [this](const auto& feedback) { feedback_.push_back(*feedback); });
-      moves = world_->RunUntil([] { return world_->log_.last.forward_mps > 0.09; }, 12);
-    }
-    ASSERT_TRUE(moves) << world_->status_.state_text << ": " << world_->status_.reason;
+    });
   }
   static void ExpectEnd(const Client& client, const std::string& state, const std::string& text) {
     ASSERT_TRUE(world_->RunUntil([&] { return client.getState().isDone(); }));
@@ -93,7 +88,7 @@ TEST_F(MoveBaseTest, AGoalInALongStandbyIsRejected) {
 }
 
 TEST_F(MoveBaseTest, WhatIsNoGoalIsRejectedWithTheReason) {
-  ASSERT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  ASSERT_TRUE(world_->Start());
   const ros::Time now = ros::Time::now();
   const struct {
     const char* frame;
@@ -172,7 +167,7 @@ TEST_F(MoveBaseTest, AFaultAbortsAndTheGoalIsNotDrivenToLater) {
   ExpectEnd(*client_, "ABORTED", "software emergency stop is set");
   ExpectToStandWithoutAGoal();
   world_->SetEmergencyStop(false);
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  EXPECT_TRUE(world_->Start());
   EXPECT_TRUE(world_->RunUntil([] { return world_->status_.state == DriveStatus::READY; }));
 }
 
@@ -196,7 +191,7 @@ TEST_F(MoveBaseTest, TheGoalOfAClientThatIsGoneIsDrivenToAndAnybodyCancelsIt) {
 }
 
 TEST_F(MoveBaseTest, TheWayHomeIsDrivenByTheServiceOnceTheRoverIsFoundInTheMap) {
-  ASSERT_TRUE(world_->RunUntil([] { return world_->Call("start").success; }));
+  ASSERT_TRUE(world_->Start());
   EXPECT_EQ(world_->Call("drive_home").message, "way home: ba_node tells no path_optimized");
   ros::NodeHandle node;
   const auto paths = node.advertise<nav_msgs::Path>("path_optimized", 1, true);

@@ -1,6 +1,5 @@
 // pose_node in its chain, with an IMU that hangs upside down and track odometry.
 #include <arfm_vo/OdometryStatus.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -42,18 +41,15 @@ class SensesOfTheGraph : public testing::Test {
     time_s_ = 0;
     std_srvs::Trigger save;  // answered after what was sent before
     EXPECT_TRUE(ros::service::call("/pose_node/save_trajectory", save));
-    ros::WallTime next;
-    WaitUntil(
-        [&] {
-          if (ros::WallTime::now() > next) {
-            SendPair(false);
-            next = ros::WallTime::now() + ros::WallDuration(2);
-            start_s_ += 0.001;
-          }
-          return status_.size() > 0 && status_.last().header.stamp.toSec() >= stamp_s &&
-                 status_.last().header.stamp.toSec() < stamp_s + 1;
-        },
-        "the chain to answer");
+    const auto is_answered = [&] {
+      return status_.size() > 0 && status_.last().header.stamp.toSec() >= stamp_s &&
+             status_.last().header.stamp.toSec() < stamp_s + 1;
+    };
+    const auto send = [&] {
+      SendPair(false);
+      start_s_ += 0.001;
+    };
+    RepeatUntil(is_answered, send, 2, "the chain to answer");
   }
 
   Rigid3 StartFromBase() const {
@@ -111,21 +107,6 @@ class SensesOfTheGraph : public testing::Test {
               "the pair's pose");
   }
 
-  void ExpectDiagnostic(int level, const std::string& text) {
-    WaitUntil(
-        [&] {
-          for (const auto& array : diagnostics_.all()) {
-            for (const auto& status : array.status) {
-              if (status.name.find("senses") != std::string::npos && status.level == level &&
-                  status.message.find(text) != std::string::npos)
-                return true;
-            }
-          }
-          return false;
-        },
-        "a diagnostic of the senses: " + text);
-  }
-
   double start_s_ = 0, time_s_ = 0, track_scale_ = 1;
   int num_readings_ = 0;
   std::string child_frame_ = "base_link";
@@ -137,7 +118,7 @@ class SensesOfTheGraph : public testing::Test {
   ros::Publisher tracks_ = node_.advertise<nav_msgs::Odometry>("rover/tracks", 1000);
   Inbox<OdometryStatus> status_{"status"};
   Inbox<nav_msgs::Odometry> odom_{"odom"};
-  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+  Diagnoses diagnoses_;
 };
 
 TEST_F(SensesOfTheGraph, LevelOdomFromTheFirstPairOn) {
@@ -156,7 +137,7 @@ TEST_F(SensesOfTheGraph, CarryThePoseInTheDark) {
   for (int i = 0; i < 24 && !HasFailure(); ++i) Step();
   ASSERT_EQ(status_.last().state, OdometryStatus::TRACKED) << status_.last().text;
   EXPECT_EQ(status_.last().text, "tracked");
-  ExpectDiagnostic(diagnostic_msgs::DiagnosticStatus::OK, "they agree with the cameras");
+  diagnoses_.Await("senses", diagnostic_msgs::DiagnosticStatus::OK, "they agree with the cameras");
   const Rigid3 before = StartFromBase();
   const Rigid3 told_before = ToRigid3(odom_.last().pose.pose);
   const uint32_t epoch = status_.last().epoch;
@@ -183,11 +164,11 @@ TEST_F(SensesOfTheGraph, ThatContradictTheCamerasAreNamed) {
   EXPECT_EQ(status_.last().state, OdometryStatus::TRACKED) << status_.last().text;
   EXPECT_THAT(status_.last().text, HasSubstr("tracked; tracks: way over that of the cameras 1."));
   EXPECT_THAT(status_.last().text, testing::Not(HasSubstr("imu")));
-  ExpectDiagnostic(diagnostic_msgs::DiagnosticStatus::WARN,
+  diagnoses_.Await("senses", diagnostic_msgs::DiagnosticStatus::WARN,
                    "tracks: way over that of the cameras 1.");
   child_frame_ = "base_footprint";
   Step();
-  ExpectDiagnostic(diagnostic_msgs::DiagnosticStatus::ERROR,
+  diagnoses_.Await("senses", diagnostic_msgs::DiagnosticStatus::ERROR,
                    "reading of /rover/tracks refused: track_odom: child_frame_id is "
                    "'base_footprint', not base_link");
 }

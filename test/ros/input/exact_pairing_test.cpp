@@ -6,80 +6,59 @@
 #include <sensor_msgs/Image.h>
 
 #include <boost/make_shared.hpp>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace arfm_vo {
 namespace {
 
-using testing::ElementsAre;
+template <class Message>
+boost::shared_ptr<const Message> Make(double stamp_s) {
+  const auto message = boost::make_shared<Message>();
+  message->header.stamp = ros::Time(stamp_s);
+  return message;
+}
 
-class ExactPairingTest : public testing::Test {
- protected:
-  void AddImage(double stamp_s) { pairing_.Add<0>(Make<sensor_msgs::Image>(stamp_s)); }
-  void AddInfo(double stamp_s) { pairing_.Add<1>(Make<sensor_msgs::CameraInfo>(stamp_s)); }
-
-  std::vector<double> paired_s_;
-
- private:
-  template <class Message>
-  static boost::shared_ptr<const Message> Make(double stamp_s) {
-    const auto message = boost::make_shared<Message>();
-    message->header.stamp = ros::Time(stamp_s);
-    return message;
-  }
-
-  ExactPairing<sensor_msgs::Image, sensor_msgs::CameraInfo> pairing_{
-      3, [this](const auto& image, const auto& info) {
+/// The stamps of the pairs that come of images (i) and camera_infos (c) in this order.
+std::vector<double> Pair(const std::string& messages) {
+  std::vector<double> paired_s;
+  ExactPairing<sensor_msgs::Image, sensor_msgs::CameraInfo> pairing(
+      3, [&](const auto& image, const auto& info) {
         EXPECT_EQ(image->header.stamp, info->header.stamp);
-        paired_s_.push_back(image->header.stamp.toSec());
-      }};
-};
-
-TEST_F(ExactPairingTest, PairsThoseOfOneStampInEitherOrder) {
-  AddImage(1), AddInfo(1);
-  AddInfo(2), AddImage(2);
-  AddImage(3), AddInfo(3.001);
-  EXPECT_THAT(paired_s_, ElementsAre(1, 2));
+        paired_s.push_back(image->header.stamp.toSec());
+      });
+  std::istringstream stream(messages);
+  for (char kind = 0; stream >> kind;) {
+    double stamp_s = 0;
+    stream >> stamp_s;
+    if (kind == 'i') pairing.Add<0>(Make<sensor_msgs::Image>(stamp_s));
+    if (kind == 'c') pairing.Add<1>(Make<sensor_msgs::CameraInfo>(stamp_s));
+  }
+  return paired_s;
 }
 
-TEST_F(ExactPairingTest, ATopicMayBeBehindByAsManyAsMayWait) {
-  for (const double stamp_s : {1, 2, 3, 4}) AddImage(stamp_s);
-  for (const double stamp_s : {1, 2, 3, 4}) AddInfo(stamp_s);
-  EXPECT_THAT(paired_s_, ElementsAre(2, 3, 4));
-}
-
-TEST_F(ExactPairingTest, NoPairIsLostWhereTimeJumpsBack) {
-  AddImage(60), AddInfo(60);
-  AddImage(1), AddInfo(1);
-  AddInfo(2), AddImage(2);
-  EXPECT_THAT(paired_s_, ElementsAre(60, 1, 2));
-}
-
-TEST_F(ExactPairingTest, NoPairIsLostWhereOneTopicJumpsBackBeforeTheOther) {
-  AddImage(60), AddInfo(60);
-  AddImage(1), AddImage(2), AddInfo(1), AddInfo(2);
-  AddInfo(0.25), AddInfo(0.5), AddImage(0.25), AddImage(0.5);
-  EXPECT_THAT(paired_s_, ElementsAre(60, 1, 2, 0.25, 0.5));
-}
-
-TEST_F(ExactPairingTest, IncompleteOnesOfALaterTimeKeepNoOthersOut) {
-  for (int i = 0; i < 10; ++i) AddImage(4e9 + i);
-  for (const double stamp_s : {1, 2, 3}) AddImage(stamp_s), AddInfo(stamp_s);
-  EXPECT_THAT(paired_s_, ElementsAre(1, 2, 3));
-}
-
-TEST_F(ExactPairingTest, NoPairIsLostWhereAnOldOneComesAgain) {
-  AddImage(1), AddInfo(1);
-  AddInfo(2), AddInfo(1);  // the image of 2 is on its way
-  AddImage(2), AddImage(1);
-  AddImage(3), AddInfo(3);
-  EXPECT_THAT(paired_s_, ElementsAre(1, 2, 1, 3));
-}
-
-TEST_F(ExactPairingTest, AfterASpellOfTheOtherTopicNoPairIsLost) {
-  for (int i = 0; i < 10; ++i) AddInfo(4e9 + i);
-  for (const double stamp_s : {1, 2, 3}) AddImage(stamp_s), AddInfo(stamp_s);
-  EXPECT_THAT(paired_s_, ElementsAre(1, 2, 3));
+TEST(ExactPairing, LosesNoPairHoweverTopicsJumpOrLagWithinWhatMayWait) {
+  const struct {
+    const char* what;
+    const char* messages;
+    std::vector<double> paired_s;
+  } rows[] = {{"either order", "i1 c1 c2 i2 i3 c3.001", {1, 2}},
+              {"a topic behind by as many as may wait", "i1 i2 i3 i4 c1 c2 c3 c4", {2, 3, 4}},
+              {"time jumps back", "i60 c60 i1 c1 c2 i2", {60, 1, 2}},
+              {"one topic jumps back before the other",
+               "i60 c60 i1 i2 c1 c2 c0.25 c0.5 i0.25 i0.5",
+               {60, 1, 2, 0.25, 0.5}},
+              {"incomplete ones of a later time",
+               "i4e9 i4000000001 i4000000002 i4000000003 i4000000004 "
+               "i1 c1 i2 c2 i3 c3",
+               {1, 2, 3}},
+              {"an old one comes again", "i1 c1 c2 c1 i2 i1 i3 c3", {1, 2, 1, 3}},
+              {"a spell of the other topic",
+               "c4e9 c4000000001 c4000000002 c4000000003 c4000000004 "
+               "i1 c1 i2 c2 i3 c3",
+               {1, 2, 3}}};
+  for (const auto& [what, messages, paired_s] : rows) EXPECT_EQ(Pair(messages), paired_s) << what;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "arfm_vo/configuration/learned_correction_file.h"
+#include "base/folder_test.h"
 
 namespace arfm_vo {
 namespace {
@@ -21,22 +22,13 @@ CorrectionBelief Learned(double column_px) {
 }
 
 /// An empty folder that is ROS's own.
-class LearnedCalibrationTest : public ::testing::Test {
+class LearnedCalibrationTest : public FolderTest {
  protected:
-  LearnedCalibrationTest() {
-    std::string name = std::filesystem::temp_directory_path() / "arfm_vo_learned_XXXXXX";
-    home_ = ::mkdtemp(name.data());
-    ::setenv("ROS_HOME", home_.c_str(), 1);
-  }
-  ~LearnedCalibrationTest() override {
-    ::unsetenv("ROS_HOME");
-    std::filesystem::remove_all(home_);
-  }
+  LearnedCalibrationTest() { ::setenv("ROS_HOME", folder_.c_str(), 1); }
+  ~LearnedCalibrationTest() override { ::unsetenv("ROS_HOME"); }
   std::filesystem::path File() const {
-    return home_ / "arfm_vo" / NameLearnedCorrection(kLearningCamera);
+    return folder_ / "arfm_vo" / NameLearnedCorrection(kLearningCamera);
   }
-
-  std::filesystem::path home_;
 };
 
 TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
@@ -76,30 +68,30 @@ TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
 TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
   LearnedCalibration learned({true, ""});
   learned.Write(Learned(0.25));
-  EXPECT_FALSE(std::filesystem::exists(home_ / "arfm_vo"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "arfm_vo"));
 }
 
 TEST_F(LearnedCalibrationTest, AFileThatIsNoneStopsNothing) {
-  std::filesystem::create_directories(home_ / "arfm_vo");
+  std::filesystem::create_directories(folder_ / "arfm_vo");
   std::ofstream(File()) << "neither: [here";
   EXPECT_FALSE(LearnedCalibration({}).ReadFor(kLearningCamera));
 }
 
 TEST_F(LearnedCalibrationTest, AFolderThatCannotBeMadeStopsNothing) {
   ros::Time::init();  // the warning's
-  std::ofstream(home_ / "file") << "no folder";
-  LearnedCalibration learned({true, home_ / "file"});
+  std::ofstream(folder_ / "file") << "no folder";
+  LearnedCalibration learned({true, folder_ / "file"});
   EXPECT_FALSE(learned.ReadFor(kLearningCamera));
   learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::is_regular_file(home_ / "file"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "file"));
 }
 
 TEST_F(LearnedCalibrationTest, AFolderThatIsGivenTakesThePlaceOfRossOwn) {
-  LearnedCalibration learned({true, home_ / "given"});
+  LearnedCalibration learned({true, folder_ / "given"});
   learned.ReadFor(kLearningCamera);
   learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::exists(home_ / "given" / NameLearnedCorrection(kLearningCamera)));
-  EXPECT_FALSE(std::filesystem::exists(home_ / "arfm_vo"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "given" / NameLearnedCorrection(kLearningCamera)));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "arfm_vo"));
 }
 
 }  // namespace

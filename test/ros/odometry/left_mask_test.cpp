@@ -4,26 +4,27 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "arfm_vo/odometry/stereo_frontend.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 #include "ros/textured_wall.h"
 
 namespace arfm_vo {
 namespace {
 
-TEST(LeftMask, NothingUnderItIsUsed) {
+using LeftMask = FolderTest;
+
+TEST_F(LeftMask, NothingUnderItIsUsed) {
   const TexturedWall wall;
   const StereoImages images = wall.Render(1, Rigid3());
-  std::string folder = std::filesystem::temp_directory_path() / "arfm_vo_mask_XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
   const int middle = wall.camera().height / 2;
   cv::Mat mask(wall.camera().height, wall.camera().width, CV_8UC1, cv::Scalar(255));
   mask.rowRange(middle, mask.rows).setTo(0);
   FrontendOptions options;
-  options.left_mask = folder + "/mask.png";
+  options.left_mask = folder_ / "mask.png";
   cv::imwrite(options.left_mask, mask);
   const StereoFrame masked = StereoFrontend(wall.camera(), options).Process(images);
   const StereoFrame whole = StereoFrontend(wall.camera(), {}).Process(images);
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove(options.left_mask);
   EXPECT_INVALID(StereoFrontend(wall.camera(), options), "left_mask: " + options.left_mask);
 
   const auto num_below = [&](const StereoFrame& frame) {

@@ -8,6 +8,7 @@
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/mapping/map_file.h"
+#include "base/folder_test.h"
 
 namespace arfm_vo {
 namespace {
@@ -17,13 +18,9 @@ namespace fs = std::filesystem;
 const StereoCamera kCamera{400, 400, 320, 240, 0.3, 640, 480};
 
 /// Files of a drive of some keyframes along a wall, and of the next one.
-class MapKeeperTest : public ::testing::Test {
+class MapKeeperTest : public FolderTest {
  protected:
-  MapKeeperTest() {
-    fs::create_directories(folder_);
-    options_.map_file = folder_ / "site.map";
-  }
-  ~MapKeeperTest() override { fs::remove_all(folder_); }
+  MapKeeperTest() { options_.map_file = folder_ / "site.map"; }
 
   /// Of the camera, seen from the first keyframe's.
   static Rigid3 At(int number) { return {Eigen::Quaterniond::Identity(), {0.5 * number, 0, 0}}; }
@@ -102,7 +99,6 @@ class MapKeeperTest : public ::testing::Test {
     return names;
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("map_keeper_" + std::to_string(getpid()));
   MapKeeperOptions options_;
   std::string text_, saved_;
 };

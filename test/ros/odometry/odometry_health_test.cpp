@@ -43,16 +43,25 @@ int LevelOfRows(double row_residual_px) {
   return status.level;
 }
 
-TEST(OdometryHealth, PairsAreCounted) {
-  OdometryHealth health{OdometryHealthOptions()};
-  health.Count(FrameWithRows(0), kTracked, 1, 0);
-  health.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1, 0);
-  health.CountRefused("a pair without a picture");
-  health.CountRefused("a pair without a picture");
-  health.CountRefused("a pair without a picture");
-  health.CountDropped(4);
-  Wrapper status;
-  health.ReportOdometry(status);
+class OdometryHealthTest : public testing::Test {
+ protected:
+  using Report = void (OdometryHealth::*)(Wrapper&);
+  Wrapper Told(Report report) {
+    Wrapper status;
+    (health_.*report)(status);
+    return status;
+  }
+  OdometryHealth health_{OdometryHealthOptions()};
+};
+
+TEST_F(OdometryHealthTest, PairsAreCounted) {
+  health_.Count(FrameWithRows(0), kTracked, 1, 0);
+  health_.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1, 0);
+  health_.CountRefused("a pair without a picture");
+  health_.CountRefused("a pair without a picture");
+  health_.CountRefused("a pair without a picture");
+  health_.CountDropped(4);
+  const Wrapper status = Told(&OdometryHealth::ReportOdometry);
   EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
   EXPECT_EQ(status.message, "pair refused: a pair without a picture");
   std::map<std::string, std::string> told;
@@ -69,43 +78,34 @@ TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {
   EXPECT_EQ(LevelOfRows(1.1), DiagnosticStatus::ERROR);
 }
 
-TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
-  OdometryHealth health{OdometryHealthOptions()};
+TEST_F(OdometryHealthTest, ASkewBetweenTheEyesIsToldInMilliseconds) {
   SessionUpdate pose = kTracked;
   pose.update.skew = EyeSkew{-0.0101, 0.0002};
-  health.Count(FrameWithRows(0.3), pose, 1, 0);
-  Wrapper status;
-  health.ReportCalibration(status);
+  health_.Count(FrameWithRows(0.3), pose, 1, 0);
+  const Wrapper status = Told(&OdometryHealth::ReportCalibration);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_EQ(status.message, "the right picture is taken 10.1 ms before the left one (sigma 0.2)");
 }
 
-TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
-  OdometryHealth health{OdometryHealthOptions()};
-  for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1, 0);
-  Wrapper status;
-  health.ReportCalibration(status);
+TEST_F(OdometryHealthTest, OneBadPairDoesNotMoveTheMedian) {
+  for (int i = 0; i < 10; ++i) health_.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1, 0);
+  const Wrapper status = Told(&OdometryHealth::ReportCalibration);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
 }
 
-TEST(OdometryHealth, LostIsAnError) {
-  OdometryHealth health{OdometryHealthOptions()};
-  const auto report = [&] {
-    Wrapper status;
-    health.ReportOdometry(status);
-    return status;
-  };
+TEST_F(OdometryHealthTest, LostIsAnError) {
+  const auto report = [this] { return Told(&OdometryHealth::ReportOdometry); };
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // no pairs yet
-  health.Count({}, kTracked, 1, 0);
+  health_.Count({}, kTracked, 1, 0);
   EXPECT_EQ(report().level, DiagnosticStatus::OK);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);  // none since
-  health.Count({}, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), 1, 0);
+  health_.Count({}, PoseWithStatus(PoseStatus::kTooFewMatches, "too few matches"), 1, 0);
   const Wrapper lost = report();
   EXPECT_EQ(lost.level, DiagnosticStatus::ERROR);
   EXPECT_THAT(lost.message, testing::HasSubstr("too few matches"));
-  health.Count({}, PoseWithStatus(PoseStatus::kHeadSlewing, "head slewing"), 1, 0);
+  health_.Count({}, PoseWithStatus(PoseStatus::kHeadSlewing, "head slewing"), 1, 0);
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);
-  health.CountRefused("left/image_rect: the image is empty");
+  health_.CountRefused("left/image_rect: the image is empty");
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
 }
 
@@ -123,25 +123,23 @@ std::optional<ConsoleLine> Watch(OdometryHealth& health, double start_s, const S
   return std::nullopt;
 }
 
-TEST(OdometryHealth, TellsTheFirstPoseOnce) {
-  OdometryHealth health{OdometryHealthOptions()};
-  const auto line = Watch(health, 0, kTracked);
+TEST_F(OdometryHealthTest, TellsTheFirstPoseOnce) {
+  const auto line = Watch(health_, 0, kTracked);
   ASSERT_TRUE(line);
   EXPECT_FALSE(line->is_warning);
   EXPECT_THAT(line->text, HasSubstr("the first pose is there"));
-  EXPECT_FALSE(Watch(health, 1, kTracked));
+  EXPECT_FALSE(Watch(health_, 1, kTracked));
 }
 
-TEST(OdometryHealth, SaysWhyItIsLostAndWhenItIsBack) {
-  OdometryHealth health{OdometryHealthOptions()};
-  health.Count({}, kTracked, 1, 0);
+TEST_F(OdometryHealthTest, SaysWhyItIsLostAndWhenItIsBack) {
+  health_.Count({}, kTracked, 1, 0);
   const auto lost =
-      Watch(health, 1, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few features"));
+      Watch(health_, 1, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few features"));
   ASSERT_TRUE(lost);
   EXPECT_TRUE(lost->is_warning);
   EXPECT_THAT(lost->text, HasSubstr("too few features"));
   EXPECT_THAT(lost->text, HasSubstr("without texture"));
-  const auto back = health.Count({}, kTracked, 1, 5);
+  const auto back = health_.Count({}, kTracked, 1, 5);
   ASSERT_TRUE(back);
   EXPECT_FALSE(back->is_warning);
   EXPECT_THAT(back->text, HasSubstr("after 5.0 s"));
@@ -181,25 +179,23 @@ TEST(OdometryHealth, WhatLastsIsWarnedOfWithItsRemedy) {
   }
 }
 
-TEST(OdometryHealth, SaysWhyAPoseIsDegraded) {
-  OdometryHealth health{OdometryHealthOptions()};
-  health.Count({}, kTracked, 1, 0);
+TEST_F(OdometryHealthTest, SaysWhyAPoseIsDegraded) {
+  health_.Count({}, kTracked, 1, 0);
   const auto degraded =
-      Watch(health, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
+      Watch(health_, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
   ASSERT_TRUE(degraded);
   EXPECT_TRUE(degraded->is_warning);
   EXPECT_EQ(degraded->text, "the right camera is dark");
-  EXPECT_THAT(health.Count({}, kTracked, 1, 20)->text, HasSubstr("tracked again"));
+  EXPECT_THAT(health_.Count({}, kTracked, 1, 20)->text, HasSubstr("tracked again"));
 }
 
-TEST(OdometryHealth, CountsAllPairsInTheTotals) {
-  OdometryHealth health{OdometryHealthOptions()};
-  health.Count({}, kTracked, 1, 0);
-  health.Count({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1, 1);
-  health.Count({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 1, 2);
-  health.CountDropped(4);
-  for (int i = 0; i < 5; ++i) health.CountRefused("an image without pixels");
-  EXPECT_EQ(health.Totals(),
+TEST_F(OdometryHealthTest, CountsAllPairsInTheTotals) {
+  health_.Count({}, kTracked, 1, 0);
+  health_.Count({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1, 1);
+  health_.Count({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 1, 2);
+  health_.CountDropped(4);
+  for (int i = 0; i < 5; ++i) health_.CountRefused("an image without pixels");
+  EXPECT_EQ(health_.Totals(),
             "3 pairs: 1 with a pose, 1 lost, 0 degraded, 1 without tf or skipped while the head "
             "turned; 4 dropped, 5 refused");
 }

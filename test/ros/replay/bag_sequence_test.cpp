@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
+#include <utility>
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/ros/replay/stereo_outputs.h"
+#include "base/folder_test.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -26,14 +29,8 @@ SequencePair MakePair(int i) {
 }
 StereoMessages MakeMessages(int i) { return ToMessages(MakePair(i), kBagCamera, "camera"); }
 
-class BagSequenceTest : public testing::Test {
+class BagSequenceTest : public FolderTest {
  protected:
-  BagSequenceTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~BagSequenceTest() override { fs::remove_all(folder_); }
-
   void WriteBag(const std::vector<StereoMessages>& pairs) {
     StereoBagWriter writer(path_, StereoTopics{});
     for (const StereoMessages& messages : pairs) writer.Write(messages);
@@ -45,6 +42,12 @@ class BagSequenceTest : public testing::Test {
     rosbag::Bag bag(path_, rosbag::bagmode::Write);
     write(bag);
   }
+  ros::Time WriteInfos(const StereoMessages& messages, rosbag::Bag& bag) {
+    const ros::Time stamp = messages.left.header.stamp;
+    bag.write(topics_.left_info, stamp, messages.left_info);
+    bag.write(topics_.right_info, stamp, messages.right_info);
+    return stamp;
+  }
   std::string ErrorOf(const StereoTopics& topics = {}) {
     return RefusalBehind(path_, [&] {
       BagSequence sequence(path_, topics);
@@ -53,7 +56,6 @@ class BagSequenceTest : public testing::Test {
     });
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / "arfm_vo_bag_sequence_test";
   const std::string path_ = folder_ / "test.bag";
   const StereoTopics topics_;
 };
@@ -94,9 +96,7 @@ TEST_F(BagSequenceTest, LeavesImagesWithoutPartnerOutAndCountsThem) {
   WriteBagBy([&](rosbag::Bag& bag) {
     for (int i = 0; i < 5; ++i) {
       const StereoMessages messages = MakeMessages(i);
-      const ros::Time stamp = messages.left.header.stamp;
-      bag.write(topics_.left_info, stamp, messages.left_info);
-      bag.write(topics_.right_info, stamp, messages.right_info);
+      const ros::Time stamp = WriteInfos(messages, bag);
       if (i != 1) bag.write(topics_.left_image, stamp, messages.left);
       if (i != 3) bag.write(topics_.right_image, stamp + ros::Duration(0.02), messages.right);
     }
@@ -116,9 +116,7 @@ TEST_F(BagSequenceTest, InterpolatesTheTruthBetweenNearNeighboursOnly) {
   WriteBagBy([&](rosbag::Bag& bag) {
     for (int i = 0; i < 20; ++i) {
       StereoMessages messages = MakeMessages(i);
-      const ros::Time stamp = messages.left.header.stamp;
-      bag.write(topics_.left_info, stamp, messages.left_info);
-      bag.write(topics_.right_info, stamp, messages.right_info);
+      const ros::Time stamp = WriteInfos(messages, bag);
       bag.write(topics_.left_image, stamp, messages.left);
       bag.write(topics_.right_image, stamp, messages.right);
       if (i % 2 == 0 && i < 5) bag.write(topics_.ground_truth, stamp, *messages.ground_truth);
@@ -205,27 +203,21 @@ TEST_F(BagSequenceTest, ATopicOfAnotherTypeIsNamed) {
             "instead of sensor_msgs/Image");
 }
 
-TEST_F(BagSequenceTest, AWrongBaselineIsAnError) {
-  StereoMessages messages = MakeMessages(0);
-  messages.right_info.P[3] = -700 * 120;
-  WriteBag({messages});
-  EXPECT_THAT(ErrorOf(), testing::HasSubstr("baseline of 120"));
-}
-
-TEST_F(BagSequenceTest, AnImageOfAnotherSizeIsAnError) {
-  StereoMessages messages = MakeMessages(0);
-  messages.right.height = 11;
-  messages.right.data.resize(11 * 16);
-  WriteBag({messages});
-  EXPECT_EQ(ErrorOf(),
-            ": topic /stereo/right/image_rect: an image is 16x11, camera_info says 16x12");
-}
-
-TEST_F(BagSequenceTest, ATruthThatIsNoPoseIsAnError) {
-  StereoMessages messages = MakeMessages(0);
-  messages.ground_truth->pose.position.x = NAN;
-  WriteBag({messages});
-  EXPECT_THAT(ErrorOf(), testing::StartsWith(": topic /stereo/ground_truth"));
+TEST_F(BagSequenceTest, WhatIsWrongWithAMessageIsNamed) {
+  const std::pair<std::function<void(StereoMessages&)>, const char*> rows[] = {
+      {[](auto& m) { m.right_info.P[3] = -700 * 120; }, "baseline of 120"},
+      {[](auto& m) {
+         m.right.height = 11;
+         m.right.data.resize(11 * 16);
+       },
+       ": topic /stereo/right/image_rect: an image is 16x11, camera_info says 16x12"},
+      {[](auto& m) { m.ground_truth->pose.position.x = NAN; }, ": topic /stereo/ground_truth"}};
+  for (const auto& [spoil, error] : rows) {
+    StereoMessages messages = MakeMessages(0);
+    spoil(messages);
+    WriteBag({messages});
+    EXPECT_THAT(ErrorOf(), testing::HasSubstr(error));
+  }
 }
 
 TEST_F(BagSequenceTest, AnUnclosedWriterLeavesNothing) {

@@ -116,26 +116,25 @@ sensor_msgs::CameraInfo Info(double baseline_m) {
   return info;
 }
 
-Wrapper Calibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right) {
-  Wrapper report;
-  ReportCalibration(left, right, 640, 480, report);
-  return report;
-}
-
 TEST(CameraHealth, CalibrationIsWatched) {
-  EXPECT_EQ(Calibration(Info(0), Info(0.2)).level, DiagnosticStatus::OK);
-  EXPECT_EQ(Calibration({}, {}).level, DiagnosticStatus::WARN);
-  EXPECT_THAT(Calibration(Info(0), {}).message, HasSubstr("right eye is not calibrated"));
   sensor_msgs::CameraInfo small = Info(0.2);
   small.width = 320;
-  EXPECT_EQ(Calibration(Info(0), small).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Calibration(Info(0), small).message, HasSubstr("320x480"));
-}
-
-TEST(CameraHealth, ABaselineInMillimetresOrOfSwappedEyesIsAnError) {
-  EXPECT_EQ(Calibration(Info(0), Info(200)).level, DiagnosticStatus::ERROR);
-  EXPECT_EQ(Calibration(Info(0), Info(-0.2)).level, DiagnosticStatus::ERROR);
-  EXPECT_THAT(Calibration(Info(0), Info(-0.2)).message, HasSubstr("swapped"));
+  const struct {
+    sensor_msgs::CameraInfo left, right;
+    int level;
+    const char* text;
+  } rows[] = {{Info(0), Info(0.2), DiagnosticStatus::OK, ""},
+              {{}, {}, DiagnosticStatus::WARN, ""},
+              {Info(0), {}, DiagnosticStatus::WARN, "right eye is not calibrated"},
+              {Info(0), small, DiagnosticStatus::ERROR, "320x480"},
+              {Info(0), Info(200), DiagnosticStatus::ERROR, ""},  // in millimetres
+              {Info(0), Info(-0.2), DiagnosticStatus::ERROR, "swapped"}};
+  for (const auto& [left, right, level, text] : rows) {
+    Wrapper report;
+    ReportCalibration(left, right, 640, 480, report);
+    EXPECT_EQ(report.level, level) << text;
+    EXPECT_THAT(report.message, HasSubstr(text));
+  }
 }
 
 TEST(StereoCameraNodeOptions, ShippedConfigIsReadStrictly) {
