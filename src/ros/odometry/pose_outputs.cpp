@@ -22,7 +22,6 @@ PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
                          std::string base_frame)
     : options_(options),
       base_frame_(std::move(base_frame)),
-      path_(options.path),
       odometry_publisher_(node.advertise<nav_msgs::Odometry>("odom", 10)),
       path_publisher_(node.advertise<nav_msgs::Path>("path", 1, true)),
       status_publisher_(node.advertise<OdometryStatus>("status", 10)),

@@ -40,11 +40,11 @@ class LearnedCalibrationTest : public ::testing::Test {
 };
 
 TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
-  LearnedCalibration first({true, ""});
+  LearnedCalibration first(true);
   EXPECT_FALSE(first.ReadFor(kLearningCamera));
   first.Write(Learned(0.25));
   EXPECT_TRUE(std::filesystem::exists(File()));
-  LearnedCalibration second({true, ""});
+  LearnedCalibration second(true);
   const auto known = second.ReadFor(kLearningCamera);
   ASSERT_TRUE(known);
   EXPECT_EQ(known->mean.coefficients_px, Learned(0.25).mean.coefficients_px);
@@ -52,7 +52,7 @@ TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
 }
 
 TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
-  LearnedCalibration learned({true, ""});
+  LearnedCalibration learned(true);
   learned.ReadFor(kLearningCamera);
   learned.Write(Learned(0.25));
   std::filesystem::remove(File());
@@ -63,10 +63,10 @@ TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
 }
 
 TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
-  LearnedCalibration earlier({true, ""});
+  LearnedCalibration earlier(true);
   earlier.ReadFor(kLearningCamera);
   earlier.Write(Learned(0.25));
-  LearnedCalibration off({false, ""});
+  LearnedCalibration off(false);
   EXPECT_FALSE(off.ReadFor(kLearningCamera));
   std::filesystem::remove(File());
   off.Write(Learned(0.5));
@@ -74,7 +74,7 @@ TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
 }
 
 TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
-  LearnedCalibration learned({true, ""});
+  LearnedCalibration learned(true);
   learned.Write(Learned(0.25));
   EXPECT_FALSE(std::filesystem::exists(home_ / "arfm_vo"));
 }
@@ -82,24 +82,16 @@ TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
 TEST_F(LearnedCalibrationTest, AFileThatIsNoneStopsNothing) {
   std::filesystem::create_directories(home_ / "arfm_vo");
   std::ofstream(File()) << "neither: [here";
-  EXPECT_FALSE(LearnedCalibration({}).ReadFor(kLearningCamera));
+  EXPECT_FALSE(LearnedCalibration(true).ReadFor(kLearningCamera));
 }
 
 TEST_F(LearnedCalibrationTest, AFolderThatCannotBeMadeStopsNothing) {
   ros::Time::init();  // the warning's
-  std::ofstream(home_ / "file") << "no folder";
-  LearnedCalibration learned({true, home_ / "file"});
+  std::ofstream(home_ / "arfm_vo") << "no folder";
+  LearnedCalibration learned(true);
   EXPECT_FALSE(learned.ReadFor(kLearningCamera));
   learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::is_regular_file(home_ / "file"));
-}
-
-TEST_F(LearnedCalibrationTest, AFolderThatIsGivenTakesThePlaceOfRossOwn) {
-  LearnedCalibration learned({true, home_ / "given"});
-  learned.ReadFor(kLearningCamera);
-  learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::exists(home_ / "given" / NameLearnedCorrection(kLearningCamera)));
-  EXPECT_FALSE(std::filesystem::exists(home_ / "arfm_vo"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(home_ / "arfm_vo"));
 }
 
 }  // namespace

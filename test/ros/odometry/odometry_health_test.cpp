@@ -36,7 +36,7 @@ SessionUpdate PoseWithStatus(PoseStatus status, const std::string& text) {
 const SessionUpdate kTracked = PoseWithStatus(PoseStatus::kTracked, "tracked");
 
 int LevelOfRows(double row_residual_px) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(row_residual_px), kTracked, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
@@ -44,7 +44,7 @@ int LevelOfRows(double row_residual_px) {
 }
 
 TEST(OdometryHealth, PairsAreCounted) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   health.Count(FrameWithRows(0), kTracked, 1, 0);
   health.Count(FrameWithRows(0), PoseWithStatus(PoseStatus::kTooFewFeatures, "dark"), 1, 0);
   health.CountRefused("a pair without a picture");
@@ -70,7 +70,7 @@ TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {
 }
 
 TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   SessionUpdate pose = kTracked;
   pose.update.skew = EyeSkew{-0.0101, 0.0002};
   health.Count(FrameWithRows(0.3), pose, 1, 0);
@@ -81,7 +81,7 @@ TEST(OdometryHealth, ASkewBetweenTheEyesIsToldInMilliseconds) {
 }
 
 TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(i == 5 ? 3 : 0.2), kTracked, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
@@ -89,7 +89,7 @@ TEST(OdometryHealth, OneBadPairDoesNotMoveTheMedian) {
 }
 
 TEST(OdometryHealth, LostIsAnError) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   const auto report = [&] {
     Wrapper status;
     health.ReportOdometry(status);
@@ -109,12 +109,6 @@ TEST(OdometryHealth, LostIsAnError) {
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
 }
 
-TEST(OdometryHealth, OptionsAreChecked) {
-  OdometryHealthOptions options;
-  options.row_residual_error_px = 0.1;
-  EXPECT_INVALID(OdometryHealth{options}, "row_residual_error_px");
-}
-
 /// Gives pairs of one second apart until something is told.
 std::optional<ConsoleLine> Watch(OdometryHealth& health, double start_s, const SessionUpdate& pose,
                                  const StereoFrame& frame = {}) {
@@ -124,7 +118,7 @@ std::optional<ConsoleLine> Watch(OdometryHealth& health, double start_s, const S
 }
 
 TEST(OdometryHealth, TellsTheFirstPoseOnce) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   const auto line = Watch(health, 0, kTracked);
   ASSERT_TRUE(line);
   EXPECT_FALSE(line->is_warning);
@@ -133,7 +127,7 @@ TEST(OdometryHealth, TellsTheFirstPoseOnce) {
 }
 
 TEST(OdometryHealth, SaysWhyItIsLostAndWhenItIsBack) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   health.Count({}, kTracked, 1, 0);
   const auto lost =
       Watch(health, 1, PoseWithStatus(PoseStatus::kTooFewFeatures, "too few features"));
@@ -173,7 +167,7 @@ TEST(OdometryHealth, WhatLastsIsWarnedOfWithItsRemedy) {
                 {PoseStatus::kTooFewFeatures, "too few", 0, {"the eyes not swapped"}},
                 {PoseStatus::kTooFewMatches, "too few matches", 300, {"too fast"}}};
   for (const auto& [status, text, num_points, told] : kCases) {
-    OdometryHealth health{OdometryHealthOptions()};
+    OdometryHealth health;
     const auto line = Watch(health, 0, PoseWithStatus(status, text), ToldFrame(num_points));
     ASSERT_TRUE(line) << text;
     EXPECT_TRUE(line->is_warning) << text;
@@ -182,7 +176,7 @@ TEST(OdometryHealth, WhatLastsIsWarnedOfWithItsRemedy) {
 }
 
 TEST(OdometryHealth, SaysWhyAPoseIsDegraded) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   health.Count({}, kTracked, 1, 0);
   const auto degraded =
       Watch(health, 1, PoseWithStatus(PoseStatus::kDegraded, "the right camera is dark"));
@@ -193,7 +187,7 @@ TEST(OdometryHealth, SaysWhyAPoseIsDegraded) {
 }
 
 TEST(OdometryHealth, CountsAllPairsInTheTotals) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   health.Count({}, kTracked, 1, 0);
   health.Count({}, PoseWithStatus(PoseStatus::kNoConsensus, "no consensus"), 1, 1);
   health.Count({}, PoseWithStatus(PoseStatus::kNoTransform, "no transform"), 1, 2);
