@@ -18,9 +18,7 @@ std::string NameOf(PtuAxis axis) { return axis == PtuAxis::kPan ? "Pan" : "Tilt"
 
 /// The number at the end of "pp-2500"; nothing where there is none.
 std::optional<int> ParseArgument(const std::string& command) {
-  const auto number = command.size() > 2
-                          ? ParsePtuNumber(command.substr(2), PtuAxis::kPan, PtuFeedback::kTerse)
-                          : std::nullopt;
+  const auto number = command.size() > 2 ? ParsePtuNumber(command.substr(2)) : std::nullopt;
   if (!number || std::abs(*number) > 999999) return std::nullopt;
   return static_cast<int>(*number);
 }
@@ -148,33 +146,17 @@ std::string SimulatedPtu::AnswerAxis(PtuAxis axis, const std::string& command) {
   }
   const PtuAxisMotion& motion = Motion(axis);
   const SimulatedPtuAxisOptions& unit = motion.options;
-  const struct {
-    char letter;
-    const char* before;
-    double value;
-    const char* what;
-    const char* after;
-  } replies[] = {
-      {'p', "Current ", std::round(motion.Position()), " position is ", ""},
-      {'n', "Minimum ", 1.0 * unit.min_position, " position is ", ""},
-      {'x', "Maximum ", 1.0 * unit.max_position, " position is ", ""},
-      {'s', "Target ", 1.0 * motion.speed, " speed is ", " positions/sec"},
-      {'l', "Minimum ", 1.0 * unit.min_speed, " speed is ", " positions/sec"},
-      {'u', "Maximum ", 1.0 * unit.max_speed, " speed is ", " positions/sec"},
-  };
-  if (letter == 'r')
-    return AnswerValue("", Format("%.4f", unit.resolution_arcsec),
-                       " seconds arc per " + NameOf(axis) + " position");
-  for (const auto& reply : replies)
-    if (letter == reply.letter)
-      return AnswerValue(reply.before + NameOf(axis) + reply.what, Format("%.0f", reply.value),
-                         reply.after);
+  const std::pair<char, double> values[] = {{'p', std::round(motion.Position())},
+                                            {'n', unit.min_position},
+                                            {'x', unit.max_position},
+                                            {'s', motion.speed},
+                                            {'l', unit.min_speed},
+                                            {'u', unit.max_speed}};
+  const std::string begin = is_verbose_ ? "* The value is " : "* ";  // in other words for each
+  if (letter == 'r') return begin + Format("%.4f", unit.resolution_arcsec) + kEnd;
+  for (const auto& [name, value] : values)
+    if (letter == name) return begin + Format("%.0f", value) + kEnd;
   return kIllegal;
-}
-
-std::string SimulatedPtu::AnswerValue(const std::string& before, const std::string& value,
-                                      const std::string& after) const {
-  return "* " + (is_verbose_ ? before + value + after : value) + kEnd;
 }
 
 std::string SimulatedPtu::MoveTo(PtuAxis axis, int target) {

@@ -80,8 +80,6 @@ class SimulatedPtu {
   void Advance(double now_s);
   std::string Answer(const std::string& command);
   std::string AnswerAxis(PtuAxis axis, const std::string& command);
-  std::string AnswerValue(const std::string& before, const std::string& value,
-                          const std::string& after = "") const;
   std::string MoveTo(PtuAxis axis, int target);
   std::string SetSpeed(PtuAxis axis, int speed);
   void Reset();
