@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kMaxError_rad = 0.15, kMaxMapTurn_rad = 0.1;  ///< as in the header, of the heading
 constexpr double kMaxSidewaysRatio = 0.3;                      ///< as kMaxSlipRatio, across the way
-constexpr double kNumSigmas = 3;  ///< of the pose's covariance that is added..
+constexpr double kAddedSigmas = 3;  ///< of the pose's covariance that is added..
 constexpr double kMaxUncertain_m = 0.3, kMaxUncertain_rad = 0.3;  ///< ..up to this
 
 /// What the change of a standard deviation allows: drift between two sightings, or its correction.
 double Allowance(double before, double after, double max_allowance) {
   const double change = std::sqrt(std::abs(after * after - before * before));
-  return std::isfinite(change) ? std::min(kNumSigmas * change, max_allowance) : max_allowance;
+  return std::isfinite(change) ? std::min(kAddedSigmas * change, max_allowance) : max_allowance;
 }
 
 PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
