@@ -14,8 +14,6 @@ constexpr char kEnd[] = "\r\n";
 constexpr char kDone[] = "*\r\n";
 constexpr char kIllegal[] = "! Illegal command entered\r\n";
 
-std::string NameOf(PtuAxis axis) { return axis == PtuAxis::kPan ? "Pan" : "Tilt"; }
-
 /// The number at the end of "pp-2500"; nothing where there is none.
 std::optional<int> ParseArgument(const std::string& command) {
   const auto number = command.size() > 2 ? ParsePtuNumber(command.substr(2)) : std::nullopt;
@@ -130,7 +128,6 @@ std::string SimulatedPtu::Answer(const std::string& command) {
     return kDone;
   }
   if (command == "ci" || command == "i") return kDone;
-  if (command == "ds") ++num_eeprom_writes_;
   if (command.size() >= 2 && command[0] == 'p') return AnswerAxis(PtuAxis::kPan, command);
   if (command.size() >= 2 && command[0] == 't') return AnswerAxis(PtuAxis::kTilt, command);
   return kIllegal;
@@ -140,9 +137,7 @@ std::string SimulatedPtu::AnswerAxis(PtuAxis axis, const std::string& command) {
   const char letter = command[1];
   if (command.size() > 2) {
     const auto argument = ParseArgument(command);
-    if (argument && letter == 'p') return MoveTo(axis, *argument);
-    if (argument && letter == 's') return SetSpeed(axis, *argument);
-    return kIllegal;
+    return argument ? Set(axis, letter, *argument) : kIllegal;
   }
   const PtuAxisMotion& motion = Motion(axis);
   const SimulatedPtuAxisOptions& unit = motion.options;
@@ -159,26 +154,24 @@ std::string SimulatedPtu::AnswerAxis(PtuAxis axis, const std::string& command) {
   return kIllegal;
 }
 
-std::string SimulatedPtu::MoveTo(PtuAxis axis, int target) {
+std::string SimulatedPtu::Set(PtuAxis axis, char letter, int value) {
   PtuAxisMotion& motion = Motion(axis);
-  const auto refuse = [&](const char* limit, int position) {
-    return Format("! %s allowable %s position is %d", limit, NameOf(axis).c_str(), position) + kEnd;
-  };
-  if (target > motion.options.max_position) return refuse("Maximum", motion.options.max_position);
-  if (target < motion.options.min_position) return refuse("Minimum", motion.options.min_position);
-  motion.target = target;
-  return kDone;
-}
-
-std::string SimulatedPtu::SetSpeed(PtuAxis axis, int speed) {
-  PtuAxisMotion& motion = Motion(axis);
-  const auto refuse = [&](const char* what, int limit) {
-    return Format("! %s speed cannot %s %d positions/sec", NameOf(axis).c_str(), what, limit) +
+  const SimulatedPtuAxisOptions& unit = motion.options;
+  const bool is_position = letter == 'p';
+  if (!is_position && letter != 's') return kIllegal;
+  const int lowest = is_position ? unit.min_position : unit.min_speed;
+  const int highest = is_position ? unit.max_position : unit.max_speed;
+  const int allowed = std::clamp(value, lowest, highest);
+  const std::string name = axis == PtuAxis::kPan ? "Pan" : "Tilt";
+  if (value != allowed && is_position)
+    return Format("! %s allowable %s position is %d", value > allowed ? "Maximum" : "Minimum",
+                  name.c_str(), allowed) +
            kEnd;
-  };
-  if (speed > motion.options.max_speed) return refuse("exceed", motion.options.max_speed);
-  if (speed < motion.options.min_speed) return refuse("be less than", motion.options.min_speed);
-  motion.speed = speed;
+  if (value != allowed)
+    return Format("! %s speed cannot %s %d positions/sec", name.c_str(),
+                  value > allowed ? "exceed" : "be less than", allowed) +
+           kEnd;
+  (is_position ? motion.target : motion.speed) = value;
   return kDone;
 }
 
