@@ -10,8 +10,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr size_t kMaxWaypoints = 100;  ///< of a route
-
 namespace bg = boost::geometry;
 using Place = bg::model::d2::point_xy<double>;
 
@@ -31,6 +29,7 @@ std::string NameOf(size_t index, size_t size) {
 
 void GoalLimitsOptions::Check() const {
   RequireAbove(max_distance_m, 0, 100000, "goal_limits.max_distance_m");
+  RequireInRange(max_waypoints, 1, 100000, "goal_limits.max_waypoints");
   RequireInRange(max_standby_s, 0, 3600, "goal_limits.max_standby_s");
   Require(fence_m.size() % 2 == 0 && (fence_m.empty() || fence_m.size() >= 6),
           "goal_limits.fence_m must hold x and y of three corners or more");
@@ -45,8 +44,8 @@ bool GoalLimits::IsInsideFence(double x_m, double y_m) const {
 }
 
 std::string GoalLimits::FindFlaw(const Route& route, const RoverPose& start) const {
-  if (route.size() > kMaxWaypoints)
-    return "it has more than " + std::to_string(kMaxWaypoints) + " waypoints";
+  if (route.size() > static_cast<size_t>(options_.max_waypoints))
+    return "it has more than " + std::to_string(options_.max_waypoints) + " waypoints";
   bg::model::linestring<Place> way{{start.x_m, start.y_m}};
   for (size_t i = 0; i < route.size(); ++i) {
     const Waypoint& to = route[i];

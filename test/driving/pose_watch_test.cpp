@@ -85,7 +85,7 @@ TEST_F(PoseWatchTest, ACreepThatIsSlowerThanTheWindowIsNoSlide) {
   for (int i = 0; i < 6; ++i) {
     const double now_s = 10 + kSlideWindow_s * i;
     Drive(now_s, 0);
-    EXPECT_FALSE(See(now_s, SightingAt(0, 0.4 * consistency.max_error_m * i))) << i;
+    EXPECT_FALSE(See(now_s, SightingAt(0, 0.4 * kMaxPoseError_m * i))) << i;
   }
 }
 

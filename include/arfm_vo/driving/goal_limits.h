@@ -10,12 +10,13 @@ namespace arfm_vo {
 
 struct GoalLimitsOptions {
   double max_distance_m = 50;  ///< of each waypoint from the rover
+  int max_waypoints = 100;     ///< of a route
   double max_standby_s = 10;   ///< in standby, or blocked, for longer the rover keeps no goal
   /// Corners x, y, x, y, .. in the map, m, of the area that the rover may not leave; empty: none.
   std::vector<double> fence_m;
 
   void Check() const;
-  ARFM_FIELDS(max_distance_m, max_standby_s, fence_m)
+  ARFM_FIELDS(max_distance_m, max_waypoints, max_standby_s, fence_m)
 };
 
 /// Which goals are allowed, wherever they come from.
