@@ -58,8 +58,8 @@ class Canvas {
   }
   void DrawScale() {
     const int y = kSide_px - 18;
-    cv::line(picture_, {20, y}, {20 + cvRound(px_per_m_), y}, kInk, 3);
-    Write("1 m", {20, y - 8}, kInk);
+    cv::line(picture_, {20, y}, {20 + cvRound(px_per_m_), y}, kPaper, 3);
+    Write("1 m", {20, y - 8}, kPaper);
   }
   void Write(const std::string& text, cv::Point at, const cv::Scalar& color) {
     cv::putText(picture_, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, color, 1, cv::LINE_AA);
