@@ -14,17 +14,17 @@
 namespace arfm_vo {
 namespace {
 
+/// Wall time from the first camera_info that tf gets to tell the mount, where is_default.
+constexpr double kWait_s = 0.3;
+
 struct CameraMountNodeOptions {
   std::string base_frame = "base_link";  ///< of the rover
   std::string camera_frame;      ///< left optical frame; empty: that of the left camera_info
   std::string base_from_camera;  ///< "x y z yaw pitch roll", m and rad
   bool is_default = false;  ///< nobody asked for this mount: warn, and let tf tell another first
-  /// Wall time from the first camera_info that tf gets to tell the mount, where is_default.
-  double wait_s = 0.3;
 
   void Check() const {
     Require(!base_frame.empty(), "base_frame must not be empty");
-    Require(wait_s >= 0, "wait_s must not be negative");
     ParseMount();
   }
   /// Throws std::invalid_argument where base_from_camera is not six numbers.
@@ -42,7 +42,7 @@ struct CameraMountNodeOptions {
                                         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
     return {rotation, {x, y, z}};
   }
-  ARFM_FIELDS(base_frame, camera_frame, base_from_camera, is_default, wait_s)
+  ARFM_FIELDS(base_frame, camera_frame, base_from_camera, is_default)
 };
 
 class CameraMountNode {
@@ -56,7 +56,7 @@ class CameraMountNode {
       return;
     }
     timer_ = node.createWallTimer(
-        ros::WallDuration(options_.is_default ? options_.wait_s : 0),
+        ros::WallDuration(options_.is_default ? kWait_s : 0),
         [this](const ros::WallTimerEvent&) { PublishUnlessKnown(); }, true, false);
     AwaitCameraFrame(node, info_, [this](const std::string& frame) {
       if (camera_frame_.empty()) camera_frame_ = frame;

@@ -17,19 +17,18 @@ const ros::WallDuration kClockPeriod(0.01);
 const ros::WallDuration kSettling(1);
 
 struct PlayerOptions {
-  std::string sequence;                         ///< KITTI folder
-  int stride = 1;                               ///< play each so manyth pair
-  int pairs = std::numeric_limits<int>::max();  ///< at most
-  double rate_hz = 0;                           ///< pairs a second; 0: as recorded
-  bool wait_for_subscribers = true;  ///< before the first pair, on images and camera_info
-  double end_delay_s = 1;            ///< between the last pair and the node's end
+  std::string sequence;                          ///< KITTI folder
+  int stride = 1;                                ///< play each so manyth pair
+  int pairs = std::numeric_limits<int>::max();   ///< at most
+  double rate_hz = 0;                            ///< pairs a second; 0: as recorded
+  double end_delay_s = 1;                        ///< between the last pair and the node's end
   std::string frame_id = "left_camera_optical";  ///< of images and camera_info
 
   void Check() const {
     Require(!sequence.empty(), "sequence must name a KITTI folder");
     Require(rate_hz >= 0, "rate_hz must not be negative");
   }
-  ARFM_FIELDS(sequence, stride, pairs, rate_hz, wait_for_subscribers, end_delay_s, frame_id)
+  ARFM_FIELDS(sequence, stride, pairs, rate_hz, end_delay_s, frame_id)
 };
 
 /// Publishes a KITTI folder below its namespace, with the recording's time on /clock.
@@ -65,7 +64,6 @@ class KittiPlayer {
 
  private:
   void Wait(double stamp_s) {
-    if (!options_.wait_for_subscribers) return;
     ROS_INFO("waiting for subscribers of all four topics");
     // arfm_node is not the last one: pose_node takes the images as well, and what it begins without
     // is lost.

@@ -23,10 +23,9 @@ struct TruthPathOptions {
   std::string reference_frame = "odom";  ///< that the truth is aligned to at its first pose
   std::string base_frame = "base_link";  ///< of the rover
   std::string camera_frame;  ///< left optical frame; empty: that of the left camera_info
-  BoundedPathOptions path;
 
   void Check() const {}
-  ARFM_FIELDS(reference_frame, base_frame, camera_frame, path)
+  ARFM_FIELDS(reference_frame, base_frame, camera_frame)
 };
 
 class TruthPathNode {
@@ -34,7 +33,6 @@ class TruthPathNode {
   TruthPathNode(ros::NodeHandle node, ros::NodeHandle private_node)
       : options_(ReadParameters<TruthPathOptions>(private_node)),
         transforms_(node, buffer_),
-        path_(options_.path),
         publisher_(node.advertise<nav_msgs::Path>("path_truth", 1, true)),
         truth_(node.subscribe(StereoTopic(node, "ground_truth"), 100, &TruthPathNode::Take, this)),
         timer_(node.createWallTimer(ros::WallDuration(0.1),

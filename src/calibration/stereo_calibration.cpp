@@ -12,6 +12,10 @@
 namespace arfm_vo {
 namespace {
 
+/// A pair is left out above this many times the median rms and above this rms.
+constexpr double kOutlierFactor = 3, kOutlierFloor_px = 0.1;
+constexpr double kMinTilt_deg = 5;       ///< between the board's planes of two views
+constexpr double kMaxFocalSigma = 0.01;  ///< of fx, as a share of it
 /// Consistency of a pair measured with single poses is noisier than its final error: only what
 /// stands out grossly goes before both eyes are adjusted together.
 constexpr double kGrossFactor = 5, kGrossFloorPx = 2;
@@ -83,30 +87,29 @@ struct BothEyes {
 
 /// Each eye for itself, without the views that it finds bad.
 BothEyes CalibrateEyes(PairSelection& selection, const Chessboard& board, cv::Size image_size,
-                       const StereoCalibrationOptions& options) {
+                       DistortionModel model) {
   while (true) {
-    BothEyes eyes{CalibrateEye(Views(selection.Pairs(), kLeft), board, image_size, options.model),
-                  CalibrateEye(Views(selection.Pairs(), kRight), board, image_size, options.model)};
-    if (selection.LeaveOut(eyes.left.view_rms_px, options.outlier_factor, options.outlier_floor_px,
+    BothEyes eyes{CalibrateEye(Views(selection.Pairs(), kLeft), board, image_size, model),
+                  CalibrateEye(Views(selection.Pairs(), kRight), board, image_size, model)};
+    if (selection.LeaveOut(eyes.left.view_rms_px, kOutlierFactor, kOutlierFloor_px,
                            "left corners do not fit the left eye"))
       continue;
-    if (selection.LeaveOut(eyes.right.view_rms_px, options.outlier_factor, options.outlier_floor_px,
+    if (selection.LeaveOut(eyes.right.view_rms_px, kOutlierFactor, kOutlierFloor_px,
                            "right corners do not fit the right eye"))
       continue;
     return eyes;
   }
 }
 
-void CheckViews(const char* eye, const EyeCalibration& calibration, const EyePrecision& precision,
-                const StereoCalibrationOptions& options) {
+void CheckViews(const char* eye, const EyeCalibration& calibration, const EyePrecision& precision) {
   const double tilt_deg = LargestTilt(calibration.poses) * 180 / M_PI;
   const std::string advice = "; tilt the board by 20 to 45 degrees about both its axes";
-  if (tilt_deg < options.min_tilt_deg)
+  if (tilt_deg < kMinTilt_deg)
     throw CalibrationError("all views of the " + std::string(eye) +
                            " eye are parallel: the board's planes differ by " +
                            Format("%.1f degrees at most", tilt_deg) + advice);
   const double fx = calibration.eye.matrix(0, 0);
-  if (!(precision.fx_sigma_px <= options.max_focal_sigma * fx))
+  if (!(precision.fx_sigma_px <= kMaxFocalSigma * fx))
     throw CalibrationError(
         "the views do not determine the focal length of the " + std::string(eye) +
         Format(" eye, fx = %.1f +- %.1f px (views nearly parallel)", fx, precision.fx_sigma_px) +
@@ -187,10 +190,6 @@ void CheckRig(const Rigid3& right_from_left) {
 
 void StereoCalibrationOptions::Check() const {
   Require(min_pairs >= 3, "min_pairs must be at least 3");
-  Require(outlier_factor > 1, "outlier_factor must be above 1");
-  Require(outlier_floor_px >= 0, "outlier_floor_px must not be negative");
-  Require(min_tilt_deg >= 0 && min_tilt_deg < 90, "min_tilt_deg must be in [0, 90)");
-  Require(max_focal_sigma > 0, "max_focal_sigma must be positive");
 }
 
 StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboard& board,
@@ -198,23 +197,23 @@ StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboar
   board.Check();
   options.Check();
   PairSelection selection(std::move(pairs), options);
-  BothEyes eyes = CalibrateEyes(selection, board, image_size, options);
+  BothEyes eyes = CalibrateEyes(selection, board, image_size, options.model);
   CheckViews("left", eyes.left,
-             EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board), options);
+             EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board));
   CheckViews("right", eyes.right,
-             EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board), options);
+             EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board));
   std::vector<double> consistency =
       MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
   CheckCommonPose(eyes, consistency, selection.Pairs(), board, image_size, options);
   while (selection.LeaveOut(consistency, kGrossFactor, kGrossFloorPx,
                             "the eyes disagree (board moved between the exposures?)")) {
-    eyes = CalibrateEyes(selection, board, image_size, options);
+    eyes = CalibrateEyes(selection, board, image_size, options.model);
     consistency = MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
   }
   StereoCalibration calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
-  while (selection.LeaveOut(WorseEye(calibration), options.outlier_factor, options.outlier_floor_px,
+  while (selection.LeaveOut(WorseEye(calibration), kOutlierFactor, kOutlierFloor_px,
                             "does not fit both eyes together")) {
-    eyes = CalibrateEyes(selection, board, image_size, options);
+    eyes = CalibrateEyes(selection, board, image_size, options.model);
     calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
   }
   CheckRig(calibration.right_from_left);

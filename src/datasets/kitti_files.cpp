@@ -1,8 +1,8 @@
 #include "arfm_vo/datasets/kitti_files.h"
 
 #include <Eigen/Core>
-#include <cstdio>
 #include <ctime>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -22,15 +22,10 @@ struct RawTime {
 RawTime ParseRawTime(const std::string& line, const std::string& place) {
   std::tm date = {};
   double second = 0;
-  const int num_read = std::sscanf(line.c_str(), "%d-%d-%d %d:%d:%lf", &date.tm_year, &date.tm_mon,
-                                   &date.tm_mday, &date.tm_hour, &date.tm_min, &second);
-  const auto is_within = [](int value, int min, int max) { return value >= min && value <= max; };
-  Require(num_read == 6 && is_within(date.tm_year, 1970, 9999) && is_within(date.tm_mon, 1, 12) &&
-              is_within(date.tm_mday, 1, 31) && is_within(date.tm_hour, 0, 23) &&
-              is_within(date.tm_min, 0, 59) && second >= 0 && second < 61,
+  std::istringstream text(line);
+  text >> std::get_time(&date, "%Y-%m-%d %H:%M:") >> second;
+  Require(!text.fail() && second >= 0 && second < 61,
           place + ": '" + line + "' is not a time such as 2011-09-26 13:02:25.964389445");
-  date.tm_year -= 1900;
-  date.tm_mon -= 1;
   return {timegm(&date), second};
 }
 

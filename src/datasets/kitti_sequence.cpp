@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "arfm_vo/base/format.h"
-#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/kitti_files.h"
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/image/png_image.h"
@@ -112,7 +111,6 @@ KittiSequence::KittiSequence(const std::string& folder, const PairSelection& sel
 }
 
 SequencePair KittiSequence::Load(const Frame& frame) {
-  const double start_s = GetThreadCpuSeconds();
   SequencePair pair;
   pair.true_world_from_camera = frame.true_world_from_camera;
   pair.images = {frame.stamp_s, ReadGreyPng(frame.left_path, window_),
@@ -124,7 +122,6 @@ SequencePair KittiSequence::Load(const Frame& frame) {
   };
   check_size(pair.images.left, frame.left_path);
   check_size(pair.images.right, frame.right_path);
-  loading_cpu_s_ += GetThreadCpuSeconds() - start_s;
   return pair;
 }
 

@@ -9,6 +9,7 @@ constexpr std::array<const char*, kNumFeedbackKinds> kKindNames = {
     "system state", "motion",      "track odometer", "left motor",
     "right motor",  "left driver", "right driver"};
 constexpr size_t kNumRequired = 3;
+constexpr double kForeignCommand_s = 1;  ///< a command of another driver is a fault so long
 
 }  // namespace
 
@@ -35,11 +36,10 @@ std::optional<Fault> ChassisWatch::FindFault(double now_s) const {
   if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, ""};
   if (status_->has_fault) return Fault{StopReason::kChassisFault, status_->detail};
   if (status_->has_motor_fault) return Fault{StopReason::kMotorFault, status_->detail};
-  if (foreign_s_ && now_s - *foreign_s_ <= options_.foreign_command_s)
+  if (foreign_s_ && now_s - *foreign_s_ <= kForeignCommand_s)
     return Fault{StopReason::kForeignCommands, foreign_detail_};
   if (IsRemote()) return Fault{StopReason::kRemoteControl, ""};
-  if (status_->is_remote_lost && !options_.allows_remote_lost)
-    return Fault{StopReason::kRemoteLost, ""};
+  if (status_->is_remote_lost) return Fault{StopReason::kRemoteLost, ""};
   return std::nullopt;
 }
 

@@ -9,6 +9,13 @@
 namespace arfm_vo {
 namespace {
 
+constexpr double kCruiseTurnRate_radps = 0.15;  ///< turning in place
+constexpr double kMinSpeed_mps = 0.015;         ///< slower than this a goal is not approached
+constexpr double kMinTurnRate_radps = 0.03;     ///< slower than this the rover does not turn
+constexpr double kApproachGain_per_s = 0.5;     ///< speed over distance to go near the goal
+constexpr double kTurnGain_per_s = 0.8;         ///< turn rate over heading error
+constexpr double kAlign_rad = 0.05;             ///< heading error at which driving begins
+constexpr double kTurnInPlace_rad = 0.4;        ///< heading error at which the rover stops to turn
 constexpr double kCostPerRadian_m = 0.3;
 /// Tolerances widen by this at rest, so that noise does not drive the rover to and fro.
 constexpr double kSettledSlack = 1.5;
@@ -23,14 +30,7 @@ void GoalControllerOptions::Check() const {
   RequireInRange(position_tolerance_m, 0.001, 10, "goal.position_tolerance_m");
   RequireInRange(heading_tolerance_rad, 0.001, M_PI, "goal.heading_tolerance_rad");
   RequireInRange(waypoint_tolerance_m, position_tolerance_m, 10, "goal.waypoint_tolerance_m");
-  RequireInRange(cruise_speed_mps, 0.001, 0.1, "goal.cruise_speed_mps");
-  RequireInRange(cruise_turn_rate_radps, 0.001, 1, "goal.cruise_turn_rate_radps");
-  RequireInRange(min_speed_mps, 0, cruise_speed_mps, "goal.min_speed_mps");
-  RequireInRange(min_turn_rate_radps, 0, cruise_turn_rate_radps, "goal.min_turn_rate_radps");
-  RequireInRange(approach_gain_per_s, 0.01, 100, "goal.approach_gain_per_s");
-  RequireInRange(turn_gain_per_s, 0.01, 100, "goal.turn_gain_per_s");
-  RequireInRange(align_rad, 0.001, 1, "goal.align_rad");
-  RequireInRange(turn_in_place_rad, 1.5 * align_rad, 1.5, "goal.turn_in_place_rad");
+  RequireInRange(cruise_speed_mps, kMinSpeed_mps, 0.1, "goal.cruise_speed_mps");
   RequireInRange(max_backward_m, 0, 1000, "goal.max_backward_m");
 }
 
@@ -99,8 +99,8 @@ void GoalController::FollowLeg(const RoverPose& pose) {
   if (IsLast() && DistanceToWaypoint(pose) <= options_.position_tolerance_m) {
     phase_ = DrivePhase::kTurnToHeading;
   } else if (phase_ == DrivePhase::kDrive) {
-    if (std::abs(BearingError(pose)) > options_.turn_in_place_rad) BeginLeg(pose);
-  } else if (std::abs(BearingError(pose)) <= options_.align_rad) {
+    if (std::abs(BearingError(pose)) > kTurnInPlace_rad) BeginLeg(pose);
+  } else if (std::abs(BearingError(pose)) <= kAlign_rad) {
     phase_ = DrivePhase::kDrive;
   }
 }
@@ -127,20 +127,17 @@ void GoalController::Advance(const RoverPose& pose, bool is_at_rest) {
 
 double GoalController::TurnRate(double error_rad) const {
   const double rate_radps =
-      std::clamp(options_.turn_gain_per_s * std::abs(error_rad), options_.min_turn_rate_radps,
-                 options_.cruise_turn_rate_radps);
+      std::clamp(kTurnGain_per_s * std::abs(error_rad), kMinTurnRate_radps, kCruiseTurnRate_radps);
   return std::copysign(rate_radps, error_rad);
 }
 
 PlanarMotion GoalController::DriveMotion(const RoverPose& pose) const {
   const double error_rad = BearingError(pose);
   double speed_mps = options_.cruise_speed_mps * std::max(0.0, std::cos(2 * error_rad));
-  if (IsLast())
-    speed_mps = std::min(speed_mps, options_.approach_gain_per_s * DistanceToWaypoint(pose));
-  speed_mps = std::max(speed_mps, options_.min_speed_mps);
+  if (IsLast()) speed_mps = std::min(speed_mps, kApproachGain_per_s * DistanceToWaypoint(pose));
+  speed_mps = std::max(speed_mps, kMinSpeed_mps);
   const double turn_radps =
-      std::clamp(options_.turn_gain_per_s * error_rad, -options_.cruise_turn_rate_radps,
-                 options_.cruise_turn_rate_radps);
+      std::clamp(kTurnGain_per_s * error_rad, -kCruiseTurnRate_radps, kCruiseTurnRate_radps);
   return {is_backward_ ? -speed_mps : speed_mps, turn_radps};
 }
 

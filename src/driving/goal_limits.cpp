@@ -1,5 +1,7 @@
 #include "arfm_vo/driving/goal_limits.h"
 
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
 #include <cmath>
 
 #include "arfm_vo/base/format.h"
@@ -8,10 +10,15 @@
 namespace arfm_vo {
 namespace {
 
-/// Twice the area of the triangle a, b, c; positive where it turns left.
-template <class Point>
-double Turn(const Point& a, const Point& b, const Point& c) {
-  return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
+namespace bg = boost::geometry;
+using Place = bg::model::d2::point_xy<double>;
+
+bg::model::ring<Place> MakeRing(const std::vector<double>& corners_m) {
+  bg::model::ring<Place> ring;
+  for (size_t i = 0; i + 1 < corners_m.size(); i += 2)
+    ring.emplace_back(corners_m[i], corners_m[i + 1]);
+  bg::correct(ring);  // whichever way round the corners are
+  return ring;
 }
 
 std::string NameOf(size_t index, size_t size) {
@@ -28,48 +35,28 @@ void GoalLimitsOptions::Check() const {
           "goal_limits.fence_m must hold x and y of three corners or more");
   for (const double value : fence_m)
     Require(std::abs(value) <= 1e5, "goal_limits.fence_m must be finite and within 100 km");
-}
-
-GoalLimits::GoalLimits(const GoalLimitsOptions& options) : options_(options) {
-  options_.Check();
-  for (size_t i = 0; i + 1 < options_.fence_m.size(); i += 2)
-    fence_.push_back({options_.fence_m[i], options_.fence_m[i + 1]});
+  Require(fence_m.empty() || bg::is_valid(MakeRing(fence_m)),
+          "goal_limits.fence_m must enclose an area and not cross itself");
 }
 
 bool GoalLimits::IsInsideFence(double x_m, double y_m) const {
-  if (fence_.empty()) return true;
-  bool is_inside = false;  // changes at each edge that a ray along +x crosses
-  for (size_t i = 0, j = fence_.size() - 1; i < fence_.size(); j = i++) {
-    const Corner &a = fence_[i], &b = fence_[j];
-    if ((a.y_m > y_m) == (b.y_m > y_m)) continue;
-    if (x_m < a.x_m + (b.x_m - a.x_m) * (y_m - a.y_m) / (b.y_m - a.y_m)) is_inside = !is_inside;
-  }
-  return is_inside;
-}
-
-bool GoalLimits::CrossesFence(const Corner& from, const Corner& to) const {
-  for (size_t i = 0, j = fence_.size() - 1; i < fence_.size(); j = i++) {
-    const Corner &a = fence_[j], &b = fence_[i];
-    if (Turn(a, b, from) * Turn(a, b, to) < 0 && Turn(from, to, a) * Turn(from, to, b) < 0)
-      return true;
-  }
-  return false;
+  return options_.fence_m.empty() || bg::covered_by(Place(x_m, y_m), MakeRing(options_.fence_m));
 }
 
 std::string GoalLimits::FindFlaw(const Route& route, const RoverPose& start) const {
   if (route.size() > static_cast<size_t>(options_.max_waypoints))
     return "it has more than " + std::to_string(options_.max_waypoints) + " waypoints";
-  Corner from{start.x_m, start.y_m};
+  bg::model::linestring<Place> way{{start.x_m, start.y_m}};
   for (size_t i = 0; i < route.size(); ++i) {
-    const Corner to{route[i].x_m, route[i].y_m};
+    const Waypoint& to = route[i];
     const double distance_m = std::hypot(to.x_m - start.x_m, to.y_m - start.y_m);
+    way.emplace_back(to.x_m, to.y_m);
     if (!(distance_m <= options_.max_distance_m))
       return NameOf(i, route.size()) +
              Format(" is %.1f m away, farther than %.1f m", distance_m, options_.max_distance_m);
     if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";
-    if (CrossesFence(from, to))
+    if (!options_.fence_m.empty() && !bg::covered_by(way, MakeRing(options_.fence_m)))
       return "the way to " + NameOf(i, route.size()) + " leaves the fence";
-    from = to;
   }
   return "";
 }

@@ -9,6 +9,11 @@
 namespace arfm_vo {
 namespace {
 
+constexpr double kMaxExcess_mps = 0.05;  ///< of a track over what it was commanded lately
+constexpr double kResponse_s = 0.5;      ///< how long a track may take to follow a command
+constexpr double kMinMovedRatio = 0.1;   ///< of a track's commanded way, else it is jammed
+constexpr double kMaxMotorCurrent_a = 60, kMaxCurrent_s = 2;  ///< of either motor, no longer
+
 /// Shorter commanded ways are not judged: the odometer counts millimetres.
 constexpr double kMinCommandedWay_m = 0.03;
 /// What the chassis measures of its motion at rest: slower is noise, faster is a misreading.
@@ -19,6 +24,12 @@ double WayOf(double speed_mps, double dt_s) {
   return dt_s * std::clamp(speed_mps, -kMaxMeasured_mps, kMaxMeasured_mps);
 }
 
+/// Since when `is_so` without a break.
+void KeepSince(bool is_so, double now_s, std::optional<double>& since_s) {
+  if (!is_so) since_s.reset();
+  if (is_so && !since_s) since_s = now_s;
+}
+
 /// By how much `value` is outside what `low` and `high` span.
 double Outside(double value, double low, double high) {
   return std::max({0.0, value - high, low - value});
@@ -27,14 +38,9 @@ double Outside(double value, double low, double high) {
 }  // namespace
 
 void MotionWatchOptions::Check() const {
-  RequireInRange(max_excess_mps, 0.01, 1, "motion.max_excess_mps");
   RequireInRange(max_excess_s, 0, 5, "motion.max_excess_s");
-  RequireInRange(response_s, 0.02, 5, "motion.response_s");
   RequireInRange(jam_s, 0.5, 3600, "motion.jam_s");
-  RequireInRange(min_moved_ratio, 0, 1, "motion.min_moved_ratio");
   RequireInRange(max_frozen_s, 0.3, 3600, "motion.max_frozen_s");
-  RequireInRange(max_motor_current_a, 0, 1000, "motion.max_motor_current_a");
-  RequireInRange(max_current_s, 0, 60, "motion.max_current_s");
   RequireInRange(stop_s, 0.1, 60, "motion.stop_s");
   RequireInRange(max_way_at_rest_m, 0.01, 1, "motion.max_way_at_rest_m");
 }
@@ -53,14 +59,14 @@ void MotionWatch::ObserveCommand(double now_s, const PlanarMotion& motion) {
                            last.commanded_ways.right_m + dt_s * last.speeds.right_mps};
   }
   commands_.push_back(next);
-  const double oldest_s = now_s - std::max(options_.jam_s, options_.response_s);
+  const double oldest_s = now_s - std::max(options_.jam_s, kResponse_s);
   while (commands_.size() > 2 && commands_[1].time_s <= oldest_s) commands_.pop_front();
 }
 
 double MotionWatch::ExcessOf(const TrackSpeeds& measured) const {
   TrackSpeeds low, high;  // standing still is always allowed
   for (auto it = commands_.rbegin(); it != commands_.rend(); ++it) {
-    if (it->time_s < commands_.back().time_s - options_.response_s) break;
+    if (it->time_s < commands_.back().time_s - kResponse_s) break;
     low = {std::min(low.left_mps, it->speeds.left_mps),
            std::min(low.right_mps, it->speeds.right_mps)};
     high = {std::max(high.left_mps, it->speeds.left_mps),
@@ -78,30 +84,20 @@ void MotionWatch::ObserveMotion(double now_s, const PlanarMotion& motion) {
   measured_ways_.right_m += WayOf(measured.right_mps, dt_s);
   if (commands_.empty()) return;  // nothing was commanded yet: not ours to judge
   excess_mps_ = ExcessOf(measured);
-  if (excess_mps_ <= options_.max_excess_mps) {
-    excess_since_s_.reset();
-  } else if (!excess_since_s_) {
-    excess_since_s_ = now_s;
-  }
+  KeepSince(!(excess_mps_ <= kMaxExcess_mps), now_s, excess_since_s_);
 }
 
 void MotionWatch::ObserveWays(double, const TrackWays& ways) { ways_ = ways; }
 
 void MotionWatch::ObserveRest(double now_s, bool is_at_rest) {
+  KeepSince(is_at_rest, now_s, rest_since_s_);
   if (!is_at_rest) {
-    rest_since_s_.reset();
     rest_ways_.reset();
-  } else if (!rest_since_s_) {
-    rest_since_s_ = now_s;
   } else if (!rest_ways_ && now_s - *rest_since_s_ >= options_.stop_s) {
     rest_ways_ = ways_;
     measured_ways_ = {};
   }
-  if (WayAtRest() <= options_.max_way_at_rest_m) {
-    away_since_s_.reset();
-  } else if (!away_since_s_) {
-    away_since_s_ = now_s;
-  }
+  KeepSince(!(WayAtRest() <= options_.max_way_at_rest_m), now_s, away_since_s_);
 }
 
 double MotionWatch::WayAtRest() const {
@@ -124,11 +120,7 @@ void MotionWatch::ObserveCounter(double now_s, int counter) {
 
 void MotionWatch::ObserveCurrent(double now_s, double current_a) {
   current_a_ = current_a;
-  if (current_a <= options_.max_motor_current_a) {
-    current_since_s_.reset();
-  } else if (!current_since_s_) {
-    current_since_s_ = now_s;
-  }
+  KeepSince(!(current_a <= kMaxMotorCurrent_a), now_s, current_since_s_);
 }
 
 void MotionWatch::Reset() {
@@ -147,7 +139,7 @@ std::optional<Fault> MotionWatch::FindJam() const {
   const auto is_jammed = [&](double TrackWays::*side) {
     const double commanded_m = std::abs(last.commanded_ways.*side - first.commanded_ways.*side);
     const double moved_m = std::abs(last.ways.*side - first.ways.*side);
-    return commanded_m >= kMinCommandedWay_m && moved_m < options_.min_moved_ratio * commanded_m;
+    return commanded_m >= kMinCommandedWay_m && moved_m < kMinMovedRatio * commanded_m;
   };
   const bool is_left = is_jammed(&TrackWays::left_m);
   if (!is_left && !is_jammed(&TrackWays::right_m)) return std::nullopt;
@@ -157,13 +149,13 @@ std::optional<Fault> MotionWatch::FindJam() const {
 std::optional<Fault> MotionWatch::FindFault(double now_s) const {
   if (excess_since_s_ && now_s - *excess_since_s_ >= options_.max_excess_s)
     return Fault{StopReason::kRunaway,
-                 Format("by %.2f m/s (allowed %.2f m/s)", excess_mps_, options_.max_excess_mps)};
+                 Format("by %.2f m/s (allowed %.2f m/s)", excess_mps_, kMaxExcess_mps)};
   if (counted_s_ && now_s - *counted_s_ > options_.max_frozen_s)
     return Fault{StopReason::kFeedbackFrozen, Format("counter stands for %.1f s (allowed %.1f s)",
                                                      now_s - *counted_s_, options_.max_frozen_s)};
-  if (current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s)
+  if (current_since_s_ && now_s - *current_since_s_ >= kMaxCurrent_s)
     return Fault{StopReason::kMotorFault,
-                 Format("%.0f A (allowed %.0f A)", current_a_, options_.max_motor_current_a)};
+                 Format("%.0f A (allowed %.0f A)", current_a_, kMaxMotorCurrent_a)};
   return FindJam();
 }
 

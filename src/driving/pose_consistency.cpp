@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "arfm_vo/base/format.h"
-#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 namespace {
 
+constexpr double kMaxError_rad = 0.15, kMaxMapTurn_rad = 0.1;  ///< as in the header, of the heading
+constexpr double kMaxSidewaysRatio = 0.3;                      ///< as kMaxSlipRatio, across the way
+constexpr double kAddedSigmas = 3;  ///< of the pose's covariance that is added..
+constexpr double kMaxUncertain_m = 0.3, kMaxUncertain_rad = 0.3;  ///< ..up to this
+
 /// What the change of a standard deviation allows: drift between two sightings, or its correction.
-double Allowance(double before, double after, double num_sigmas, double max_allowance) {
+double Allowance(double before, double after, double max_allowance) {
   const double change = std::sqrt(std::abs(after * after - before * before));
-  return std::isfinite(change) ? std::min(num_sigmas * change, max_allowance) : max_allowance;
+  return std::isfinite(change) ? std::min(kAddedSigmas * change, max_allowance) : max_allowance;
 }
 
 PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
@@ -24,29 +28,10 @@ PoseDifference DifferenceOf(const RoverPose& a, const RoverPose& b) {
 
 }  // namespace
 
-void PoseConsistencyOptions::Check() const {
-  RequireInRange(max_error_m, 0.01, 1, "pose.consistency.max_error_m");
-  RequireInRange(max_error_rad, 0.01, 1, "pose.consistency.max_error_rad");
-  RequireInRange(max_slip_ratio, 0, 1, "pose.consistency.max_slip_ratio");
-  RequireInRange(max_sideways_ratio, 0, 1, "pose.consistency.max_sideways_ratio");
-  RequireInRange(num_sigmas, 0, 10, "pose.consistency.num_sigmas");
-  RequireInRange(max_uncertain_m, 0, 5, "pose.consistency.max_uncertain_m");
-  RequireInRange(max_uncertain_rad, 0, 1, "pose.consistency.max_uncertain_rad");
-  RequireInRange(max_map_step_m, 0.01, 10, "pose.consistency.max_map_step_m");
-  RequireInRange(max_map_turn_rad, 0.01, M_PI, "pose.consistency.max_map_turn_rad");
-  RequireInRange(slide_window_s, 0.5, 60, "pose.consistency.slide_window_s");
-}
-
 std::string PoseDifference::ToString() const {
   return Format("%.2f m (allowed %.2f m), sideways %.2f m (%.2f m), %.0f deg (%.0f deg)",
                 distance_m, max_distance_m, sideways_m, max_sideways_m, turn_rad * 180 / M_PI,
                 max_turn_rad * 180 / M_PI);
-}
-
-PoseConsistency::PoseConsistency(const PoseConsistencyOptions& options,
-                                 const TrackKinematics& kinematics)
-    : options_(options), kinematics_(kinematics) {
-  options_.Check();
 }
 
 RoverPose PoseConsistency::Predict(const TrackedSighting& sighting, const TrackWays& ways) const {
@@ -66,14 +51,13 @@ PoseDifference PoseConsistency::Compare(const TrackedSighting& earlier,
   const double left_m = std::abs(later.ways.left_m - earlier.ways.left_m);
   const double right_m = std::abs(later.ways.right_m - earlier.ways.right_m);
   const double way_m = std::max(left_m, right_m);
-  const double certain_m =
-      options_.max_error_m + Allowance(earlier.position_sigma_m, later.position_sigma_m,
-                                       options_.num_sigmas, options_.max_uncertain_m);
-  difference.max_distance_m = certain_m + options_.max_slip_ratio * way_m;
-  difference.max_sideways_m = certain_m + options_.max_sideways_ratio * way_m;
-  difference.max_turn_rad = options_.max_error_rad + options_.max_slip_ratio * std::abs(turn_rad) +
-                            Allowance(earlier.heading_sigma_rad, later.heading_sigma_rad,
-                                      options_.num_sigmas, options_.max_uncertain_rad);
+  const double certain_m = kMaxPoseError_m + Allowance(earlier.position_sigma_m,
+                                                       later.position_sigma_m, kMaxUncertain_m);
+  difference.max_distance_m = certain_m + kMaxSlipRatio * way_m;
+  difference.max_sideways_m = certain_m + kMaxSidewaysRatio * way_m;
+  difference.max_turn_rad =
+      kMaxError_rad + kMaxSlipRatio * std::abs(turn_rad) +
+      Allowance(earlier.heading_sigma_rad, later.heading_sigma_rad, kMaxUncertain_rad);
   return difference;
 }
 
@@ -82,11 +66,9 @@ PoseDifference PoseConsistency::MapStep(const RoverPose& before, const RoverPose
                                         const TrackedSighting& now) const {
   PoseDifference difference = DifferenceOf(before, after);
   difference.max_distance_m = difference.max_sideways_m =
-      options_.max_map_step_m + Allowance(agreed.position_sigma_m, now.position_sigma_m,
-                                          options_.num_sigmas, options_.max_uncertain_m);
-  difference.max_turn_rad =
-      options_.max_map_turn_rad + Allowance(agreed.heading_sigma_rad, now.heading_sigma_rad,
-                                            options_.num_sigmas, options_.max_uncertain_rad);
+      kMaxMapStep_m + Allowance(agreed.position_sigma_m, now.position_sigma_m, kMaxUncertain_m);
+  difference.max_turn_rad = kMaxMapTurn_rad + Allowance(agreed.heading_sigma_rad,
+                                                        now.heading_sigma_rad, kMaxUncertain_rad);
   return difference;
 }
 

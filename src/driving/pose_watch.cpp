@@ -32,12 +32,10 @@ void PoseWatchOptions::Check() const {
   RequireAbove(max_position_sigma_m, 0, 1000, "pose.max_position_sigma_m");
   RequireAbove(max_heading_sigma_rad, 0, 10, "pose.max_heading_sigma_rad");
   RequireInRange(max_tilt_deg, 1, 60, "pose.max_tilt_deg");
-  Require(warn_tilt_deg >= 0 && warn_tilt_deg <= max_tilt_deg,
-          "pose.warn_tilt_deg must be in 0..pose.max_tilt_deg");
 }
 
 PoseWatch::PoseWatch(const PoseWatchOptions& options, const TrackKinematics& kinematics)
-    : options_(options), consistency_(options.consistency, kinematics) {
+    : options_(options), consistency_(kinematics) {
   options_.Check();
 }
 
@@ -69,11 +67,6 @@ bool PoseWatch::ObserveEpoch(uint32_t epoch, double taken_s) {
   sightings_.clear();
   flaw_ = StopReason::kPoseMissing;
   return true;
-}
-
-bool PoseWatch::HasCovariance(const PoseObservation& pose) const {
-  if (!options_.requires_covariance) return true;
-  return uncertainty_ && uncertainty_->taken_s >= pose.taken_s - kClockNoise_s;
 }
 
 std::optional<Fault> PoseWatch::CompareWithTracks(const TrackedSighting& sighting) const {
@@ -108,7 +101,7 @@ void PoseWatch::AgreeOnMap() {
 
 void PoseWatch::Keep(const TrackedSighting& sighting) {
   sightings_.push_back(sighting);
-  const double start_s = sighting.taken_s - options_.consistency.slide_window_s;
+  const double start_s = sighting.taken_s - kSlideWindow_s;
   while (sightings_.size() > 2 && sightings_[1].taken_s <= start_s) sightings_.pop_front();
 }
 
@@ -116,10 +109,10 @@ std::optional<Fault> PoseWatch::Judge(double now_s, const TrackHistory& tracks) 
   if (flaw_ || !told_) return std::nullopt;
   auto fault = TakeMap(told_->map_from_odom);
   const bool is_new = sightings_.empty() || told_->taken_s > sightings_.back().taken_s;
-  if (!is_new || !HasCovariance(*told_) || IsUncertain(now_s)) return fault;
-  const PoseUncertainty uncertainty = uncertainty_.value_or(PoseUncertainty{});
+  if (!is_new || IsUncertain(now_s)) return fault;
+  if (uncertainty_->taken_s < told_->taken_s - kClockNoise_s) return fault;
   const TrackedSighting sighting{told_->taken_s, ProjectToPlane(told_->odom_from_base),
-                                 uncertainty.position_sigma_m, uncertainty.heading_sigma_rad,
+                                 uncertainty_->position_sigma_m, uncertainty_->heading_sigma_rad,
                                  tracks.At(told_->taken_s).value_or(TrackWays{})};
   if (const auto contradiction = CompareWithTracks(sighting)) {
     fault = contradiction;
@@ -133,7 +126,7 @@ std::optional<Fault> PoseWatch::Judge(double now_s, const TrackHistory& tracks) 
 
 std::optional<RoverPose> PoseWatch::SetDatum() {
   const bool is_known = uncertainty_ && uncertainty_->position_sigma_m < kMaxDatumSigma_m;
-  if (flaw_ || !told_ || (options_.requires_covariance && !is_known)) return std::nullopt;
+  if (flaw_ || !told_ || !is_known) return std::nullopt;
   datum_ = uncertainty_;
   return ProjectToPlane(told_->MapFromBase());
 }
@@ -143,9 +136,7 @@ RoverPose PoseWatch::PredictInMap(const TrackWays& ways) const {
 }
 
 bool PoseWatch::IsUncertain(double now_s) const {
-  if (!uncertainty_) return options_.requires_covariance;
-  if (options_.requires_covariance && !(now_s - uncertainty_->taken_s <= options_.max_pose_age_s))
-    return true;
+  if (!uncertainty_ || !(now_s - uncertainty_->taken_s <= options_.max_pose_age_s)) return true;
   const PoseUncertainty datum = datum_.value_or(PoseUncertainty{});
   // Written so that NaN is uncertain.
   return !(Since(datum.position_sigma_m, uncertainty_->position_sigma_m) <=
@@ -158,7 +149,7 @@ std::optional<StopReason> PoseWatch::FindFault(double now_s) const {
   if (flaw_) return flaw_;
   if (now_s - told_->taken_s > options_.max_pose_age_s) return StopReason::kPoseStale;
   if (IsUncertain(now_s)) return StopReason::kPoseUncertain;
-  if (options_.requires_epoch && !epoch_) return StopReason::kEpochMissing;
+  if (!epoch_) return StopReason::kEpochMissing;
   if (sightings_.empty()) return StopReason::kPoseMissing;
   return std::nullopt;
 }

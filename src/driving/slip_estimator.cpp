@@ -9,6 +9,17 @@
 namespace arfm_vo {
 namespace {
 
+constexpr double kWindow_m = 0.3;          ///< mean way of the tracks that is compared with sight
+constexpr double kMaxTurnSlipRatio = 0.7;  ///< as max_slip_ratio, of the turn
+constexpr double kMaxLeap_m = 0.5;  ///< a leap of the visual pose beyond this begins a new window
+/// Over a longer way of level ground the tracks slip less: sight that still tells another length
+/// is of a wrong baseline, or of something else than the ground.
+constexpr double kLevelWindow_m = 5;
+/// Where the tracks go straight, sight that tells a way aside is of eyes that look elsewhere than
+/// the head says.
+constexpr double kStraightWindow_m = 1;
+constexpr double kLevel_deg = 5;  ///< ground that tilts the rover more is not level
+
 /// Below this share of the window, forward way and turning (as the outer tracks' way) are not
 /// judged.
 constexpr double kMinShare = 0.6;
@@ -22,14 +33,8 @@ double Ratio(double track, double sight) {
 }  // namespace
 
 void SlipOptions::Check() const {
-  RequireInRange(window_m, 0.05, 100, "slip.window_m");
   RequireAbove(max_slip_ratio, 0, 1, "slip.max_slip_ratio");
-  RequireAbove(max_turn_slip_ratio, 0, 1, "slip.max_turn_slip_ratio");
-  RequireAbove(max_leap_m, 0, 100, "slip.max_leap_m");
-  RequireInRange(level_window_m, 0.05, 100, "slip.level_window_m");
-  RequireInRange(straight_window_m, 0.05, 100, "slip.straight_window_m");
   RequireAbove(max_level_ratio, 0, 1, "slip.max_level_ratio");
-  RequireInRange(level_deg, 0, 60, "slip.level_deg");
 }
 
 SlipEstimator::SlipEstimator(const SlipOptions& options, const TrackKinematics& kinematics)
@@ -43,7 +48,7 @@ void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
   if (!samples_.empty()) {
     const Sample& last = samples_.back();
     const Rigid3 last_from_base = last.odom_from_base.Inverse() * odom_from_base;
-    if (last_from_base.translation.norm() > options_.max_leap_m) {
+    if (last_from_base.translation.norm() > kMaxLeap_m) {
       samples_.clear();
       level_since_m_ = 0;
     } else {
@@ -58,15 +63,15 @@ void SlipEstimator::Add(const Rigid3& odom_from_base, const TrackWays& ways) {
     }
   }
   const double up = (odom_from_base.rotation * Eigen::Vector3d::UnitZ()).z();
-  if (up < std::cos(options_.level_deg * M_PI / 180)) level_since_m_ = sample.track_path_m;
+  if (up < std::cos(kLevel_deg * M_PI / 180)) level_since_m_ = sample.track_path_m;
   const bool rests = samples_.size() > 1 && sample.track_path_m == samples_.back().track_path_m;
   if (rests) samples_.pop_back();
   samples_.push_back(sample);
-  const double kept_m =
-      std::max({options_.window_m, options_.level_window_m, options_.straight_window_m});
-  while (samples_.size() > 2 && sample.track_path_m - samples_[1].track_path_m >= kept_m)
+  while (samples_.size() > 2 && sample.track_path_m - samples_[1].track_path_m >= kLevelWindow_m)
     samples_.pop_front();
 }
+
+std::optional<Slip> SlipEstimator::Estimate() const { return Over(kWindow_m); }
 
 std::optional<Slip> SlipEstimator::Over(double window_m) const {
   if (samples_.empty()) return std::nullopt;
@@ -110,12 +115,12 @@ std::optional<std::string> SlipEstimator::FindExcess() const {
   };
   const std::optional<Slip> slip = Estimate();
   if (slip && (std::abs(slip->forward_ratio.value_or(0)) > options_.max_slip_ratio ||
-               std::abs(slip->turn_ratio.value_or(0)) > options_.max_turn_slip_ratio))
+               std::abs(slip->turn_ratio.value_or(0)) > kMaxTurnSlipRatio))
     return text(*slip);
-  const std::optional<Slip> level = OverLevel(options_.level_window_m);
+  const std::optional<Slip> level = OverLevel(kLevelWindow_m);
   if (level && std::abs(level->forward_ratio.value_or(0)) > options_.max_level_ratio)
     return text(*level);
-  const std::optional<Slip> straight = OverLevel(options_.straight_window_m);
+  const std::optional<Slip> straight = OverLevel(kStraightWindow_m);
   if (straight && straight->sideways_ratio.value_or(0) > options_.max_level_ratio)
     return text(*straight);
   return std::nullopt;

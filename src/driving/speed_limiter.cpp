@@ -16,7 +16,6 @@ double StepTowards(double from, double to, double max_step) {
 void SpeedLimiterOptions::Check() const {
   Require(max_speed_mps > 0 && max_speed_mps <= kMaxSpeed_mps,
           "limits.max_speed_mps must be in (0, 0.1]");
-  RequireAbove(max_turn_rate_radps, 0, 1, "limits.max_turn_rate_radps");
   RequireAbove(max_acceleration_mps2, 0, 10, "limits.max_acceleration_mps2");
   RequireAbove(max_turn_acceleration_radps2, 0, 100, "limits.max_turn_acceleration_radps2");
 }
@@ -27,8 +26,7 @@ SpeedLimiter::SpeedLimiter(const SpeedLimiterOptions& options, const TrackKinema
 }
 
 PlanarMotion SpeedLimiter::Shrink(PlanarMotion motion) const {
-  motion.turn_radps =
-      std::clamp(motion.turn_radps, -options_.max_turn_rate_radps, options_.max_turn_rate_radps);
+  motion.turn_radps = std::clamp(motion.turn_radps, -kMaxTurnRate_radps, kMaxTurnRate_radps);
   const double faster_mps = kinematics_.FasterTrack(motion);
   if (faster_mps <= options_.max_speed_mps) return motion;
   const double scale = options_.max_speed_mps / faster_mps;

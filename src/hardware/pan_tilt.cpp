@@ -5,11 +5,15 @@
 #include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
+namespace {
+
+constexpr int kMaxFailedReads = 5;  ///< in a row; then the line is opened anew
+
+}  // namespace
 
 void PanTiltOptions::Check() const {
   RequireAbove(home_timeout_s, 0, 600, "home_timeout_s");
   RequireAbove(reply_timeout_s, 0, 10, "reply_timeout_s");
-  Require(max_failed_reads >= 1, "max_failed_reads must be at least 1");
   RequireInRange(pan_speed_rad_s, 0, 100, "pan_speed_rad_s");
   RequireInRange(tilt_speed_rad_s, 0, 100, "tilt_speed_rad_s");
   reopen.Check();
@@ -94,7 +98,7 @@ PanTiltReadings PanTilt::Read() {
                                  unit_->ReadPosition(PtuAxis::kTilt)};
   has_lost_position_ = unit_->HasLostPosition() || has_lost_position_;
   num_failed_reads_ = readings.pan && readings.tilt ? 0 : num_failed_reads_ + 1;
-  if (num_failed_reads_ >= options_.max_failed_reads) Close("the unit does not answer with sense");
+  if (num_failed_reads_ >= kMaxFailedReads) Close("the unit does not answer with sense");
   return readings;
 }
 

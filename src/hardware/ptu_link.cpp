@@ -109,8 +109,7 @@ bool PtuLink::Initialize() {
     const auto reply = AwaitReply(reply_timeout_s_);
     Drain();
     if (!reply || reply->kind != PtuReplyKind::kValue) continue;
-    feedback_ = GuessPtuFeedback(reply->text);
-    const auto value = ParsePtuNumber(reply->text, kFenceAxis, feedback_);
+    const auto value = ParsePtuNumber(reply->text);
     if (value && *value > 0 && reply->text == before) {
       fence_text_ = reply->text;
       is_in_step_ = true;
@@ -134,9 +133,8 @@ std::optional<PtuLink::Answer> PtuLink::Query(PtuAxis axis, char letter) {
   const auto reply = Ask(FormatPtuQuery(axis, letter));
   if (!reply) return std::nullopt;
   const double end_s = stream_.Now();
-  const auto value = reply->kind == PtuReplyKind::kValue
-                         ? ParsePtuNumber(reply->text, axis, feedback_)
-                         : std::nullopt;
+  const auto value =
+      reply->kind == PtuReplyKind::kValue ? ParsePtuNumber(reply->text) : std::nullopt;
   if (!value) {
     MarkOutOfStep();
     return std::nullopt;

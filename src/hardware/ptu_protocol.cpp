@@ -4,7 +4,6 @@
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <regex>
-#include <sstream>
 
 namespace arfm_vo {
 namespace {
@@ -15,18 +14,6 @@ constexpr size_t kMaxReply = 160;
 char AxisLetter(PtuAxis axis) { return axis == PtuAxis::kPan ? 'p' : 't'; }
 
 bool IsLineEnd(char c) { return c == '\r' || c == '\n'; }
-
-/// [+-]DIGITS[.DIGITS], nothing else: no exponent, no hexadecimal, no "nan".
-std::optional<double> ParsePlainNumber(const std::string& text) {
-  static const std::regex number("[+-]?[0-9]+(\\.[0-9]+)?");
-  if (text.size() > 16 || !std::regex_match(text, number)) return std::nullopt;
-  return std::stod(text);
-}
-
-bool IsWord(const std::string& text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalpha(c) || c == '/' || c == '.'; });
-}
 
 }  // namespace
 
@@ -84,23 +71,11 @@ std::optional<PtuReply> PtuReplyParser::Next() {
   return reply;
 }
 
-std::optional<double> ParsePtuNumber(const std::string& text, PtuAxis axis, PtuFeedback feedback) {
-  if (feedback == PtuFeedback::kTerse) return ParsePlainNumber(text);
-  const char* other = axis == PtuAxis::kPan ? "Tilt" : "Pan";
-  std::istringstream words(text);
-  std::optional<double> number;
-  int num_words = 0;
-  for (std::string word; words >> word;) {
-    const auto value = ParsePlainNumber(word);
-    if (value ? number.has_value() : (!IsWord(word) || word == other)) return std::nullopt;
-    if (value) number = value;
-    if (!value) ++num_words;
-  }
-  return num_words >= 3 ? number : std::nullopt;
-}
-
-PtuFeedback GuessPtuFeedback(const std::string& text) {
-  return ParsePlainNumber(text) ? PtuFeedback::kTerse : PtuFeedback::kVerbose;
+std::optional<double> ParsePtuNumber(const std::string& text) {
+  // No exponent, no hexadecimal, no "nan".
+  static const std::regex number("[+-]?[0-9]+(\\.[0-9]+)?");
+  if (text.size() > 16 || !std::regex_match(text, number)) return std::nullopt;
+  return std::stod(text);
 }
 
 }  // namespace arfm_vo

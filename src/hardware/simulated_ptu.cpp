@@ -14,13 +14,9 @@ constexpr char kEnd[] = "\r\n";
 constexpr char kDone[] = "*\r\n";
 constexpr char kIllegal[] = "! Illegal command entered\r\n";
 
-std::string NameOf(PtuAxis axis) { return axis == PtuAxis::kPan ? "Pan" : "Tilt"; }
-
 /// The number at the end of "pp-2500"; nothing where there is none.
 std::optional<int> ParseArgument(const std::string& command) {
-  const auto number = command.size() > 2
-                          ? ParsePtuNumber(command.substr(2), PtuAxis::kPan, PtuFeedback::kTerse)
-                          : std::nullopt;
+  const auto number = command.size() > 2 ? ParsePtuNumber(command.substr(2)) : std::nullopt;
   if (!number || std::abs(*number) > 999999) return std::nullopt;
   return static_cast<int>(*number);
 }
@@ -132,7 +128,6 @@ std::string SimulatedPtu::Answer(const std::string& command) {
     return kDone;
   }
   if (command == "ci" || command == "i") return kDone;
-  if (command == "ds") ++num_eeprom_writes_;
   if (command.size() >= 2 && command[0] == 'p') return AnswerAxis(PtuAxis::kPan, command);
   if (command.size() >= 2 && command[0] == 't') return AnswerAxis(PtuAxis::kTilt, command);
   return kIllegal;
@@ -142,61 +137,41 @@ std::string SimulatedPtu::AnswerAxis(PtuAxis axis, const std::string& command) {
   const char letter = command[1];
   if (command.size() > 2) {
     const auto argument = ParseArgument(command);
-    if (argument && letter == 'p') return MoveTo(axis, *argument);
-    if (argument && letter == 's') return SetSpeed(axis, *argument);
-    return kIllegal;
+    return argument ? Set(axis, letter, *argument) : kIllegal;
   }
   const PtuAxisMotion& motion = Motion(axis);
   const SimulatedPtuAxisOptions& unit = motion.options;
-  const struct {
-    char letter;
-    const char* before;
-    double value;
-    const char* what;
-    const char* after;
-  } replies[] = {
-      {'p', "Current ", std::round(motion.Position()), " position is ", ""},
-      {'n', "Minimum ", 1.0 * unit.min_position, " position is ", ""},
-      {'x', "Maximum ", 1.0 * unit.max_position, " position is ", ""},
-      {'s', "Target ", 1.0 * motion.speed, " speed is ", " positions/sec"},
-      {'l', "Minimum ", 1.0 * unit.min_speed, " speed is ", " positions/sec"},
-      {'u', "Maximum ", 1.0 * unit.max_speed, " speed is ", " positions/sec"},
-  };
-  if (letter == 'r')
-    return AnswerValue("", Format("%.4f", unit.resolution_arcsec),
-                       " seconds arc per " + NameOf(axis) + " position");
-  for (const auto& reply : replies)
-    if (letter == reply.letter)
-      return AnswerValue(reply.before + NameOf(axis) + reply.what, Format("%.0f", reply.value),
-                         reply.after);
+  const std::pair<char, double> values[] = {{'p', std::round(motion.Position())},
+                                            {'n', unit.min_position},
+                                            {'x', unit.max_position},
+                                            {'s', motion.speed},
+                                            {'l', unit.min_speed},
+                                            {'u', unit.max_speed}};
+  const std::string begin = is_verbose_ ? "* The value is " : "* ";  // in other words for each
+  if (letter == 'r') return begin + Format("%.4f", unit.resolution_arcsec) + kEnd;
+  for (const auto& [name, value] : values)
+    if (letter == name) return begin + Format("%.0f", value) + kEnd;
   return kIllegal;
 }
 
-std::string SimulatedPtu::AnswerValue(const std::string& before, const std::string& value,
-                                      const std::string& after) const {
-  return "* " + (is_verbose_ ? before + value + after : value) + kEnd;
-}
-
-std::string SimulatedPtu::MoveTo(PtuAxis axis, int target) {
+std::string SimulatedPtu::Set(PtuAxis axis, char letter, int value) {
   PtuAxisMotion& motion = Motion(axis);
-  const auto refuse = [&](const char* limit, int position) {
-    return Format("! %s allowable %s position is %d", limit, NameOf(axis).c_str(), position) + kEnd;
-  };
-  if (target > motion.options.max_position) return refuse("Maximum", motion.options.max_position);
-  if (target < motion.options.min_position) return refuse("Minimum", motion.options.min_position);
-  motion.target = target;
-  return kDone;
-}
-
-std::string SimulatedPtu::SetSpeed(PtuAxis axis, int speed) {
-  PtuAxisMotion& motion = Motion(axis);
-  const auto refuse = [&](const char* what, int limit) {
-    return Format("! %s speed cannot %s %d positions/sec", NameOf(axis).c_str(), what, limit) +
+  const SimulatedPtuAxisOptions& unit = motion.options;
+  const bool is_position = letter == 'p';
+  if (!is_position && letter != 's') return kIllegal;
+  const int lowest = is_position ? unit.min_position : unit.min_speed;
+  const int highest = is_position ? unit.max_position : unit.max_speed;
+  const int allowed = std::clamp(value, lowest, highest);
+  const std::string name = axis == PtuAxis::kPan ? "Pan" : "Tilt";
+  if (value != allowed && is_position)
+    return Format("! %s allowable %s position is %d", value > allowed ? "Maximum" : "Minimum",
+                  name.c_str(), allowed) +
            kEnd;
-  };
-  if (speed > motion.options.max_speed) return refuse("exceed", motion.options.max_speed);
-  if (speed < motion.options.min_speed) return refuse("be less than", motion.options.min_speed);
-  motion.speed = speed;
+  if (value != allowed)
+    return Format("! %s speed cannot %s %d positions/sec", name.c_str(),
+                  value > allowed ? "exceed" : "be less than", allowed) +
+           kEnd;
+  (is_position ? motion.target : motion.speed) = value;
   return kDone;
 }
 

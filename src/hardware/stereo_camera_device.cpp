@@ -13,6 +13,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kShortestWait_s = 0.002;
+constexpr double kExposureCopy_s = 1;  ///< so often the left's automatic exposure goes right
 
 void Poll(const std::vector<int>& descriptors, double timeout_s) {
   std::vector<pollfd> waits;
@@ -32,7 +33,6 @@ void StereoCameraOptions::Check() const {
           "video.rate_hz)");
   Require(frame_timeout_s * video.rate_hz > 1,
           "frame_timeout_s must be above the time between frames (1 / video.rate_hz)");
-  Require(exposure_copy_s > 0, "exposure_copy_s must be positive");
   reopen.Check();
 }
 
@@ -165,7 +165,7 @@ void StereoCameraDevice::CheckSilence() {
 
 void StereoCameraDevice::CopyExposure() {
   const double now_s = environment_.now_s();
-  if (now_s - exposure_copied_s_ < options_.exposure_copy_s) return;
+  if (now_s - exposure_copied_s_ < kExposureCopy_s) return;
   exposure_copied_s_ = now_s;
   status_.exposure = eyes_[0].device->ReadExposure();
   const bool is_automatic = options_.video.exposure_s == 0;

@@ -12,6 +12,7 @@
 namespace arfm_vo {
 namespace {
 
+constexpr int kNumBuffers = 4;  ///< that the driver fills in turn
 /// EXPOSURE_ABSOLUTE is in 100 us.
 constexpr double kExposureUnit_s = 1e-4;
 /// A stamp further back than this, or ahead, is not of the monotonic clock.
@@ -68,7 +69,7 @@ V4l2Device::V4l2Device(const std::string& path, const VideoOptions& options)
   SetFormat(options);
   SetRate(options.rate_hz);
   SetControls(options);
-  buffers_.Start(fd_.Get(), path_, options.num_buffers);
+  buffers_.Start(fd_.Get(), path_, kNumBuffers);
   started_s_ = MonotonicNow();
 }
 

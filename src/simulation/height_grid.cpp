@@ -49,12 +49,12 @@ Raster::Raster(const Eigen::Vector2d& min_corner, double cell_m, int num_cells)
       cell_m_(cell_m),
       cells_per_m_(1 / cell_m),
       num_cells_(num_cells),
-      nodes_(static_cast<size_t>(num_cells + 1) * (num_cells + 1)) {}
+      nodes_(num_cells + 1, num_cells + 1) {}
 
 void Raster::Fill(int num_threads, const std::function<double(double, double)>& value) {
   ForEachRow(num_cells_ + 1, num_threads, [&](int j) {
     for (int i = 0; i <= num_cells_; ++i) {
-      At(i, j) = value(min_corner_.x() + i * cell_m_, min_corner_.y() + j * cell_m_);
+      nodes_(i, j) = value(min_corner_.x() + i * cell_m_, min_corner_.y() + j * cell_m_);
     }
   });
 }
@@ -79,24 +79,16 @@ bool Raster::Contains(double x, double y) const {
 HeightGrid::HeightGrid(Raster heights) : heights_(std::move(heights)) {
   const int size = heights_.num_cells();
   Require(size >= 1 && (size & (size - 1)) == 0, "height grid: cells must be a power of two");
-  max_heights_.emplace_back(static_cast<size_t>(size) * size);
-  for (int j = 0; j < size; ++j) {
-    for (int i = 0; i < size; ++i) {
-      max_heights_[0][static_cast<size_t>(j) * size + i] =
-          std::max({heights_.At(i, j), heights_.At(i + 1, j), heights_.At(i, j + 1),
-                    heights_.At(i + 1, j + 1)});
-    }
-  }
-  for (int level = 1; (size >> level) >= 1; ++level) {
-    const int side = size >> level;
-    std::vector<float> coarse(static_cast<size_t>(side) * side);
-    for (int j = 0; j < side; ++j) {
-      for (int i = 0; i < side; ++i) {
-        coarse[static_cast<size_t>(j) * side + i] = std::max(
-            {MaxHeight(level - 1, 2 * i, 2 * j), MaxHeight(level - 1, 2 * i + 1, 2 * j),
-             MaxHeight(level - 1, 2 * i, 2 * j + 1), MaxHeight(level - 1, 2 * i + 1, 2 * j + 1)});
-      }
-    }
+  const Eigen::ArrayXXf& nodes = heights_.nodes();
+  max_heights_.push_back(nodes.topLeftCorner(size, size)
+                             .max(nodes.bottomLeftCorner(size, size))
+                             .max(nodes.topRightCorner(size, size))
+                             .max(nodes.bottomRightCorner(size, size)));
+  for (int side = size / 2; side >= 1; side /= 2) {
+    const Eigen::ArrayXXf& fine = max_heights_.back();
+    Eigen::ArrayXXf coarse = Eigen::ArrayXXf::NullaryExpr(
+        side, side,
+        [&](Eigen::Index i, Eigen::Index j) { return fine.block<2, 2>(2 * i, 2 * j).maxCoeff(); });
     max_heights_.push_back(std::move(coarse));
   }
 }
@@ -126,7 +118,7 @@ double HeightGrid::Intersect(const Ray& world_ray, double begin, double end) con
   ray.origin.head<2>() = (ray.origin.head<2>() - heights_.min_corner()) / heights_.cell_m();
   ray.direction.head<2>() /= heights_.cell_m();
   if (ray.direction.z() > 0) {
-    end = std::min(end, (max_heights_.back().front() - ray.origin.z()) / ray.direction.z());
+    end = std::min(end, (max_heights_.back()(0, 0) - ray.origin.z()) / ray.direction.z());
   }
   const double inverse_x = SafeInverse(ray.direction.x());
   const double inverse_y = SafeInverse(ray.direction.y());
@@ -143,7 +135,7 @@ double HeightGrid::Intersect(const Ray& world_ray, double begin, double end) con
     const double exit_y = (((j + ahead_y) << level) - ray.origin.y()) * inverse_y;
     const double exit = std::min(std::max(z, std::min(exit_x, exit_y)), end);
     const double lowest = ray.direction.z() < 0 ? ray.origin.z() + exit * ray.direction.z() : p.z();
-    if (lowest <= MaxHeight(level, i, j)) {
+    if (lowest <= max_heights_[level](i, j)) {
       if (level > 0) {
         --level;
         continue;

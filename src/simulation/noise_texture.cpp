@@ -13,48 +13,30 @@ constexpr double kMaxLod = 5.5;  ///< beyond it the pattern has averaged out
 constexpr int kMaxProbes = 12;
 constexpr double kScales[kNumLevels] = {1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64};
 
-using Pixels = std::vector<float>;
+using Pixels = Eigen::ArrayXXf;  ///< (x, y)
 
-/// Smooths with [1 2 1]/4 along both axes, wrapping around.
-Pixels Smooth(const Pixels& in, int size) {
-  const int mask = size - 1;
-  Pixels rows(in.size()), out(in.size());
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const float* row = &in[y * size];
-      rows[y * size + x] = 0.25f * (row[(x - 1) & mask] + 2 * row[x] + row[(x + 1) & mask]);
-    }
-  }
-  for (int y = 0; y < size; ++y) {
-    const float *above = &rows[((y - 1) & mask) * size], *here = &rows[y * size],
-                *below = &rows[((y + 1) & mask) * size];
-    for (int x = 0; x < size; ++x) out[y * size + x] = 0.25f * (above[x] + 2 * here[x] + below[x]);
-  }
-  return out;
+/// Smooths with [1 2 1]/4 along x, wrapping around.
+Pixels SmoothRows(const Pixels& in) {
+  const Eigen::Index last = in.rows() - 1;
+  Pixels before(in.rows(), in.cols()), after(in.rows(), in.cols());
+  before << in.bottomRows(1), in.topRows(last);
+  after << in.bottomRows(last), in.topRows(1);
+  return 0.25f * (before + 2 * in + after);
 }
 
-/// Doubles the size by repeating, then smoothing.
-Pixels Upsample(const Pixels& in, int size) {
-  Pixels out(in.size() * 4);
-  for (int y = 0; y < 2 * size; ++y) {
-    for (int x = 0; x < 2 * size; ++x) out[y * 2 * size + x] = in[(y / 2) * size + x / 2];
-  }
-  return Smooth(out, 2 * size);
-}
+Pixels Smooth(const Pixels& in) { return SmoothRows(SmoothRows(in).transpose()).transpose(); }
 
 /// Octaves of smoothed white noise from wavelength 16 texels down to 2, each as high as the others.
 Pixels MakeOctaves(int size_log2, uint32_t seed) {
-  Pixels sum;
+  Pixels sum = Pixels::Zero(1 << (size_log2 - 4), 1 << (size_log2 - 4));
   for (int octave = 3; octave >= 0; --octave) {
     const int size = 1 << (size_log2 - octave);
-    if (!sum.empty()) sum = Upsample(sum, size / 2);
-    Pixels white(size * size);
-    for (int i = 0; i < size * size; ++i) {
-      white[i] = HashUnit(HashCell(i, octave, seed)) - 0.5;
-    }
-    if (sum.empty()) sum.assign(white.size(), 0);
-    white = Smooth(white, size);
-    for (size_t i = 0; i < sum.size(); ++i) sum[i] += white[i];
+    const auto white = [&](Eigen::Index x, Eigen::Index y) {
+      return static_cast<float>(HashUnit(HashCell(y * size + x, octave, seed)) - 0.5);
+    };
+    const auto twice = [&](Eigen::Index x, Eigen::Index y) { return sum(x / 2, y / 2); };
+    sum = Smooth(Pixels::NullaryExpr(size, size, twice)) +
+          Smooth(Pixels::NullaryExpr(size, size, white));
   }
   return sum;
 }
@@ -68,7 +50,7 @@ void StampPebble(double x, double y, double radius, double tone, int size, Pixel
       const double px = (i + 0.5 - x) / radius, py = (j + 0.5 - y) / radius;
       const double inside = 1 - SmoothStep(1 - 0.5 / radius, 1 + 0.5 / radius, std::hypot(px, py));
       const double shade = 1 - SmoothStep(0.8, 1.25, std::hypot(px - 0.3, py - 0.2));
-      float& pixel = pixels[(j & (size - 1)) * size + (i & (size - 1))];
+      float& pixel = pixels(i & (size - 1), j & (size - 1));
       pixel -= 0.5 * shade * (1 - inside);
       pixel += inside * (tone - 0.6 * (px + 0.6 * py) - pixel);
     }
@@ -85,24 +67,16 @@ void StampPebbles(double per_texel, int size, uint32_t seed, Pixels& pixels) {
 }
 
 void Normalize(Pixels& pixels) {
-  double sum = 0, squares = 0;
-  for (const float pixel : pixels) sum += pixel;
-  const double mean = sum / pixels.size();
-  for (const float pixel : pixels) squares += (pixel - mean) * (pixel - mean);
-  const double scale = 1 / std::sqrt(squares / pixels.size());
-  for (float& pixel : pixels) pixel = scale * (pixel - mean);
+  const Eigen::ArrayXXd centred = pixels.cast<double>() - pixels.cast<double>().mean();
+  pixels = (centred / std::sqrt(centred.square().mean())).cast<float>();
 }
 
-Pixels Halve(const Pixels& in, int size) {
-  const int half = size / 2;
-  Pixels out(half * half);
-  for (int y = 0; y < half; ++y) {
-    for (int x = 0; x < half; ++x) {
-      const float *above = &in[2 * y * size + 2 * x], *below = above + size;
-      out[y * half + x] = 0.25f * (above[0] + above[1] + below[0] + below[1]);
-    }
-  }
-  return out;
+Pixels Halve(const Pixels& in) {
+  const auto mean = [&](Eigen::Index x, Eigen::Index y) {
+    return 0.25f * (in(2 * x, 2 * y) + in(2 * x + 1, 2 * y) + in(2 * x, 2 * y + 1) +
+                    in(2 * x + 1, 2 * y + 1));
+  };
+  return Pixels::NullaryExpr(in.rows() / 2, in.cols() / 2, mean);
 }
 
 /// The bits of x apart, with zeros between them.
@@ -119,21 +93,14 @@ NoiseTexture::NoiseTexture(int size_log2, double pebbles_per_texel, uint32_t see
   Pixels pixels = MakeOctaves(size_log2, seed);
   StampPebbles(pebbles_per_texel, size_, HashWord(seed), pixels);
   Normalize(pixels);
-  levels_.push_back(std::move(pixels));
-  for (int level = 1; level < kNumLevels; ++level) {
-    levels_.push_back(Halve(levels_.back(), size_ >> (level - 1)));
-  }
   for (int i = 0; i < size_; ++i) place_.push_back(SpreadBits(i));
-  for (int level = 0; level < kNumLevels; ++level)
-    levels_[level] = Fold(levels_[level], size_ >> level);
-}
-
-std::vector<float> NoiseTexture::Fold(const std::vector<float>& rows, int size) const {
-  std::vector<float> folded(rows.size());
-  for (int j = 0; j < size; ++j) {
-    for (int i = 0; i < size; ++i) folded[place_[i] + 2 * place_[j]] = rows[j * size + i];
+  for (int level = 0; level < kNumLevels; ++level) {
+    if (level > 0) pixels = Halve(pixels);
+    std::vector<float>& folded = levels_.emplace_back(pixels.size());
+    for (Eigen::Index j = 0; j < pixels.cols(); ++j)
+      for (Eigen::Index i = 0; i < pixels.rows(); ++i)
+        folded[place_[i] + 2 * place_[j]] = pixels(i, j);
   }
-  return folded;
 }
 
 inline double NoiseTexture::SampleLevel(double x, double y, int level) const {

@@ -77,9 +77,9 @@ TEST(GoalController, ATurnTowardsTheWaypointIsProgress) {
 
 TEST(GoalController, IsNeverSlowerThanItsLeastSpeed) {
   GoalControllerOptions options;
-  options.min_speed_mps = 0.04;
+  options.position_tolerance_m = 0.005;
   GoalController controller(options, {{1, 0, {}}});
-  EXPECT_NEAR(controller.Update({0.95, 0, 0}, false).forward_mps, 0.04, 1e-9);
+  EXPECT_NEAR(controller.Update({0.99, 0, 0}, false).forward_mps, 0.015, 1e-9);
 }
 
 TEST(GoalController, SlowsDownBeforeTheLastWaypointOnly) {

@@ -49,10 +49,18 @@ TEST(GoalLimits, EdgesOfAFenceMayRunAskew) {
   EXPECT_EQ(limits.FindFlaw({{2.5, 15, {}}}, below), "the way to it leaves the fence");
 }
 
-TEST(GoalLimits, AFenceOfTwoCornersIsRefused) {
+TEST(GoalLimits, AFenceOfTwoCornersOrThatCrossesItselfIsRefused) {
   GoalLimitsOptions options;
-  options.fence_m = {0, 0, 1, 1};
-  EXPECT_THROW(GoalLimits{options}, std::invalid_argument);
+  for (const auto& fence_m : {std::vector<double>{0, 0, 1, 1}, {0, 0, 1, 1, 1, 0, 0, 1}}) {
+    options.fence_m = fence_m;
+    EXPECT_THROW(GoalLimits{options}, std::invalid_argument);
+  }
+}
+
+TEST(GoalLimits, AGoalUnderTheRoverAndAWayBackStayInsideTheFence) {
+  const GoalLimits limits(LShapedFence());
+  EXPECT_EQ(limits.FindFlaw({{0, 0, {}}}, {}), "");
+  EXPECT_EQ(limits.FindFlaw({{9, 0, {}}, {0, 0, {}}, {0, 9, {}}}, {}), "");
 }
 
 }  // namespace

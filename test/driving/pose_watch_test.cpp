@@ -62,18 +62,8 @@ TEST_F(PoseWatchTest, ACovarianceOfAnotherEpochSaysNothingOfThisOne) {
   EXPECT_EQ(watch_.FindFault(10.1), StopReason::kPoseUncertain);
 }
 
-TEST(PoseWatch, WhereNoCovarianceIsAskedForNoneIsWaitedFor) {
-  PoseWatchOptions options;
-  options.requires_covariance = false;
-  PoseWatch watch(options, TrackKinematics({}));
-  watch.ObserveEpoch(1, 10);
-  watch.Observe(10, PoseObservation{10, SightingAt(0), {}});
-  EXPECT_FALSE(watch.Judge(10, TrackHistory(2)));
-  EXPECT_FALSE(watch.FindFault(10));
-}
-
 TEST(PoseConsistency, SidewaysIsAcrossTheMiddleOfATurn) {
-  const PoseConsistency consistency({}, TrackKinematics({}));
+  const PoseConsistency consistency(TrackKinematics({}));
   const TrackedSighting earlier{0, {}, 0, 0, {}};
   const TrackWays ways{0.2, 0.6};
   RoverPose ahead = consistency.Predict(earlier, ways);
@@ -84,22 +74,19 @@ TEST(PoseConsistency, SidewaysIsAcrossTheMiddleOfATurn) {
 }
 
 TEST(PoseConsistency, TheFasterTrackSaysHowMuchMaySlip) {
-  const PoseConsistencyOptions options;
-  const PoseConsistency consistency(options, TrackKinematics({}));
+  const PoseConsistency consistency(TrackKinematics({}));
   const TrackedSighting earlier{0, {}, 0, 0, {}};
   for (const TrackWays& ways : {TrackWays{0, 0.5}, TrackWays{0.5, 0}}) {
     const auto difference = consistency.Compare(earlier, {1, {}, 0, 0, ways});
-    EXPECT_NEAR(difference.max_distance_m, options.max_error_m + 0.5 * options.max_slip_ratio,
-                1e-12);
+    EXPECT_NEAR(difference.max_distance_m, kMaxPoseError_m + 0.5 * kMaxSlipRatio, 1e-12);
   }
 }
 
 TEST_F(PoseWatchTest, ACreepThatIsSlowerThanTheWindowIsNoSlide) {
-  const PoseConsistencyOptions consistency;
   for (int i = 0; i < 6; ++i) {
-    const double now_s = 10 + consistency.slide_window_s * i;
+    const double now_s = 10 + kSlideWindow_s * i;
     Drive(now_s, 0);
-    EXPECT_FALSE(See(now_s, SightingAt(0, 0.4 * consistency.max_error_m * i))) << i;
+    EXPECT_FALSE(See(now_s, SightingAt(0, 0.4 * kMaxPoseError_m * i))) << i;
   }
 }
 

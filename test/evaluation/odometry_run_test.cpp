@@ -22,7 +22,6 @@ class FakeSequence : public StereoSequence {
       : num_pairs_(num_pairs), has_truth_(has_truth) {}
   const StereoCamera& camera() const override { return camera_; }
   int size() const override { return num_pairs_; }
-  double loading_cpu_s() const override { return 0; }
   std::optional<SequencePair> Next() override {
     if (next_ == num_pairs_) return std::nullopt;
     SequencePair pair;

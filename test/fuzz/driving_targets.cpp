@@ -162,7 +162,7 @@ class FuzzedDrive {
     const DriveCommand command = pilot_.Tick(now_s_);
     const PlanarMotion& motion = command.chassis_motion;
     Promise(motion.IsFinite() && std::abs(motion.forward_mps) <= kMaxSpeed_mps &&
-                std::abs(motion.turn_radps) <= SpeedLimiterOptions().max_turn_rate_radps,
+                std::abs(motion.turn_radps) <= kMaxTurnRate_radps,
             "motions keep the limits");
     if (!motion.IsZero()) CheckMayMove();
     pilot_.TakeResults();

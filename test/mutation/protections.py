@@ -16,8 +16,8 @@ TABLE = (
         ("steps of the map are bounded", "!step.IsExcessive()", "true"),
         ("a new epoch is noticed", "if (!is_new) return false;", "return false;"),
         ("sightings from before an epoch do not count", "epoch_start_s_ && pose.taken_s < *epoch_start_s_ - kClockNoise_s", "false"),
-        ("a pose waits for its covariance", "if (!options_.requires_covariance) return true;", "return true;"),
-        ("a pose without epoch is not driven by", "options_.requires_epoch && !epoch_", "false"),
+        ("a pose waits for its covariance", "uncertainty_->taken_s < told_->taken_s - kClockNoise_s", "false"),
+        ("a pose without epoch is not driven by", "!epoch_", "false"),
         ("covariances from the future are refused", "if (!(uncertainty.taken_s <= now_s + kMaxFromFuture_s)) return false;", ""),
         ("poses from the future are refused", "pose.taken_s > now_s + kMaxFromFuture_s", "false"),
         ("a stale pose pauses", "now_s - told_->taken_s > options_.max_pose_age_s", "false"),
@@ -68,8 +68,8 @@ TABLE = (
          'if (IsVelocityFresh(now_s) && !velocity_.IsZero())\n    return {false, "not started: " + velocity_source_ + " commands a velocity already"};',
          ""))),
     ("src/driving/chassis_watch.cpp", BASIC, (
-        ("a lost remote control is a fault", "status_->is_remote_lost && !options_.allows_remote_lost", "false"),
-        ("other drivers are noticed", "foreign_s_ && now_s - *foreign_s_ <= options_.foreign_command_s", "false"),
+        ("a lost remote control is a fault", "if (status_->is_remote_lost) return Fault{StopReason::kRemoteLost, \"\"};", ""),
+        ("other drivers are noticed", "foreign_s_ && now_s - *foreign_s_ <= kForeignCommand_s", "false"),
         ("the emergency stop button stops", 'if (status_->is_emergency_stop) return Fault{StopReason::kChassisEmergency, ""};', ""),
         ("a motor's fault stops", "if (status_->has_motor_fault) return Fault{StopReason::kMotorFault, status_->detail};", ""),
         ("the remote control takes over", 'if (IsRemote()) return Fault{StopReason::kRemoteControl, ""};', ""),
@@ -79,14 +79,13 @@ TABLE = (
     ("src/driving/motion_watch.cpp", BASIC, (
         ("a runaway stops", "excess_since_s_ && now_s - *excess_since_s_ >= options_.max_excess_s", "false"),
         ("frozen feedback stops", "counted_s_ && now_s - *counted_s_ > options_.max_frozen_s", "false"),
-        ("a motor's current is limited", "current_since_s_ && now_s - *current_since_s_ >= options_.max_current_s", "false"),
+        ("a motor's current is limited", "current_since_s_ && now_s - *current_since_s_ >= kMaxCurrent_s", "false"),
         ("motion at rest is told", "!away_since_s_ || now_s - *away_since_s_ < options_.max_excess_s", "true"),
         ("a jammed track stops", "return FindJam();", "return std::nullopt;"))),
     ("src/driving/goal_limits.cpp", BASIC, (
         ("a goal's distance is limited", "!(distance_m <= options_.max_distance_m)", "false"),
         ("a goal lies inside the fence", 'if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";', ""),
-        ("the way stays inside the fence", 'if (CrossesFence(from, to))\n      return "the way to " + NameOf(i, route.size()) + " leaves the fence";',
-         ""),
+        ("the way stays inside the fence", "!bg::covered_by(way, MakeRing(options_.fence_m))", "false"),
         ("a path's length is limited", "route.size() > static_cast<size_t>(options_.max_waypoints)", "false"))),
     ("src/driving/speed_limiter.cpp", BASIC, (
         ("only finite speeds are driven", "wanted.IsFinite() ? Shrink(wanted) : PlanarMotion{}", "Shrink(wanted)"),)),

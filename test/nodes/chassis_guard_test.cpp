@@ -43,7 +43,7 @@ class GuardedNodeTest : public ::testing::Test {
                     std::vector<std::string>(std::begin(kCheckItems) + 1, std::end(kCheckItems)));
     node_ = std::make_unique<StartedProcess>(std::vector<std::string>{
         "chassis_node", "__ns:=guarded", "_can:=guard:udp:3" + digits_ + ":4" + digits_,
-        "_pilot/velocity_needs_pose:=false", "_pilot/operator/is_required:=false"});
+        "_pilot/velocity_needs_pose:=false", "_pilot/operator_watch/is_required:=false"});
   }
   static double Now() { return ros::SteadyTime::now().toSec(); }
 

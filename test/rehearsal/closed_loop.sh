@@ -55,7 +55,7 @@ sed -n '/^poses drawn/,$p' "$work/drawn.txt" | awk '
   END { printf "| slip, mean and most, %% | %.1f, %.1f |%s\n", s / n, m, stops }' > "$work/drawn"
 
 mapfile -t pictures < <(find "$work" -name 'drive_*.png' | sort | tail -4)
-montage "${pictures[@]}" -tile 2x2 -geometry 500x634+4+4 -quality 80 "$work/drives.jpg"
+montage "${pictures[@]}" -tile 2x2 -geometry 500x552+4+4 -quality 80 "$work/drives.jpg"
 test/readme_section.py docs/driving.md driving < "$work/driving"
 test/readme_section.py docs/driving.md drawn < "$work/drawn"
 mv "$work/drives.jpg" docs/

@@ -135,7 +135,7 @@ TEST_F(WrongPoseTest, AMapThatCreepsAwayAsksToo) {
     drive_.map_from_odom_ = WrongPlaceAt(0, off_m);
     drive_.Run(0.1);
   }
-  EXPECT_NEAR(off_m, PoseConsistencyOptions().max_map_step_m, 0.02);
+  EXPECT_NEAR(off_m, kMaxMapStep_m, 0.02);
   EXPECT_EQ(drive_.pilot().Status().reason, StopReason::kMapStep);
   ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
   ExpectToGoOn(1);

@@ -9,11 +9,7 @@
 namespace arfm_vo {
 
 struct StereoCalibrationOptions {
-  int min_pairs = 5;              ///< fewer good pairs are an error
-  double outlier_factor = 3;      ///< a pair is left out above this many times the median rms
-  double outlier_floor_px = 0.1;  ///< ... and above this rms
-  double min_tilt_deg = 5;        ///< between the board's planes of two views
-  double max_focal_sigma = 0.01;  ///< of fx, as a share of it
+  int min_pairs = 5;  ///< fewer good pairs are an error
   DistortionModel model = DistortionModel::kPlumbBob;
 
   void Check() const;

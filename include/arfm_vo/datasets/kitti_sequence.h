@@ -27,7 +27,6 @@ class KittiSequence : public StereoSequence {
   /// Throws std::invalid_argument naming the file where an image cannot be read, is truncated or
   /// differs in size from the first.
   std::optional<SequencePair> Next() override;
-  double loading_cpu_s() const override { return loading_cpu_s_; }
 
  private:
   struct Frame {
@@ -41,7 +40,6 @@ class KittiSequence : public StereoSequence {
   GreyWindow window_;
   std::vector<Frame> frames_;
   size_t num_given_ = 0;
-  double loading_cpu_s_ = 0;
 };
 
 }  // namespace arfm_vo

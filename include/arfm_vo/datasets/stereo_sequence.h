@@ -41,8 +41,6 @@ class StereoSequence {
   /// The next pair, with a later stamp than the one before; nothing at the end. Throws
   /// std::invalid_argument naming what is wrong where it cannot be read.
   virtual std::optional<SequencePair> Next() = 0;
-  /// CPU time spent on loading so far, s.
-  virtual double loading_cpu_s() const = 0;
   /// Lines `key: value` that say what was found on the way.
   virtual std::string FormatSummary() const { return ""; }
 };

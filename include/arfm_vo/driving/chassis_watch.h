@@ -38,14 +38,9 @@ constexpr size_t kNumFeedbackKinds = 7;
 
 struct ChassisWatchOptions {
   double max_feedback_age_s = 0.5;  ///< of each kind; the slowest come every 0.1 to 0.2 s
-  bool allows_remote_lost = false;  ///< drive where the remote control could not take over
-  double foreign_command_s = 1;     ///< a command of another driver is a fault so long
 
-  void Check() const {
-    RequireInRange(max_feedback_age_s, 0.2, 10, "chassis.max_feedback_age_s");
-    RequireInRange(foreign_command_s, 0.1, 60, "chassis.foreign_command_s");
-  }
-  ARFM_FIELDS(max_feedback_age_s, allows_remote_lost, foreign_command_s)
+  void Check() const { RequireInRange(max_feedback_age_s, 0.2, 10, "chassis.max_feedback_age_s"); }
+  ARFM_FIELDS(max_feedback_age_s)
 };
 
 /// Judges whether the chassis can be driven.

@@ -7,23 +7,15 @@
 namespace arfm_vo {
 
 struct GoalControllerOptions {
-  double position_tolerance_m = 0.03;    ///< error at which a goal is reached
-  double heading_tolerance_rad = 0.03;   ///< the same of the heading
-  double waypoint_tolerance_m = 0.15;    ///< how near a waypoint before the last must be passed
-  double cruise_speed_mps = 0.1;         ///< far from the goal
-  double cruise_turn_rate_radps = 0.15;  ///< turning in place
-  double min_speed_mps = 0.015;          ///< slower than this a goal is not approached
-  double min_turn_rate_radps = 0.03;     ///< slower than this the rover does not turn in place
-  double approach_gain_per_s = 0.5;      ///< speed over distance to go near the goal
-  double turn_gain_per_s = 0.8;          ///< turn rate over heading error
-  double align_rad = 0.05;               ///< heading error at which driving begins
-  double turn_in_place_rad = 0.4;        ///< heading error at which the rover stops to turn
-  double max_backward_m = 0.8;           ///< farther goals are never driven to backward; 0: none
+  double position_tolerance_m = 0.03;   ///< error at which a goal is reached
+  double heading_tolerance_rad = 0.03;  ///< the same of the heading
+  double waypoint_tolerance_m = 0.15;   ///< how near a waypoint before the last must be passed
+  double cruise_speed_mps = 0.1;        ///< far from the goal
+  double max_backward_m = 0.8;          ///< farther goals are never driven to backward; 0: none
 
   void Check() const;
   ARFM_FIELDS(position_tolerance_m, heading_tolerance_rad, waypoint_tolerance_m, cruise_speed_mps,
-              cruise_turn_rate_radps, min_speed_mps, min_turn_rate_radps, approach_gain_per_s,
-              turn_gain_per_s, align_rad, turn_in_place_rad, max_backward_m)
+              max_backward_m)
 };
 
 /// What the controller is at. From the last waypoint's position the order is heading, settle,

@@ -22,7 +22,7 @@ struct GoalLimitsOptions {
 /// Which goals are allowed, wherever they come from.
 class GoalLimits {
  public:
-  explicit GoalLimits(const GoalLimitsOptions& options);
+  explicit GoalLimits(const GoalLimitsOptions& options) : options_(options) { options_.Check(); }
 
   /// Why `route` must not be driven from `start`, in words; empty where it may.
   std::string FindFlaw(const Route& route, const RoverPose& start) const;
@@ -30,13 +30,7 @@ class GoalLimits {
   bool IsInsideFence(double x_m, double y_m) const;
 
  private:
-  struct Corner {
-    double x_m = 0, y_m = 0;
-  };
-  bool CrossesFence(const Corner& from, const Corner& to) const;
-
   GoalLimitsOptions options_;
-  std::vector<Corner> fence_;
 };
 
 }  // namespace arfm_vo

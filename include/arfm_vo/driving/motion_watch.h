@@ -11,20 +11,14 @@
 namespace arfm_vo {
 
 struct MotionWatchOptions {
-  double max_excess_mps = 0.05;     ///< of a track over what it was commanded lately
   double max_excess_s = 0.2;        ///< a longer excess is a runaway
-  double response_s = 0.5;          ///< how long a track may take to follow a command
   double jam_s = 2;                 ///< a track that is commanded so long must have moved
-  double min_moved_ratio = 0.1;     ///< of its commanded way
   double max_frozen_s = 1;          ///< for which the chassis' message counter may stand
-  double max_motor_current_a = 60;  ///< of either motor
-  double max_current_s = 2;         ///< for which a motor may draw more
   double stop_s = 1;                ///< for which the tracks may run out after a command to stand
   double max_way_at_rest_m = 0.05;  ///< of a track that is told to stand, from then on
 
   void Check() const;
-  ARFM_FIELDS(max_excess_mps, max_excess_s, response_s, jam_s, min_moved_ratio, max_frozen_s,
-              max_motor_current_a, max_current_s, stop_s, max_way_at_rest_m)
+  ARFM_FIELDS(max_excess_s, jam_s, max_frozen_s, stop_s, max_way_at_rest_m)
 };
 
 /// Compares what the chassis says of its motion with what it was told. Motions are those of 0x111
@@ -57,7 +51,7 @@ class MotionWatch {
     TrackWays commanded_ways;  // sums since the last reset
     TrackWays ways;            // by the odometer
   };
-  /// The largest excess of a measured track speed over the commands of the last response_s, m/s.
+  /// The largest excess of a measured track speed over the commands of the last kResponse_s, m/s.
   double ExcessOf(const TrackSpeeds& measured) const;
   std::optional<Fault> FindJam() const;
   double WayAtRest() const;

@@ -19,9 +19,9 @@ struct OperatorWatchOptions {
 
   void Check() const {
     Require(timeout_s >= 0.2 && timeout_s <= 0.9,
-            "operator.timeout_s must be in 0.2..0.9: the rover must stand within 1 s");
+            "operator_watch.timeout_s must be in 0.2..0.9: the rover must stand within 1 s");
     Require(max_round_trip_s >= 0.1 && max_round_trip_s <= timeout_s,
-            "operator.max_round_trip_s must be in 0.1..timeout_s");
+            "operator_watch.max_round_trip_s must be in 0.1..timeout_s");
   }
   ARFM_FIELDS(is_required, rover, max_round_trip_s, timeout_s)
 };

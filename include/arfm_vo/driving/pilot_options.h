@@ -46,30 +46,10 @@ struct PilotOptions {
   bool IsOverridden(const std::string& item) const {
     return std::count(overridden_checks.begin(), overridden_checks.end(), item) > 0;
   }
-  template <class Visitor>
-  void VisitFields(Visitor&& visit) {
-    visit("kinematics", kinematics);
-    visit("limits", limits);
-    visit("goal", goal);
-    visit("stop_look_go", stop_look_go);
-    visit("slip", slip);
-    visit("pose", pose);
-    visit("chassis", chassis);
-    visit("motion", motion);
-    visit("operator", operator_watch);
-    visit("goal_limits", goal_limits);
-    visit("settle_s", settle_s);
-    visit("resume_after_s", resume_after_s);
-    visit("max_pause_s", max_pause_s);
-    visit("fresh_command_s", fresh_command_s);
-    visit("warning_s", warning_s);
-    visit("max_tick_gap_s", max_tick_gap_s);
-    visit("arming_timeout_s", arming_timeout_s);
-    visit("max_stall_s", max_stall_s);
-    visit("velocity_timeout_s", velocity_timeout_s);
-    visit("velocity_needs_pose", velocity_needs_pose);
-    visit("overridden_checks", overridden_checks);
-  }
+  ARFM_FIELDS(kinematics, limits, goal, stop_look_go, slip, pose, chassis, motion, operator_watch,
+              goal_limits, settle_s, resume_after_s, max_pause_s, fresh_command_s, warning_s,
+              max_tick_gap_s, arming_timeout_s, max_stall_s, velocity_timeout_s,
+              velocity_needs_pose, overridden_checks)
 };
 
 }  // namespace arfm_vo

@@ -15,15 +15,10 @@ struct PoseWatchOptions {
   double max_pose_age_s = 1.0;          ///< an older pose is stale: pause
   double max_position_sigma_m = 2.0;    ///< of the way driven since the start or the last datum
   double max_heading_sigma_rad = 0.35;  ///< the same of the heading
-  double max_tilt_deg = 25;   ///< of the base against the map's z axis; above it the rover stops
-  double warn_tilt_deg = 20;  ///< above it the diagnostics warn
-  bool requires_covariance = true;  ///< no driving where nobody says how good the pose is
-  bool requires_epoch = true;       ///< no driving where nobody says whether the pose is continuous
-  PoseConsistencyOptions consistency;
+  double max_tilt_deg = 25;  ///< of the base against the map's z axis; above it the rover stops
 
   void Check() const;
-  ARFM_FIELDS(max_pose_age_s, max_position_sigma_m, max_heading_sigma_rad, max_tilt_deg,
-              warn_tilt_deg, requires_covariance, requires_epoch, consistency)
+  ARFM_FIELDS(max_pose_age_s, max_position_sigma_m, max_heading_sigma_rad, max_tilt_deg)
 };
 
 /// A pose by sight. Times are those of the driving clock, which never jumps.
@@ -81,11 +76,10 @@ class PoseWatch {
   /// The pose in the map that the tracks predict from the last sighting. HasPose must hold.
   RoverPose PredictInMap(const TrackWays& ways) const;
   bool IsTilted() const { return tilt_rad_ > options_.max_tilt_deg * M_PI / 180; }
-  bool IsTiltNearLimit() const { return tilt_rad_ > options_.warn_tilt_deg * M_PI / 180; }
+  bool IsTiltNearLimit() const { return tilt_rad_ > 0.8 * options_.max_tilt_deg * M_PI / 180; }
 
  private:
   bool IsUncertain(double now_s) const;
-  bool HasCovariance(const PoseObservation& pose) const;
   std::optional<Fault> CompareWithTracks(const TrackedSighting& sighting) const;
   std::optional<Fault> TakeMap(const Rigid3& map_from_odom);
   void Keep(const TrackedSighting& sighting);

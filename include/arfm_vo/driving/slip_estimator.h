@@ -12,22 +12,11 @@
 namespace arfm_vo {
 
 struct SlipOptions {
-  double window_m = 0.3;        ///< mean way of the tracks over which they are compared with sight
-  double max_slip_ratio = 0.5;  ///< of the way ahead; above it the rover stops
-  double max_turn_slip_ratio = 0.7;  ///< the same of the turn
-  double max_leap_m = 0.5;           ///< a leap of the visual pose beyond this begins a new window
-  /// Over a longer way of level ground the tracks slip less: sight that still tells another length
-  /// is of a wrong baseline, or of something else than the ground.
-  double level_window_m = 5;
-  double max_level_ratio = 0.2;  ///< above it the rover stops
-  /// Where the tracks go straight, sight that tells a way aside by that ratio is of eyes that look
-  /// elsewhere than the head says.
-  double straight_window_m = 1;
-  double level_deg = 5;  ///< ground that tilts the rover more is not level
+  double max_slip_ratio = 0.5;   ///< of the way ahead; above it the rover stops
+  double max_level_ratio = 0.2;  ///< the same over a longer way of level ground, and aside
 
   void Check() const;
-  ARFM_FIELDS(window_m, max_slip_ratio, max_turn_slip_ratio, max_leap_m, level_window_m,
-              max_level_ratio, straight_window_m, level_deg)
+  ARFM_FIELDS(max_slip_ratio, max_level_ratio)
 };
 
 /// Slip over the last window: (track - sight) / max(|track|, |sight|), 0 where they agree, 1 where
@@ -52,7 +41,7 @@ class SlipEstimator {
   void Add(const Rigid3& odom_from_base, const TrackWays& ways);
 
   /// Nothing until the first window is full.
-  std::optional<Slip> Estimate() const { return Over(options_.window_m); }
+  std::optional<Slip> Estimate() const;
 
   /// What tracks and sight disagree about, in words, where it is more than slip may be.
   std::optional<std::string> FindExcess() const;

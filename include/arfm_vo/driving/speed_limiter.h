@@ -8,15 +8,15 @@ namespace arfm_vo {
 /// The paper's limit, which no option can raise.
 constexpr double kMaxSpeed_mps = 0.1;
 
+constexpr double kMaxTurnRate_radps = 0.2;  ///< of the base
+
 struct SpeedLimiterOptions {
   double max_speed_mps = kMaxSpeed_mps;       ///< of the base and of either track
-  double max_turn_rate_radps = 0.2;           ///< of the base
   double max_acceleration_mps2 = 0.2;         ///< of the base
   double max_turn_acceleration_radps2 = 0.4;  ///< of the base
 
   void Check() const;
-  ARFM_FIELDS(max_speed_mps, max_turn_rate_radps, max_acceleration_mps2,
-              max_turn_acceleration_radps2)
+  ARFM_FIELDS(max_speed_mps, max_acceleration_mps2, max_turn_acceleration_radps2)
 };
 
 /// Keeps a motion within the limits of speed and acceleration. Where the faster track would exceed

@@ -72,8 +72,15 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
     return std::chrono::duration<double, std::milli>(time).count();
   };
   OdometryRun run;
-  const double cpu_before_s = GetProcessCpuSeconds() - sequence.loading_cpu_s();
-  while (const std::optional<SequencePair> pair = sequence.Next()) {
+  double loading_cpu_s = 0;
+  const auto load = [&] {
+    const double start_s = GetThreadCpuSeconds();
+    auto pair = sequence.Next();
+    loading_cpu_s += GetThreadCpuSeconds() - start_s;
+    return pair;
+  };
+  const double cpu_before_s = GetProcessCpuSeconds();
+  while (const std::optional<SequencePair> pair = load()) {
     const Clock::time_point start = Clock::now();
     const SessionUpdate pose = odometry.Process(pair->images);
     run.pair_ms.push_back(to_ms(Clock::now() - start));
@@ -89,7 +96,7 @@ OdometryRun RunOdometry(StereoSequence& sequence, Odometry& odometry,
   const Clock::time_point start = Clock::now();
   run.trajectory = odometry.Finish();
   run.finish_ms = to_ms(Clock::now() - start);
-  run.cpu_s = GetProcessCpuSeconds() - sequence.loading_cpu_s() - cpu_before_s;
+  run.cpu_s = GetProcessCpuSeconds() - cpu_before_s - loading_cpu_s;
   return run;
 }
 

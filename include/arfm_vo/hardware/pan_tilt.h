@@ -15,14 +15,13 @@ struct PanTiltOptions {
   bool home_at_start = false;     ///< once, at the first connection: the head sweeps to its limits
   double home_timeout_s = 30;     ///< longer homing has failed
   double reply_timeout_s = 0.25;  ///< of the unit to a command
-  int max_failed_reads = 5;       ///< in a row; then the line is opened anew
   double pan_speed_rad_s = 0;     ///< 0: the unit's own
   double tilt_speed_rad_s = 0;    ///< 0: the unit's own
   BackoffOptions reopen;
 
   void Check() const;
-  ARFM_FIELDS(home_at_start, home_timeout_s, reply_timeout_s, max_failed_reads, pan_speed_rad_s,
-              tilt_speed_rad_s, reopen)
+  ARFM_FIELDS(home_at_start, home_timeout_s, reply_timeout_s, pan_speed_rad_s, tilt_speed_rad_s,
+              reopen)
 };
 
 enum class PanTiltState { kClosed, kHoming, kReady };

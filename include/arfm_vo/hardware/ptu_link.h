@@ -71,7 +71,6 @@ class PtuLink {
   ByteStream& stream_;
   const double reply_timeout_s_;
   PtuReplyParser parser_;
-  PtuFeedback feedback_ = PtuFeedback::kTerse;
   std::string
       fence_text_;      ///< reply to the pan resolution's query: it has a point, counts have none
   double asked_s_ = 0;  ///< when the last command began to leave

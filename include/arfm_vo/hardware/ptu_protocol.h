@@ -51,18 +51,8 @@ class PtuReplyParser {
   std::string buffer_;  ///< not yet cut
 };
 
-/// How the unit words its values.
-enum class PtuFeedback {
-  kTerse,    ///< "-2500", "185.1428"
-  kVerbose,  ///< "Current Pan position is -2500"
-};
-
-/// The number in a value's text: all of it in terse feedback, the one number of a sentence that is
-/// not about the other axis in verbose feedback. Nothing where the text is anything else, such as a
-/// garbled number.
-std::optional<double> ParsePtuNumber(const std::string& text, PtuAxis axis, PtuFeedback feedback);
-
-/// Terse where the text is a number.
-PtuFeedback GuessPtuFeedback(const std::string& text);
+/// The number in a value's text, in terse feedback ("-2500", "185.1428"). Nothing where the text is
+/// anything else, such as a garbled number or a sentence of verbose feedback.
+std::optional<double> ParsePtuNumber(const std::string& text);
 
 }  // namespace arfm_vo

@@ -74,16 +74,13 @@ class SimulatedPtu {
   double Position(PtuAxis axis, double now_s);
   /// The axis hits its limit: says so at once and slips.
   void HitLimit(PtuAxis axis, double slip_counts, double now_s);
-  int num_eeprom_writes() const { return num_eeprom_writes_; }
 
  private:
   void Advance(double now_s);
   std::string Answer(const std::string& command);
   std::string AnswerAxis(PtuAxis axis, const std::string& command);
-  std::string AnswerValue(const std::string& before, const std::string& value,
-                          const std::string& after = "") const;
-  std::string MoveTo(PtuAxis axis, int target);
-  std::string SetSpeed(PtuAxis axis, int speed);
+  /// 'p': the target, 's': the speed.
+  std::string Set(PtuAxis axis, char letter, int value);
   void Reset();
   void Send(const std::string& bytes, double from_s);
   PtuAxisMotion& Motion(PtuAxis axis) { return axis == PtuAxis::kPan ? pan_ : tilt_; }
@@ -95,7 +92,6 @@ class SimulatedPtu {
   double now_s_ = 0, line_free_s_ = 0, input_free_s_ = 0;
   std::string command_;  ///< bytes of a command without its delimiter yet
   std::deque<std::pair<double, char>> input_, output_;  ///< (when, byte)
-  int num_eeprom_writes_ = 0;
 };
 
 }  // namespace arfm_vo

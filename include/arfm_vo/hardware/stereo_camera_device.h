@@ -20,13 +20,11 @@ struct StereoCameraOptions {
   VideoOptions video;
   double max_skew_s = 0.004;   ///< between the stamps of a pair: see FramePairer
   double frame_timeout_s = 1;  ///< an eye that is silent for longer is opened anew
-  double exposure_copy_s = 1;  ///< how often the left's automatic exposure goes to the right
   BackoffOptions reopen;
 
   bool IsSideBySide() const { return right_device.empty(); }
   void Check() const;
-  ARFM_FIELDS(left_device, right_device, video, max_skew_s, frame_timeout_s, exposure_copy_s,
-              reopen)
+  ARFM_FIELDS(left_device, right_device, video, max_skew_s, frame_timeout_s, reopen)
 };
 
 /// How the camera does, for diagnostics. Counts go on over reopenings.

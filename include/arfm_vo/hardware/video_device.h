@@ -17,7 +17,6 @@ struct VideoOptions {
   double exposure_s = 0;              ///< 0: automatic
   int gain = -1;                      ///< in the device's unit; -1: the device's own
   int white_balance_k = 0;            ///< 0: automatic
-  int num_buffers = 4;                ///< that the driver fills in turn
   int input = -1;                     ///< of a device with several; -1: the one it has
 
   void Check() const {
@@ -27,11 +26,9 @@ struct VideoOptions {
     Require(exposure_s * rate_hz <= 1, "video.exposure_s must not be longer than a frame");
     Require(gain >= -1, "video.gain must not be below -1");
     Require(white_balance_k >= 0, "video.white_balance_k must not be negative");
-    RequireInRange(num_buffers, 2, 32, "video.num_buffers");
     Require(input >= -1, "video.input must not be below -1");
   }
-  ARFM_FIELDS(pixel_format, width, height, rate_hz, exposure_s, gain, white_balance_k, num_buffers,
-              input)
+  ARFM_FIELDS(pixel_format, width, height, rate_hz, exposure_s, gain, white_balance_k, input)
 };
 
 struct VideoFrame {

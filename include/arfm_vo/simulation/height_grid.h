@@ -21,14 +21,14 @@ class Raster {
   const Eigen::Vector2d& min_corner() const { return min_corner_; }
   double cell_m() const { return cell_m_; }
   int num_cells() const { return num_cells_; }
-  float& At(int i, int j) { return nodes_[static_cast<size_t>(j) * (num_cells_ + 1) + i]; }
-  float At(int i, int j) const { return nodes_[static_cast<size_t>(j) * (num_cells_ + 1) + i]; }
+  float At(int i, int j) const { return nodes_(i, j); }
+  const Eigen::ArrayXXf& nodes() const { return nodes_; }
 
  private:
   Eigen::Vector2d min_corner_ = Eigen::Vector2d::Zero();
   double cell_m_ = 1, cells_per_m_ = 1;
   int num_cells_ = 0;
-  std::vector<float> nodes_;  ///< row-major, y rows
+  Eigen::ArrayXXf nodes_;  ///< (x, y)
 };
 
 /// A ray x(z) = origin + z * direction; the direction need not be a unit vector.
@@ -56,12 +56,8 @@ class HeightGrid {
   const Raster& heights() const { return heights_; }
 
  private:
-  float MaxHeight(int level, int i, int j) const {
-    return max_heights_[level][static_cast<size_t>(j) * (heights_.num_cells() >> level) + i];
-  }
-
   Raster heights_;
-  std::vector<std::vector<float>> max_heights_;  ///< level k: cells of 2^k x 2^k patches
+  std::vector<Eigen::ArrayXXf> max_heights_;  ///< level k: cells of 2^k x 2^k patches
 };
 
 }  // namespace arfm_vo

@@ -39,7 +39,6 @@ class NoiseTexture {
 
  private:
   double SampleLevel(double x, double y, int level) const;
-  std::vector<float> Fold(const std::vector<float>& rows, int size) const;
 
   int size_;
   /// Level k: [size/2^k x size/2^k], in Morton's order: the probes of a pixel lie close together in

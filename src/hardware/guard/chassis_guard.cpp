@@ -20,8 +20,7 @@ constexpr double kMaxExcess_s = 0.3;
 ChassisGuard::ChassisGuard(std::unique_ptr<CanBus> bus, std::function<void(GuardStop)> say)
     : bus_(std::move(bus)),
       say_(std::move(say)),
-      watch_({MotionWatchOptions{}.max_excess_mps, kMaxExcess_s},
-             TrackKinematicsOptions{}.gauge_m) {}
+      watch_({kMaxExcess_s}, TrackKinematicsOptions{}.gauge_m) {}
 
 ChassisGuard::~ChassisGuard() {
   if (!has_spoken_) return;

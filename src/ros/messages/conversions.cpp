@@ -8,6 +8,7 @@
 #include "arfm_vo/base/array_checks.h"
 #include "arfm_vo/base/range_check.h"
 #include "arfm_vo/driving/route.h"
+#include "arfm_vo/ros/messages/copy_fields.h"
 
 namespace arfm_vo {
 namespace {
@@ -169,24 +170,13 @@ boost::array<double, 36> ToCovarianceMessage(const Eigen::Matrix<double, 6, 6>& 
 
 RectifiedStereo ToMessage(const StereoCamera& camera) {
   RectifiedStereo message;
-  message.fx = camera.fx;
-  message.fy = camera.fy;
-  message.cx = camera.cx;
-  message.cy = camera.cy;
-  message.baseline_m = camera.baseline_m;
-  message.width = camera.width;
-  message.height = camera.height;
+  ARFM_COPY_FIELDS(message, camera, fx, fy, cx, cy, baseline_m, width, height)
   return message;
 }
 
 StereoCamera FromMessage(const RectifiedStereo& message) {
-  const StereoCamera camera{message.fx,
-                            message.fy,
-                            message.cx,
-                            message.cy,
-                            message.baseline_m,
-                            static_cast<int>(message.width),
-                            static_cast<int>(message.height)};
+  StereoCamera camera;
+  ARFM_COPY_FIELDS(camera, message, fx, fy, cx, cy, baseline_m, width, height)
   camera.Check();
   return camera;
 }
@@ -209,14 +199,10 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
       message.point_disparity_gradient.push_back(point.disparity_gradient[axis]);
     }
   }
-  message.num_right_keypoints = frame.num_right_keypoints;
-  message.left_is_repeated = frame.left_is_repeated;
-  message.right_is_repeated = frame.right_is_repeated;
-  message.eyes_are_swapped = frame.eyes_are_swapped;
-  message.row_agreement = frame.row_agreement;
+  ARFM_COPY_FIELDS(message, frame, num_right_keypoints, left_is_repeated, right_is_repeated,
+                   eyes_are_swapped, row_agreement, ratio_threshold)
   message.grey_mean = frame.grey.mean;
   message.grey_variance = frame.grey.variance;
-  message.ratio_threshold = frame.ratio_threshold;
   return message;
 }
 
@@ -228,13 +214,9 @@ StereoFrame FromMessage(const StereoFrameStamped& message) {
     frame.features = ImportFeatures(message);
     frame.points = ImportPoints(message);
   });
-  frame.num_right_keypoints = static_cast<int>(message.num_right_keypoints);
-  frame.left_is_repeated = message.left_is_repeated;
-  frame.right_is_repeated = message.right_is_repeated;
-  frame.eyes_are_swapped = message.eyes_are_swapped;
-  frame.row_agreement = message.row_agreement;
+  ARFM_COPY_FIELDS(frame, message, num_right_keypoints, left_is_repeated, right_is_repeated,
+                   eyes_are_swapped, row_agreement, ratio_threshold)
   frame.grey = {message.grey_mean, message.grey_variance};
-  frame.ratio_threshold = message.ratio_threshold;
   return frame;
 }
 

@@ -11,7 +11,7 @@ namespace arfm_vo {
 
 void BoundedPath::Clear() {
   path_.poses.clear();
-  spacing_m_ = options_.spacing_m;
+  spacing_m_ = first_spacing_m_;
 }
 
 bool BoundedPath::Add(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
@@ -20,7 +20,7 @@ bool BoundedPath::Add(const std_msgs::Header& header, const geometry_msgs::Pose&
     const geometry_msgs::Point &last = poses.back().pose.position, &next = pose.position;
     if (std::hypot(next.x - last.x, next.y - last.y, next.z - last.z) < spacing_m_) return false;
   }
-  if (static_cast<int>(poses.size()) >= options_.max_poses) {
+  if (poses.size() >= max_poses_) {
     size_t kept = 0;
     for (size_t i = 0; i < poses.size(); i += 2) poses[kept++] = poses[i];
     poses.resize(kept);

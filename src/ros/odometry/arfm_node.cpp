@@ -14,7 +14,7 @@ ArfmNode::ArfmNode(ros::NodeHandle node, ros::NodeHandle private_node)
       private_node_(private_node),
       options_(ReadParameters<ArfmNodeOptions>(private_node)),
       topics_(ResolveStereoTopics(node)),
-      learned_(options_.learned),
+      learned_(options_.remember_calibration),
       diagnostics_(node, private_node, private_node.getNamespace()),
       worker_(options_.max_waiting_pairs,
               [this](const std::exception& error) { figures_.refusals.Add(error.what()); }) {

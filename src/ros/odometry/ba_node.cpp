@@ -16,6 +16,9 @@
 namespace arfm_vo {
 namespace {
 
+constexpr double kTfPeriod_s = 0.05;
+constexpr double kTfTolerance_s = 0.1;  ///< how far into the future a transform is said to hold
+constexpr size_t kMaxPathPoses = 1000;  ///< of path_optimized; longer paths are thinned out
 /// Without a new keyframe for so long, the newest ones are adjusted too, for the map as it is seen.
 const ros::WallDuration kSettled(3);
 
@@ -39,7 +42,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
       map_status_(node.advertise<MapStatus>("map_status", 1, true)),
       map_text_(node.advertise<visualization_msgs::Marker>("map_status_text", 1, true)),
       trajectory_output_(options_.trajectory, "base"),
-      learned_(options_.learned),
+      learned_(options_.remember_calibration),
       map_(Paced(options_.algorithm.global, options_.max_time_share)),
       keeper_(options_.map, options_.map_frame),
       diagnostics_(node, private_node, private_node.getNamespace()),
@@ -69,7 +72,7 @@ BaNode::BaNode(ros::NodeHandle node, ros::NodeHandle private_node)
     });
   });
   if (options_.publish_tf)
-    tf_timer_ = node.createTimer(ros::Duration(1 / options_.tf_rate_hz),
+    tf_timer_ = node.createTimer(ros::Duration(kTfPeriod_s),
                                  [this](const ros::TimerEvent&) { SendTransform(); });
 }
 
@@ -102,7 +105,7 @@ void BaNode::Subscribe(ros::NodeHandle& node) {
 }
 
 void BaNode::SendTransform() {
-  const ros::Time stamp = ros::Time::now() + ros::Duration(options_.tf_tolerance_s);
+  const ros::Time stamp = ros::Time::now() + ros::Duration(kTfTolerance_s);
   if (stamp == sent_) return;  // simulated time jumped, and the timer catches up
   sent_ = stamp;
   broadcaster_.sendTransform(
@@ -229,7 +232,7 @@ void BaNode::Publish(bool with_landmarks) const {
   nav_msgs::Path path;
   path.header.stamp = newest_;
   path.header.frame_id = options_.map_frame;
-  const size_t stride = 1 + poses.size() / options_.max_path_poses;
+  const size_t stride = 1 + poses.size() / kMaxPathPoses;
   for (size_t i = 0; i < poses.size(); ++i) {
     if (i % stride != 0 && i + 1 != poses.size()) continue;
     geometry_msgs::PoseStamped& place = path.poses.emplace_back();

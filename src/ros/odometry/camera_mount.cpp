@@ -6,6 +6,11 @@
 #include "arfm_vo/ros/messages/transforms.h"
 
 namespace arfm_vo {
+namespace {
+
+constexpr double kSlewWindow_s = 0.1;  ///< over which the head's rate is measured
+
+}  // namespace
 
 CameraMount::CameraMount(const tf2::BufferCore& buffer, const CameraMountOptions& options)
     : buffer_(buffer), options_(options) {
@@ -31,12 +36,11 @@ Rigid3 CameraMount::BaseFromCamera(const std::string& image_frame, const ros::Ti
 
 bool CameraMount::IsSlewing(const std::string& image_frame, const ros::Time& stamp,
                             const Rigid3& base_from_camera) const {
-  if (options_.max_slew_dps == 0 || stamp.toSec() < options_.slew_window_s) return false;
+  if (options_.max_slew_dps == 0 || stamp.toSec() < kSlewWindow_s) return false;
   try {
-    const Rigid3 base_from_before =
-        LookUp(image_frame, stamp - ros::Duration(options_.slew_window_s));
+    const Rigid3 base_from_before = LookUp(image_frame, stamp - ros::Duration(kSlewWindow_s));
     const double turn_deg = (base_from_before.Inverse() * base_from_camera).Angle() * 180 / M_PI;
-    return turn_deg > options_.max_slew_dps * options_.slew_window_s;
+    return turn_deg > options_.max_slew_dps * kSlewWindow_s;
   } catch (const std::invalid_argument&) {
     return false;
   }

@@ -18,19 +18,12 @@ std::filesystem::path FindRosHome() {
 
 }  // namespace
 
-LearnedCalibration::LearnedCalibration(const LearnedCalibrationOptions& options)
-    : options_(options) {
-  if (options_.learned_calibration_dir.empty()) {
-    options_.learned_calibration_dir = FindRosHome() / "arfm_vo";
-  }
-}
-
 std::string LearnedCalibration::Path() const {
-  return std::filesystem::path(options_.learned_calibration_dir) / NameLearnedCorrection(*camera_);
+  return FindRosHome() / "arfm_vo" / NameLearnedCorrection(*camera_);
 }
 
 std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& camera) {
-  if (!options_.remember_calibration || (camera_ && *camera_ == camera)) return std::nullopt;
+  if (!is_on_ || (camera_ && *camera_ == camera)) return std::nullopt;
   camera_ = camera;
   try {
     const auto correction = ReadLearnedCorrection(Path(), camera);
@@ -46,7 +39,7 @@ std::optional<CorrectionBelief> LearnedCalibration::ReadFor(const StereoCamera& 
 }
 
 void LearnedCalibration::Write(const CorrectionBelief& correction) {
-  if (!options_.remember_calibration || !camera_ || correction == written_) return;
+  if (!is_on_ || !camera_ || correction == written_) return;
   try {
     WriteLearnedCorrection(Path(), *camera_, correction);
     written_ = correction;

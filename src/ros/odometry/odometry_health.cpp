@@ -11,6 +11,9 @@
 namespace arfm_vo {
 namespace {
 
+/// Of the running median of |v_right - v_left|.
+constexpr double kRowResidualWarn_px = 0.5, kRowResidualError_px = 1;
+
 std::string WhatToDoWithoutTransform(const std::string& text) {
   if (text.find("extrapolation into the future") != std::string::npos)
     return "this transform comes later than the images: raise tf_timeout_s";
@@ -49,11 +52,6 @@ std::string Describe(const std::optional<EyeSkew>& skew) {
 }
 
 }  // namespace
-
-OdometryHealth::OdometryHealth(const OdometryHealthOptions& options)
-    : options_(options), row_residual_px_(options.row_residual_pairs) {
-  options.Check();
-}
 
 std::optional<ConsoleLine> OdometryHealth::Count(const StereoFrame& frame,
                                                  const SessionUpdate& pose, double ms,
@@ -120,7 +118,7 @@ void OdometryHealth::ReportOdometry(Diagnostics& status) {
 
 void OdometryHealth::ReportCalibration(Diagnostics& status) {
   const double residual_px = row_residual_px_.Median();
-  const bool is_wrong = residual_px >= options_.row_residual_error_px;
+  const bool is_wrong = residual_px >= kRowResidualError_px;
   const std::string skew = Describe(last_.update.skew);
   if (calibration_watch_.IsDue(is_wrong ? "rows" : ""))
     ROS_WARN(
@@ -136,7 +134,7 @@ void OdometryHealth::ReportCalibration(Diagnostics& status) {
     return status.summaryf(Diagnostics::ERROR, "rows differ by %.2f px: calibrate the cameras",
                            residual_px);
   if (!skew.empty()) return status.summary(Diagnostics::WARN, skew);
-  if (residual_px >= options_.row_residual_warn_px)
+  if (residual_px >= kRowResidualWarn_px)
     return status.summaryf(Diagnostics::WARN, "rows differ by %.2f px", residual_px);
   const bool is_measured = row_residual_px_.size() > 0;
   status.summary(Diagnostics::OK, is_measured ? "rows agree" : "nothing measured yet");

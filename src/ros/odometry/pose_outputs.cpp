@@ -9,6 +9,7 @@
 
 #include "arfm_vo/evaluation/match_picture.h"
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/copy_fields.h"
 #include "arfm_vo/ros/messages/transforms.h"
 
 namespace arfm_vo {
@@ -22,7 +23,6 @@ PoseOutputs::PoseOutputs(ros::NodeHandle node, const PoseOutputOptions& options,
                          std::string base_frame)
     : options_(options),
       base_frame_(std::move(base_frame)),
-      path_(options.path),
       odometry_publisher_(node.advertise<nav_msgs::Odometry>("odom", 10)),
       path_publisher_(node.advertise<nav_msgs::Path>("path", 1, true)),
       status_publisher_(node.advertise<OdometryStatus>("status", 10)),
@@ -58,23 +58,17 @@ void PoseOutputs::PublishStatus(const SessionUpdate& pose, const StereoFrameStam
   status_.text = pose.text;
   status_.is_keyframe = pose.update.is_keyframe;
   status_.epoch = pose.epoch;
-  status_.has_features = frame.has_features;
   if (frame.has_features) {
     status_.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
     status_.num_right_features = frame.num_right_keypoints;
     status_.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
   }
-  status_.num_matches = pose.update.pose.num_matches;
-  status_.num_inliers = pose.update.pose.num_inliers;
-  status_.rms_px = pose.update.pose.rms_px;
-  status_.ratio_threshold = frame.ratio_threshold;
+  ARFM_COPY_FIELDS(status_, pose.update.pose, num_matches, num_inliers, rms_px)
+  ARFM_COPY_FIELDS(status_, frame, has_features, ratio_threshold, grey_mean, grey_variance,
+                   stage_names, stage_ms)
   status_.row_residual_px = pose.update.median_row_residual_px;
-  status_.grey_mean = frame.grey_mean;
-  status_.grey_variance = frame.grey_variance;
   status_.num_dropped_arfm = frame.num_dropped_pairs;
   status_.num_dropped_pose = num_dropped;
-  status_.stage_names = frame.stage_names;
-  status_.stage_ms = frame.stage_ms;
   for (const auto& [name, ms] : pose.update.stage_ms) {
     status_.stage_names.push_back(name);
     status_.stage_ms.push_back(ms);

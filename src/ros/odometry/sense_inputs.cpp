@@ -1,5 +1,7 @@
 #include "arfm_vo/ros/odometry/sense_inputs.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <utility>
 
 #include "arfm_vo/base/check.h"
@@ -42,13 +44,12 @@ void SenseInputs::Subscribe(ros::NodeHandle& node, const std::string& topic, Wor
 }
 
 void SenseInputs::Take(const sensor_msgs::Imu& imu) {
-  const Eigen::Vector3d rate(imu.angular_velocity.x, imu.angular_velocity.y,
-                             imu.angular_velocity.z);
+  Eigen::Vector3d rate, force;
+  tf2::fromMsg(imu.angular_velocity, rate);
+  tf2::fromMsg(imu.linear_acceleration, force);
   Require(rate.norm() <= 100, "imu: angular_velocity is not one of a rover");
   Require(imu.angular_velocity_covariance[0] >= 0,
           "imu: angular_velocity_covariance[0] is negative: it has no gyro");
-  const Eigen::Vector3d force(imu.linear_acceleration.x, imu.linear_acceleration.y,
-                              imu.linear_acceleration.z);
   Require(force.norm() <= 1000, "imu: linear_acceleration is not one of a rover");
   const Rigid3 base_from_imu =
       LookUpTransform(buffer_, base_frame_, imu.header.frame_id, ros::Time()).target_from_source;

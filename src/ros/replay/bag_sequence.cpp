@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "arfm_vo/base/format.h"
-#include "arfm_vo/base/process_usage.h"
 #include "arfm_vo/datasets/bag_records.h"
 #include "arfm_vo/ros/messages/conversions.h"
 
@@ -138,10 +137,7 @@ std::optional<SequencePair> BagSequence::ReadSelectedPair() {
 }
 
 std::optional<SequencePair> BagSequence::Next() {
-  const double start_s = GetThreadCpuSeconds();
-  auto pair = ReadBag(path_, [&] { return ReadSelectedPair(); });
-  loading_cpu_s_ += GetThreadCpuSeconds() - start_s;
-  return pair;
+  return ReadBag(path_, [&] { return ReadSelectedPair(); });
 }
 
 std::string BagSequence::FormatSummary() const {

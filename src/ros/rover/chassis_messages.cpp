@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/copy_fields.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 
 namespace arfm_vo {
@@ -34,15 +35,10 @@ DriveStatus ToMessage(const PilotStatus& status) {
   message.state = static_cast<uint8_t>(status.state);
   message.state_text = ToString(status.state);
   message.reason = ToString(status.reason);
-  message.detail = status.detail;
-  message.has_goal = status.has_goal;
+  ARFM_COPY_FIELDS(message, status, detail, has_goal, next_waypoint, num_waypoints,
+                   distance_to_goal_m, heading_error_rad)
+  ARFM_COPY_FIELDS(message, status.motion, forward_mps, turn_radps)
   if (status.has_goal) message.phase = ToString(status.phase);
-  message.next_waypoint = static_cast<uint32_t>(status.next_waypoint);
-  message.num_waypoints = static_cast<uint32_t>(status.num_waypoints);
-  message.distance_to_goal_m = status.distance_to_goal_m;
-  message.heading_error_rad = status.heading_error_rad;
-  message.forward_mps = status.motion.forward_mps;
-  message.turn_radps = status.motion.turn_radps;
   message.operator_round_trip_s =
       status.operator_round_trip_s.value_or(std::numeric_limits<double>::quiet_NaN());
   return message;
@@ -55,11 +51,9 @@ GoalReport ToMessage(const GoalResult& result) {
   if (result.reason != StopReason::kNone)
     message.text += std::string(": ") + ToString(result.reason);
   if (!result.detail.empty()) message.text += " " + result.detail;
-  message.x_m = result.goal.x_m;
-  message.y_m = result.goal.y_m;
+  ARFM_COPY_FIELDS(message, result.goal, x_m, y_m)
   message.heading_rad = result.goal.heading_rad.value_or(0);
-  message.position_error_m = result.position_error_m;
-  message.heading_error_rad = result.heading_error_rad;
+  ARFM_COPY_FIELDS(message, result, position_error_m, heading_error_rad)
   return message;
 }
 
@@ -76,18 +70,13 @@ TrackSlip ToMessage(const Slip& slip) {
   message.forward_ratio = slip.forward_ratio.value_or(0);
   message.has_turn_ratio = slip.turn_ratio.has_value();
   message.turn_ratio = slip.turn_ratio.value_or(0);
-  message.sight_forward_m = slip.sight_forward_m;
-  message.track_forward_m = slip.track_forward_m;
-  message.sight_turn_rad = slip.sight_turn_rad;
-  message.track_turn_rad = slip.track_turn_rad;
+  ARFM_COPY_FIELDS(message, slip, sight_forward_m, track_forward_m, sight_turn_rad, track_turn_rad)
   return message;
 }
 
 OperatorChallenge ToMessage(const Challenge& challenge) {
   OperatorChallenge message;
-  message.rover = challenge.rover;
-  message.sequence = challenge.sequence;
-  message.number = challenge.number;
+  ARFM_COPY_FIELDS(message, challenge, rover, sequence, number)
   return message;
 }
 
@@ -98,11 +87,9 @@ ChassisState ToChassisMessage(const ChassisLink& link) {
   const SystemState system = readings.system.value_or(SystemState{});
   message.vehicle = static_cast<uint8_t>(system.vehicle);
   message.mode = static_cast<uint8_t>(readings.system ? system.mode : ControlMode::kUnknown);
-  message.error_bits = system.error_bits;
-  message.battery_v = system.battery_v;
+  ARFM_COPY_FIELDS(message, system, error_bits, battery_v)
   const PlanarMotion motion = readings.motion.value_or(MotionState{}).motion;
-  message.forward_mps = motion.forward_mps;
-  message.turn_radps = motion.turn_radps;
+  ARFM_COPY_FIELDS(message, motion, forward_mps, turn_radps)
   const TrackOdometer odometer = readings.odometer.value_or(TrackOdometer{});
   message.left_track_m = 0.001 * odometer.left_mm;
   message.right_track_m = 0.001 * odometer.right_mm;

@@ -12,6 +12,7 @@ using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
+constexpr double kHeight_m = 1.2;  ///< of the lower edge
 constexpr double kTextHeight_m = 0.14, kButton_m = 0.3, kRow_m = 0.45;
 /// chassis_node tells 5 times a second.
 const ros::WallDuration kMaxSilence(2);
@@ -101,12 +102,11 @@ visualization_msgs::InteractiveMarker DrivePanel::MakePanel() const {
   panel.name = kName;
   panel.scale = 1;
   panel.pose.orientation.w = 1;
-  const double z_m = options_.height_m;
   InteractiveMarkerControl words = MakeControl("words");
-  words.markers = {MakeText(state_ + "\n" + answer_, 0, z_m + 2 * kRow_m)};
-  panel.controls = {MakeButton("start", kRow_m, z_m, 0.1f, 0.7f),
-                    MakeButton("home", 0, z_m, 0.9f, 0.7f),
-                    MakeButton("stop", -kRow_m, z_m, 0.9f, 0.1f), words};
+  words.markers = {MakeText(state_ + "\n" + answer_, 0, kHeight_m + 2 * kRow_m)};
+  panel.controls = {MakeButton("start", kRow_m, kHeight_m, 0.1f, 0.7f),
+                    MakeButton("home", 0, kHeight_m, 0.9f, 0.7f),
+                    MakeButton("stop", -kRow_m, kHeight_m, 0.9f, 0.1f), words};
   return panel;
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kStep_s = 0.1;
 constexpr double kReport_s = 1;
+constexpr double kMinRateShare = 0.8;      ///< of the rate asked for; fewer pairs are a warning
+constexpr double kMaxUnpairedShare = 0.1;  ///< of an eye's frames since the last report; as well
 /// A stereo camera's baseline is shorter, m.
 constexpr double kMaxBaseline_m = 10;
 
@@ -43,8 +45,7 @@ std::string WhyNoPairs(const StereoCameraStatus& status, const StereoCameraStatu
 }  // namespace
 
 void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& before,
-                  const StereoCameraOptions& camera, const CameraHealthOptions& options,
-                  Diagnostics& diagnostics) {
+                  const StereoCameraOptions& camera, Diagnostics& diagnostics) {
   diagnostics.addf("pairs a second", "%.2f", status.rate_hz);
   diagnostics.add("pairs", status.num_pairs);
   diagnostics.addf("skew, right - left, last pair (ms)", "%.3f", 1e3 * status.skew_s);
@@ -69,10 +70,10 @@ void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& be
   if (!has_pairs && share > 0)
     return diagnostics.summary(Diagnostics::ERROR, "no pairs: frames come from one eye alone");
   if (!has_pairs) return diagnostics.summary(Diagnostics::WARN, "no pairs since the last report");
-  if (share > options.max_unpaired_share)
+  if (share > kMaxUnpairedShare)
     return diagnostics.summaryf(Diagnostics::WARN, "%.0f %% of an eye's frames have no partner",
                                 100 * share);
-  if (status.rate_hz < options.min_rate_share * camera.video.rate_hz)
+  if (status.rate_hz < kMinRateShare * camera.video.rate_hz)
     return diagnostics.summaryf(Diagnostics::WARN, "%.1f pairs a second, asked are %.1f",
                                 status.rate_hz, camera.video.rate_hz);
   if (!status.warning.empty()) return diagnostics.summary(Diagnostics::WARN, status.warning);
@@ -171,7 +172,7 @@ void StereoCameraNode::Publish(const FramePair& pair) {
 
 void StereoCameraNode::Report(Diagnostics& diagnostics) {
   const StereoCameraStatus status = status_.Get();
-  ReportCamera(status, reported_, options_.camera, options_.health, diagnostics);
+  ReportCamera(status, reported_, options_.camera, diagnostics);
   diagnostics.add("times the wall clock was set", num_clock_jumps_.load());
   reported_ = status;
 }

@@ -13,7 +13,7 @@ geometry_msgs::Pose At(double x) {
 }
 
 TEST(BoundedPath, TakesPosesThatKeepTheirDistance) {
-  BoundedPath path({0.5, 100});
+  BoundedPath path(0.5, 100);
   EXPECT_TRUE(path.Add({}, At(0)));
   EXPECT_FALSE(path.Add({}, At(0.4)));
   EXPECT_TRUE(path.Add({}, At(0.5)));
@@ -21,7 +21,7 @@ TEST(BoundedPath, TakesPosesThatKeepTheirDistance) {
 }
 
 TEST(BoundedPath, StaysBoundedAndReachesFromStartToEnd) {
-  BoundedPath path({0.1, 50});
+  BoundedPath path(0.1, 50);
   for (int i = 0; i <= 10000; ++i) path.Add({}, At(0.1 * i + 1e-9 * i));
   const auto& poses = path.path().poses;
   EXPECT_LE(poses.size(), 50u);
@@ -34,7 +34,7 @@ TEST(BoundedPath, StaysBoundedAndReachesFromStartToEnd) {
 }
 
 TEST(BoundedPath, ClearsToItsFirstSpacing) {
-  BoundedPath path({1, 2});
+  BoundedPath path(1, 2);
   for (int i = 0; i < 100; ++i) path.Add({}, At(i));
   path.Clear();
   path.Add({}, At(0));

@@ -22,10 +22,8 @@ TEST(PoseNodeOptions, EachPartIsChecked) {
   using Options = PoseNodeOptions;
   ExpectOptionRefused<Options>([](auto& o) { o.algorithm.odometry.min_points_to_start = 3; },
                                "min_points_to_start");
-  ExpectOptionRefused<Options>([](auto& o) { o.mount.slew_window_s = 0; }, "slew_window_s");
+  ExpectOptionRefused<Options>([](auto& o) { o.mount.max_slew_dps = -1; }, "max_slew_dps");
   ExpectOptionRefused<Options>([](auto& o) { o.output.odom_frame = ""; }, "odom_frame");
-  ExpectOptionRefused<Options>([](auto& o) { o.health.row_residual_pairs = 0; },
-                               "row_residual_pairs");
   ExpectOptionRefused<Options>([](auto& o) { o.max_waiting_pairs = 0; }, "max_waiting_pairs");
   ExpectOptionRefused<Options>([](auto& o) { o.max_held_pairs = -1; }, "max_held_pairs");
 }

@@ -32,11 +32,11 @@ class LearnedCalibrationTest : public FolderTest {
 };
 
 TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
-  LearnedCalibration first({true, ""});
+  LearnedCalibration first(true);
   EXPECT_FALSE(first.ReadFor(kLearningCamera));
   first.Write(Learned(0.25));
   EXPECT_TRUE(std::filesystem::exists(File()));
-  LearnedCalibration second({true, ""});
+  LearnedCalibration second(true);
   const auto known = second.ReadFor(kLearningCamera);
   ASSERT_TRUE(known);
   EXPECT_EQ(known->mean.coefficients_px, Learned(0.25).mean.coefficients_px);
@@ -44,7 +44,7 @@ TEST_F(LearnedCalibrationTest, ADriveBeginsWithWhatTheLastOneTold) {
 }
 
 TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
-  LearnedCalibration learned({true, ""});
+  LearnedCalibration learned(true);
   learned.ReadFor(kLearningCamera);
   learned.Write(Learned(0.25));
   std::filesystem::remove(File());
@@ -55,10 +55,10 @@ TEST_F(LearnedCalibrationTest, WhatHasNotChangedIsNotWrittenAgain) {
 }
 
 TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
-  LearnedCalibration earlier({true, ""});
+  LearnedCalibration earlier(true);
   earlier.ReadFor(kLearningCamera);
   earlier.Write(Learned(0.25));
-  LearnedCalibration off({false, ""});
+  LearnedCalibration off(false);
   EXPECT_FALSE(off.ReadFor(kLearningCamera));
   std::filesystem::remove(File());
   off.Write(Learned(0.5));
@@ -66,7 +66,7 @@ TEST_F(LearnedCalibrationTest, SwitchedOffItNeitherReadsNorWrites) {
 }
 
 TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
-  LearnedCalibration learned({true, ""});
+  LearnedCalibration learned(true);
   learned.Write(Learned(0.25));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "arfm_vo"));
 }
@@ -74,24 +74,16 @@ TEST_F(LearnedCalibrationTest, WithoutACameraNothingIsWritten) {
 TEST_F(LearnedCalibrationTest, AFileThatIsNoneStopsNothing) {
   std::filesystem::create_directories(folder_ / "arfm_vo");
   std::ofstream(File()) << "neither: [here";
-  EXPECT_FALSE(LearnedCalibration({}).ReadFor(kLearningCamera));
+  EXPECT_FALSE(LearnedCalibration(true).ReadFor(kLearningCamera));
 }
 
 TEST_F(LearnedCalibrationTest, AFolderThatCannotBeMadeStopsNothing) {
   ros::Time::init();  // the warning's
-  std::ofstream(folder_ / "file") << "no folder";
-  LearnedCalibration learned({true, folder_ / "file"});
+  std::ofstream(folder_ / "arfm_vo") << "no folder";
+  LearnedCalibration learned(true);
   EXPECT_FALSE(learned.ReadFor(kLearningCamera));
   learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "file"));
-}
-
-TEST_F(LearnedCalibrationTest, AFolderThatIsGivenTakesThePlaceOfRossOwn) {
-  LearnedCalibration learned({true, folder_ / "given"});
-  learned.ReadFor(kLearningCamera);
-  learned.Write(Learned(0.25));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "given" / NameLearnedCorrection(kLearningCamera)));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "arfm_vo"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "arfm_vo"));
 }
 
 }  // namespace

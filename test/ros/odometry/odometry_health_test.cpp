@@ -36,7 +36,7 @@ SessionUpdate PoseWithStatus(PoseStatus status, const std::string& text) {
 const SessionUpdate kTracked = PoseWithStatus(PoseStatus::kTracked, "tracked");
 
 int LevelOfRows(double row_residual_px) {
-  OdometryHealth health{OdometryHealthOptions()};
+  OdometryHealth health;
   for (int i = 0; i < 10; ++i) health.Count(FrameWithRows(row_residual_px), kTracked, 1, 0);
   Wrapper status;
   health.ReportCalibration(status);
@@ -51,7 +51,7 @@ class OdometryHealthTest : public testing::Test {
     (health_.*report)(status);
     return status;
   }
-  OdometryHealth health_{OdometryHealthOptions()};
+  OdometryHealth health_;
 };
 
 TEST_F(OdometryHealthTest, PairsAreCounted) {
@@ -107,12 +107,6 @@ TEST_F(OdometryHealthTest, LostIsAnError) {
   EXPECT_EQ(report().level, DiagnosticStatus::WARN);
   health_.CountRefused("left/image_rect: the image is empty");
   EXPECT_EQ(report().level, DiagnosticStatus::ERROR);
-}
-
-TEST(OdometryHealth, OptionsAreChecked) {
-  OdometryHealthOptions options;
-  options.row_residual_error_px = 0.1;
-  EXPECT_INVALID(OdometryHealth{options}, "row_residual_error_px");
 }
 
 /// Gives pairs of one second apart until something is told.
@@ -171,7 +165,7 @@ TEST(OdometryHealth, WhatLastsIsWarnedOfWithItsRemedy) {
                 {PoseStatus::kTooFewFeatures, "too few", 0, {"the eyes not swapped"}},
                 {PoseStatus::kTooFewMatches, "too few matches", 300, {"too fast"}}};
   for (const auto& [status, text, num_points, told] : kCases) {
-    OdometryHealth health{OdometryHealthOptions()};
+    OdometryHealth health;
     const auto line = Watch(health, 0, PoseWithStatus(status, text), ToldFrame(num_points));
     ASSERT_TRUE(line) << text;
     EXPECT_TRUE(line->is_warning) << text;

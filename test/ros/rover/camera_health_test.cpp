@@ -32,7 +32,7 @@ StereoCameraStatus StatusBefore() {
 
 Wrapper Camera(const StereoCameraStatus& status) {
   Wrapper report;
-  ReportCamera(status, StatusBefore(), {}, {}, report);
+  ReportCamera(status, StatusBefore(), {}, report);
   return report;
 }
 

@@ -13,22 +13,13 @@
 
 namespace arfm_vo {
 
-struct BoundedPathOptions {
-  double spacing_m = 0.05;  ///< at first; doubled whenever the path is full
-  int max_poses = 2000;     ///< keeps a message below 200 kB
-
-  void Check() const {
-    Require(spacing_m >= 0, "path.spacing_m must not be negative");
-    Require(max_poses >= 2, "path.max_poses must be at least 2");
-  }
-  ARFM_FIELDS(spacing_m, max_poses)
-};
-
 /// A path for display that reaches from the start to the end and yet stays small: poses keep a
 /// distance, and a full path gives away every second pose.
 class BoundedPath {
  public:
-  explicit BoundedPath(const BoundedPathOptions& options) : options_(options) { Clear(); }
+  /// `spacing_m` at first, doubled whenever the path is full; 2000 poses make 200 kB of message.
+  explicit BoundedPath(double spacing_m = 0.05, size_t max_poses = 2000)
+      : first_spacing_m_(spacing_m), max_poses_(max_poses), spacing_m_(spacing_m) {}
 
   /// Takes the newest pose; true where it went into the path.
   bool Add(const std_msgs::Header& header, const geometry_msgs::Pose& pose);
@@ -37,8 +28,9 @@ class BoundedPath {
   const nav_msgs::Path& path() const { return path_; }
 
  private:
-  BoundedPathOptions options_;
-  double spacing_m_ = 0;
+  const double first_spacing_m_;
+  const size_t max_poses_;
+  double spacing_m_;
   nav_msgs::Path path_;
 };
 

@@ -25,14 +25,14 @@ struct ArfmNodeOptions {
   /// Whether the features of every pair are computed, not only of those that pose_node asks for.
   bool features_always = false;
   int max_kept_pairs = 10;            ///< that may be asked for; older ones are forgotten
-  LearnedCalibrationOptions learned;  ///< its keys stand beside those of the node
+  bool remember_calibration = false;  ///< from drive to drive, a file a camera
 
   void Check() const {
     algorithm.Check();
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_kept_pairs >= 1, "max_kept_pairs must be at least 1");
   }
-  ARFM_FIELDS((algorithm), max_waiting_pairs, features_always, max_kept_pairs, (learned))
+  ARFM_FIELDS((algorithm), max_waiting_pairs, features_always, max_kept_pairs, remember_calibration)
 };
 
 /// Rectified stereo pairs in, `features` out: layers image to reconstruction. Pairs are announced,

@@ -27,25 +27,19 @@ struct BaNodeOptions {
   std::string odom_frame = "odom";  ///< that of pose_node, continuous
   std::string camera_frame;         ///< as that of pose_node
   bool publish_tf = true;           ///< map_frame -> odom_frame
-  double tf_rate_hz = 20;           ///< of the transform
-  double tf_tolerance_s = 0.1;      ///< how far into the future a transform is said to hold
   double max_time_share = 0.25;  ///< of the wall time that adjusting may take: no pose waits for it
-  int max_path_poses = 1000;     ///< of path_optimized, at least 2; longer paths are thinned out
   TrajectoryOutputOptions trajectory;  ///< its keys stand beside those of the node
-  LearnedCalibrationOptions learned;   ///< its keys stand beside those of the node
+  bool remember_calibration = false;   ///< from drive to drive, a file a camera
   MapKeeperOptions map;                ///< its keys stand beside those of the node
 
   void Check() const {
     algorithm.Check();
     Require(!map_frame.empty(), "map_frame must not be empty");
     Require(!odom_frame.empty(), "odom_frame must not be empty");
-    Require(tf_rate_hz > 0, "tf_rate_hz must be positive");
-    Require(tf_tolerance_s >= 0, "tf_tolerance_s must not be negative");
     RequireAbove(max_time_share, 0, 1, "max_time_share");
-    Require(max_path_poses >= 2, "max_path_poses must be at least 2");
   }
-  ARFM_FIELDS((algorithm), map_frame, odom_frame, camera_frame, publish_tf, tf_rate_hz,
-              tf_tolerance_s, max_time_share, max_path_poses, (trajectory), (learned), (map))
+  ARFM_FIELDS((algorithm), map_frame, odom_frame, camera_frame, publish_tf, max_time_share,
+              (trajectory), remember_calibration, (map))
 };
 
 /// Keyframes in, the globally adjusted map out (Fig. 4): map_update, path_optimized, landmarks.

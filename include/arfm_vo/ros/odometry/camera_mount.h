@@ -18,17 +18,15 @@ namespace arfm_vo {
 struct CameraMountOptions {
   std::string base_frame = "base_link";  ///< frame whose pose is told
   std::string camera_frame;              ///< left optical frame; empty: the frame_id of the images
-  double tf_timeout_s = 0.1;   ///< how long a pair waits for the tf of its stamp (wall time)
-  double max_slew_dps = 0;     ///< pairs taken while the head turns faster are skipped; 0: none
-  double slew_window_s = 0.1;  ///< over which the head's rate is measured
+  double tf_timeout_s = 0.1;  ///< how long a pair waits for the tf of its stamp (wall time)
+  double max_slew_dps = 0;    ///< pairs taken while the head turns faster are skipped; 0: none
 
   void Check() const {
     Require(!base_frame.empty(), "base_frame must not be empty");
     Require(tf_timeout_s >= 0, "tf_timeout_s must not be negative");
     Require(max_slew_dps >= 0, "max_slew_dps must not be negative");
-    Require(slew_window_s > 0, "slew_window_s must be positive");
   }
-  ARFM_FIELDS(base_frame, camera_frame, tf_timeout_s, max_slew_dps, slew_window_s)
+  ARFM_FIELDS(base_frame, camera_frame, tf_timeout_s, max_slew_dps)
 };
 
 /// base_from_camera at each image's stamp, from tf.

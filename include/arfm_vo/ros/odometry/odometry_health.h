@@ -13,19 +13,6 @@
 
 namespace arfm_vo {
 
-struct OdometryHealthOptions {
-  double row_residual_warn_px = 0.5;   ///< median |v_right - v_left| of the stereo points
-  double row_residual_error_px = 1.0;  ///< above it ERROR
-  int row_residual_pairs = 50;         ///< that the running median is taken over
-
-  void Check() const {
-    Require(row_residual_warn_px > 0 && row_residual_error_px >= row_residual_warn_px,
-            "health.row_residual_error_px must be at least row_residual_warn_px, both positive");
-    Require(row_residual_pairs >= 1, "health.row_residual_pairs must be at least 1");
-  }
-  ARFM_FIELDS(row_residual_warn_px, row_residual_error_px, row_residual_pairs)
-};
-
 /// A line for the console.
 struct ConsoleLine {
   bool is_warning = false;
@@ -35,7 +22,6 @@ struct ConsoleLine {
 /// What pose_node tells in its diagnostics and on the console.
 class OdometryHealth {
  public:
-  explicit OdometryHealth(const OdometryHealthOptions& options);
   /// Tells the totals on the console.
   ~OdometryHealth() { TellAtEnd("pose_node: " + Totals() + times_.Total()); }
 
@@ -57,11 +43,10 @@ class OdometryHealth {
   std::optional<ConsoleLine> TellTracked(double now_s);
   uint32_t NumWithoutPose() const { return num_pairs_ - num_tracked_ - num_degraded_; }
 
-  OdometryHealthOptions options_;
   ConsoleWatch watch_, calibration_watch_, skew_watch_;
   bool is_problem_told_ = false;
   std::optional<double> last_tracked_s_;
-  RunningMedian row_residual_px_;
+  RunningMedian row_residual_px_{50};  ///< |v_right - v_left|, of each pair's median
   PairTimes times_;
   SessionUpdate last_;
   bool is_new_ = false;  ///< a pair came since the last report

@@ -31,9 +31,8 @@ struct PoseNodeOptions {
   OdometryOptions algorithm;  ///< its keys stand beside those of the node; `odometry` is used
   CameraMountOptions mount;   ///< its keys stand beside those of the node
   PoseOutputOptions output;   ///< its keys stand beside those of the node
-  OdometryHealthOptions health;
   SensesOptions senses;
-  LearnedCalibrationOptions learned;   ///< its keys stand beside those of the node
+  bool remember_calibration = false;   ///< from drive to drive, a file a camera
   TrajectoryOutputOptions trajectory;  ///< its keys stand beside those of the node
   int max_waiting_pairs = 4;           ///< older ones are dropped
   /// Until the tf of a pair is there for the first time, so many wait; for replays.
@@ -46,7 +45,7 @@ struct PoseNodeOptions {
     Require(max_waiting_pairs >= 1, "max_waiting_pairs must be at least 1");
     Require(max_held_pairs >= 0, "max_held_pairs must not be negative");
   }
-  ARFM_FIELDS((algorithm), (mount), (output), (learned), health, senses, max_waiting_pairs,
+  ARFM_FIELDS((algorithm), (mount), (output), remember_calibration, senses, max_waiting_pairs,
               max_held_pairs, (trajectory))
 };
 

@@ -17,12 +17,9 @@ namespace arfm_vo {
 struct PoseOutputOptions {
   std::string odom_frame = "odom";  ///< of odom, path and tf; continuous
   bool publish_tf = true;           ///< odom_frame -> base_frame
-  BoundedPathOptions path;
 
-  void Check() const {
-    Require(!odom_frame.empty(), "odom_frame must not be empty");
-  }
-  ARFM_FIELDS(odom_frame, publish_tf, path)
+  void Check() const { Require(!odom_frame.empty(), "odom_frame must not be empty"); }
+  ARFM_FIELDS(odom_frame, publish_tf)
 };
 
 /// All that pose_node publishes: odom, path, status, keyframe, matches_image, tf.

@@ -31,7 +31,6 @@ class BagSequence : public StereoSequence {
   /// Throws std::invalid_argument naming file and topic for an image that does not fit the camera,
   /// cannot be read as grey, or lies in a damaged part of the bag.
   std::optional<SequencePair> Next() override;
-  double loading_cpu_s() const override { return loading_cpu_s_; }
   /// unpaired_images, late_images.
   std::string FormatSummary() const override;
 
@@ -56,7 +55,6 @@ class BagSequence : public StereoSequence {
   rosbag::View::iterator next_;
   StampPairing<Image> pairing_;
   int size_ = 0, num_read_ = 0, num_given_ = 0;
-  double loading_cpu_s_ = 0;
 };
 
 }  // namespace arfm_vo

@@ -8,20 +8,16 @@
 
 #include <string>
 
+#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/fields.h"
-#include "arfm_vo/base/range_check.h"
 
 namespace arfm_vo {
 
 struct DrivePanelOptions {
   std::string base_frame = "base_link";  ///< the panel stands above its origin
-  double height_m = 1.2;                 ///< of the lower edge
 
-  void Check() const {
-    Require(!base_frame.empty(), "base_frame must not be empty");
-    RequireInRange(height_m, 0, 100, "height_m");
-  }
-  ARFM_FIELDS(base_frame, height_m)
+  void Check() const { Require(!base_frame.empty(), "base_frame must not be empty"); }
+  ARFM_FIELDS(base_frame)
 };
 
 /// What the rover does, in words.

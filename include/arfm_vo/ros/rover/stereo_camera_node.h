@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "arfm_vo/base/fields.h"
-#include "arfm_vo/base/range_check.h"
 #include "arfm_vo/base/worker.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
@@ -17,33 +16,20 @@
 
 namespace arfm_vo {
 
-struct CameraHealthOptions {
-  double min_rate_share = 0.8;      ///< of video.rate_hz; fewer pairs a second are a warning
-  double max_unpaired_share = 0.1;  ///< of an eye's frames since the last report; more: warning
-
-  void Check() const {
-    RequireInRange(min_rate_share, 0, 1, "health.min_rate_share");
-    RequireInRange(max_unpaired_share, 0, 1, "health.max_unpaired_share");
-  }
-  ARFM_FIELDS(min_rate_share, max_unpaired_share)
-};
-
 struct StereoCameraNodeOptions {
   StereoCameraOptions camera;  ///< its keys stand beside those of the node
   std::string left_camera_info_url, right_camera_info_url;  ///< as camera_info_manager takes them
   std::string frame_id = "left_camera_optical";             ///< of both eyes' messages
-  CameraHealthOptions health;
 
   void Check() const;
-  ARFM_FIELDS((camera), left_camera_info_url, right_camera_info_url, frame_id, health)
+  ARFM_FIELDS((camera), left_camera_info_url, right_camera_info_url, frame_id)
 };
 
 /// The camera in stereo_camera_node's diagnostics: ERROR while no pairs come, WARN where they come
 /// seldom, many frames stay alone, or a device does not do as asked.
 /// `before` is the status at the last report.
 void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& before,
-                  const StereoCameraOptions& camera, const CameraHealthOptions& options,
-                  Diagnostics& diagnostics);
+                  const StereoCameraOptions& camera, Diagnostics& diagnostics);
 
 /// The calibration of both eyes: WARN where there is none, ERROR where it has another size than the
 /// pictures or a baseline that is none.
