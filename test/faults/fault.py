@@ -27,6 +27,3 @@ class Fault:
     may_go_on: bool = False  # by itself and with a warning, while the rover is still watched
     max_wrong_way_m: float = 0.10  # of the tracks while the pose that is told is wrong
     is_well: Callable = lambda campaign: True  # what else must hold when the rover has been watched
-
-    def __post_init__(self):
-        self.may_go_on |= self.promise == BRIEFLY_UNCERTAIN

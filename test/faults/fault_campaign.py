@@ -20,7 +20,7 @@ import rospy  # noqa: E402
 import tf2_ros  # noqa: E402
 from bus_faults import bus_faults  # noqa: E402
 from camera_faults import camera_faults  # noqa: E402
-from fault import EITHER, NotPermitted  # noqa: E402
+from fault import BRIEFLY_UNCERTAIN, EITHER, NotPermitted  # noqa: E402
 from machine_faults import last_faults, machine_faults  # noqa: E402
 from message_faults import message_faults, operator_faults  # noqa: E402
 from node_faults import node_faults  # noqa: E402
@@ -111,7 +111,7 @@ class Campaign:
                 limit_ended_s = looked_s
             has_warned |= self.rover.status.state == DriveStatus.WARNING
             moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
-            if not (moves_on and fault.may_go_on):
+            if not (moves_on and (fault.may_go_on or fault.promise == BRIEFLY_UNCERTAIN)):
                 end_way_m = self.tap.way_m()
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
@@ -156,7 +156,7 @@ class Campaign:
             return row["moves"] and not row["told"]
         is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or ("-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
-        is_over = not row["moves"] or fault.may_go_on
+        is_over = not row["moves"] or fault.may_go_on or fault.promise == BRIEFLY_UNCERTAIN
         is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s
         return is_told and is_over and is_soon and row["way_m"] <= allowed_m
 

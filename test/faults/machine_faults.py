@@ -67,9 +67,8 @@ def freeze_terminal(campaign):
 
 def machine_faults():
     slow = lambda c: time.sleep(3)  # noqa: E731
-    rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds),
-                  "drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose", slow, 1,
-                  may_go_on=True)
+    rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds), may_go_on=True, limit_s=1, mend=slow, promise=
+                  "drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose")
             for seconds in (1, -1, 3600, -3600)]
     return rows + [
         Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3, is_load=True),
