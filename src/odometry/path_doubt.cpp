@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "arfm_vo/geometry/screw_motion.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -25,18 +23,18 @@ void PathDoubt::Follow(double stamp_s, const Rigid3& pose, const std::optional<R
                        double log_odds) {
   if (last_) Advance(std::max(0., stamp_s - last_->stamp_s));
   if (!IsLikely()) {
-    before_.reset();
-    if (predicted && last_ && stamp_s > last_->stamp_s) before_ = last_;
-    if (before_) next_ = StampedPose{stamp_s, *predicted};
+    before_.Reset();
+    if (predicted && last_ && stamp_s > last_->stamp_s) {
+      before_.Add(last_->stamp_s, last_->camera_from_world);
+      before_.Add(stamp_s, *predicted);
+    }
   }
   ground_.Limit(log_odds);
   last_ = StampedPose{stamp_s, pose};
   displacement_.setZero();
-  if (!before_) return;
-  const Rigid3 step = next_->camera_from_world * before_->camera_from_world.Inverse();
-  const double times = (stamp_s - before_->stamp_s) / (next_->stamp_s - before_->stamp_s);
-  const Rigid3 as_before = ScrewMotion(step, times) * before_->camera_from_world;
-  displacement_ = as_before.Inverse().translation - pose.Inverse().translation;
+  if (const auto as_before = before_.Predict(stamp_s)) {
+    displacement_ = as_before->Inverse().translation - pose.Inverse().translation;
+  }
 }
 
 NewMapDoubt::NewMapDoubt(double stamp_s, const Rigid3& odom_from_base, const Twist& twist_before)

@@ -5,6 +5,7 @@
 #include "arfm_vo/base/belief.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/odometry/base_covariance.h"
+#include "arfm_vo/odometry/motion_model.h"
 
 namespace arfm_vo {
 
@@ -40,7 +41,7 @@ class PathDoubt {
 
   Belief ground_{0.99};
   std::optional<StampedPose> last_;
-  std::optional<StampedPose> before_, next_;                ///< of the motion before the doubt
+  MotionModel before_;                                      ///< the motion before the doubt
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();  ///< to where that leads
   Eigen::Matrix3d closed_ = Eigen::Matrix3d::Zero();        ///< of doubts that are over
 };

@@ -46,8 +46,8 @@ struct PredictedPose {
   /// picture told last: standard deviation, m.
   double gap_sigma_m = std::numeric_limits<double>::infinity();
 
-  bool IsSpeedKnown() const { return std::isfinite(sigma_shift_m); }
   PredictedPose(const Rigid3& camera_from_world) : camera_from_world(camera_from_world) {}
+  bool IsSpeedKnown() const { return std::isfinite(sigma_shift_m); }
   bool Allows(const Rigid3& other_camera_from_world) const {
     const Rigid3 between = other_camera_from_world * camera_from_world.Inverse();
     return between.translation.norm() <= max_shift_m && between.Angle() <= max_turn_rad;
