@@ -46,17 +46,19 @@ bool GoalLimits::IsInsideFence(double x_m, double y_m) const {
 std::string GoalLimits::FindFlaw(const Route& route, const RoverPose& start) const {
   if (route.size() > static_cast<size_t>(options_.max_waypoints))
     return "it has more than " + std::to_string(options_.max_waypoints) + " waypoints";
-  bg::model::linestring<Place> way{{start.x_m, start.y_m}};
+  const auto fence = MakeRing(options_.fence_m);
+  Place from(start.x_m, start.y_m);
   for (size_t i = 0; i < route.size(); ++i) {
-    const Waypoint& to = route[i];
-    const double distance_m = std::hypot(to.x_m - start.x_m, to.y_m - start.y_m);
-    way.emplace_back(to.x_m, to.y_m);
+    const Place to(route[i].x_m, route[i].y_m);
+    const double distance_m = std::hypot(to.x() - start.x_m, to.y() - start.y_m);
     if (!(distance_m <= options_.max_distance_m))
       return NameOf(i, route.size()) +
              Format(" is %.1f m away, farther than %.1f m", distance_m, options_.max_distance_m);
-    if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";
-    if (!options_.fence_m.empty() && !bg::covered_by(way, MakeRing(options_.fence_m)))
+    if (fence.empty()) continue;
+    if (!bg::covered_by(to, fence)) return NameOf(i, route.size()) + " is outside the fence";
+    if (!bg::covered_by(bg::model::linestring<Place>{from, to}, fence))
       return "the way to " + NameOf(i, route.size()) + " leaves the fence";
+    from = to;
   }
   return "";
 }
