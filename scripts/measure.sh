@@ -10,7 +10,7 @@ table='
 api_page             test/static_checks/api_page.py          1_s     _b            docs/api.md from the code; --check only compares
 benchmark            test/benchmark/benchmark.sh             5_min   KITTI,quiet   time of SURF, matching and a pair
 benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet     latency and drops of the nodes
-closed_loop          test/rehearsal/closed_loop.sh           60_min  -             24 simulated drives to a goal
+closed_loop          test/rehearsal/closed_loop.sh           12_min  -             24 simulated drives to a goal
 coverage             test/static_checks/coverage.sh          25_min  gcovr         lines and branches that the tests reach
 experiments          test/experiments/experiments.sh         10_min  KITTI         section 4 of the paper
 fault_campaign       test/faults/fault_campaign.sh           15_min  quiet         faults in the running nodes, time to stop
