@@ -41,7 +41,7 @@ def find_end(todo):
 
 def write_script(blocks):
     """One shell script of all blocks, which names each block's page and line before it runs it."""
-    script = ["set -eo pipefail"]
+    script = ["set -eo pipefail", "trap 'kill $(jobs -p) 2> /dev/null || true' EXIT"]  # nothing runs on behind a block that fails
     for place, todo, commands in blocks:
         script.append(f'echo "== {place}"')
         end_s = find_end(todo)
