@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/pose/reprojection.h"
 
 namespace arfm_vo {
@@ -47,16 +48,12 @@ std::vector<std::pair<int, int>> Match(const Place& place, const std::vector<See
   return matches;
 }
 
-double LogChoose(int n, int k) {
-  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
-}
-
 /// RecognisedPlace::log_false_alarms.
-double LogFalseAlarms(const StereoCamera& camera, const std::vector<PointObservation>& matches,
-                      const PoseEstimate& pose) {
+double LogFalseAlarmsOf(const StereoCamera& camera, const std::vector<PointObservation>& matches,
+                        const PoseEstimate& pose) {
   const double bounds[] = {ChiSquareQuantile(2, kInlierProbability),
                            ChiSquareQuantile(3, kInlierProbability)};
-  const int num_matches = static_cast<int>(matches.size()), size = kSamplePoints;
+  const int num_matches = static_cast<int>(matches.size());
   double num_alike = 1;
   for (const PointObservation& match : matches) {
     const Eigen::Vector3d x = pose.camera_from_world * match.x_in_world;
@@ -66,8 +63,7 @@ double LogFalseAlarms(const StereoCamera& camera, const std::vector<PointObserva
       num_alike += &other != &match && error < bounds[other.has_right] * Square(other.sigma_px);
     }
   }
-  return LogChoose(num_matches, pose.num_inliers) + LogChoose(pose.num_inliers, size) +
-         (pose.num_inliers - size) * std::log(num_alike / Square(num_matches));
+  return LogFalseAlarms(num_matches, pose.num_inliers, std::log(num_alike / Square(num_matches)));
 }
 
 }  // namespace
@@ -170,7 +166,7 @@ std::optional<RecognisedPlace> PlaceRecogniser::Verify(int place,
   RecognisedPlace found{place, {}, 0, {}};
   found.pose = EstimatePose(camera_, observations, std::nullopt, pose_, &is_inlier);
   if (!found.pose.IsTracked()) return std::nullopt;
-  found.log_false_alarms = LogFalseAlarms(camera_, observations, found.pose);
+  found.log_false_alarms = LogFalseAlarmsOf(camera_, observations, found.pose);
   found.pose.covariance.diagonal().head<3>().array() += Square(kMinSigma_rad);
   found.pose.covariance.diagonal().tail<3>().array() += Square(kMinSigma_m);
   for (size_t i = 0; i < matches.size(); ++i) {

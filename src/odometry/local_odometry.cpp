@@ -153,7 +153,7 @@ void LocalOdometry::Implementation::Accept(TrackedFrame tracked,
   if (!verdict_.Weigh(tracked, predicted, update)) return;
   const bool are_depths_known =
       AreDepthsKnown(camera_, map_, tracked.observations, update.pose.camera_from_world);
-  if (update.pose.IsTracked() && !are_depths_known) update.Degrade(Reason::kFarPoints);
+  if (!are_depths_known && update.reason == Reason::kNone) update.reason = Reason::kFarPoints;
   covariance_.FollowWay(update.pose.camera_from_world, are_depths_known);
   std::optional<Rigid3> as_before;
   if (predicted && predicted->IsSpeedKnown()) as_before = predicted->camera_from_world;

@@ -27,7 +27,7 @@ const std::vector<ReasonRow>& ListReasons() {
        "projector's dots?)",
        "degraded: the pose may be at rest by what is fixed; no measurement where that is likelier"},
       {Reason::kFarPoints, "most points are too far to tell how long the path is",
-       "degraded: the length of the path counts as unknown"},
+       "tracked: the covariance reaches as far as the path since, whose length is unknown"},
       {Reason::kSkewed, "the right picture is taken far from the left one's time",
        "degraded: right pixels are moved by the motion between the two pictures"},
       {Reason::kNewMap, "the new map moves otherwise than the one before the loss",

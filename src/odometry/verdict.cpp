@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arfm_vo {
 namespace {
@@ -47,6 +48,7 @@ GroundPrior AdvanceGround(double interval_s, double hidden_after_s, Belief& grou
 
 void Verdict::Advance(double stamp_s) {
   const double interval_s = std::max(0., stamp_s - stamp_s_);
+  follows_ = std::exchange(is_followed_, false);
   right_belongs_.Advance(interval_s, kRightFails_s, kRightRecovers_s);
   fixed_.Advance(interval_s, kIsTakenAway_s, kIsFixed_s);
   another_moves_.Advance(interval_s, kAnotherLeaves_s, kAnotherComes_s);
@@ -118,6 +120,8 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   const double of_rival = pose.rival ? std::exp(ground_.log_odds() + tracked.log_odds_of_rival) : 0;
   const double others = 1 + of_rival;
   const bool is_likeliest = ground_.log_odds() + tracked.log_odds > 0;
+  // Where the motion before leads there as well it is right, whatever is followed.
+  const bool is_as_before = follows_ && predicted && predicted->LogOdds(pose.camera_from_world) > 0;
   const double log_odds = ground_.log_odds() + tracked.log_odds - std::log(others);
   const double probability = Logistic(log_odds);
   update.log_odds = log_odds;
@@ -129,7 +133,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   another_moves_.Add(pose.rival || !is_likeliest ? kRivalSeen : kNoRival);
   // The same points tell the same again in the next pair: this is not added up.
   ground_.Limit(std::log(kAnotherComes_s / kAnotherLeaves_s) + log_odds - ground_.log_odds());
-  if (!is_likeliest) {
+  if (!is_likeliest && !is_as_before) {
     pose.status = PoseStatus::kNoConsensus;
     update.reason = tracked.is_odd_rest ? Reason::kFixed : Reason::kGroundHidden;
     return false;
@@ -143,6 +147,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
         (1 - probability) / others * SpreadTo(predicted->camera_from_world, pose.camera_from_world);
   }
   pose.covariance += update.doubt;
+  is_followed_ = true;
   if (right_fault_ != Reason::kNone) {
     TellRightFault(update);
   } else {
@@ -160,13 +165,15 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
 
 bool AreDepthsKnown(const StereoCamera& camera, const LocalMap& map,
                     const LandmarkObservations& observations, const Rigid3& camera_from_world) {
-  const auto is_known = [&](const LandmarkObservation& observation) {
+  double known = 0, all = 0;
+  for (const LandmarkObservation& observation : observations) {
     const Landmark& landmark = map.landmarks().at(observation.landmark);
-    const double depth = (camera_from_world * landmark.x_in_world).z();
-    return camera.Disparity(depth) >= kMinSignificance * std::sqrt(2) * observation.sigma_px;
-  };
-  const auto num_known = std::count_if(observations.begin(), observations.end(), is_known);
-  return 2 * static_cast<size_t>(num_known) >= observations.size();
+    const double disparity_px = camera.Disparity((camera_from_world * landmark.x_in_world).z());
+    const double weight = disparity_px * disparity_px;  // a metre moves it in proportion
+    all += weight;
+    if (disparity_px >= kMinSignificance * std::sqrt(2) * observation.sigma_px) known += weight;
+  }
+  return 2 * known >= all;
 }
 
 }  // namespace arfm_vo

@@ -4,6 +4,7 @@
 
 #include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/epnp.h"
+#include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/pose/reprojection.h"
 #include "p3p.h"
 
@@ -13,7 +14,7 @@ Consensus::Consensus(const StereoCamera& camera, const std::vector<PointObservat
                      const PoseEstimatorOptions& options)
     : camera_(camera),
       observations_(observations),
-      min_inliers_(options.min_inliers),
+      least_(std::max(options.min_inliers, LeastAgreeing(static_cast<int>(observations.size())))),
       bounds_{ChiSquareQuantile(2, kInlierProbability), ChiSquareQuantile(3, kInlierProbability)} {
   spreads_.reserve(observations.size());
   for (const PointObservation& observation : observations) {
@@ -78,7 +79,7 @@ double Consensus::Classify(const Rigid3& camera_from_world, std::vector<char>& i
     if (ratio <= 1) score += observations_[i].votes * (1 - ratio);
   }
   // However many votes they have, a few agree by chance.
-  return num_inliers < min_inliers_ ? score * num_inliers / (10.0 * min_inliers_) : score;
+  return num_inliers < least_ ? score * num_inliers / (10.0 * least_) : score;
 }
 
 }  // namespace arfm_vo

@@ -34,7 +34,7 @@ class Consensus {
 
   const StereoCamera& camera_;
   const std::vector<PointObservation>& observations_;
-  const int min_inliers_;
+  const int least_;         ///< fewer agree by chance
   const double bounds_[2];  ///< of the squared error, without and with a right pixel
   std::vector<PointSpread> spreads_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/pose/false_alarms.h"
 #include "pose_election.h"
 
 namespace arfm_vo {
@@ -28,7 +29,6 @@ double PredictedPose::LogOdds(const Rigid3& other_camera_from_world) const {
 void PoseEstimatorOptions::Check() const {
   ransac.Check();
   refinement.Check();
-  Require(min_inliers >= 4, "pose_estimator.min_inliers must be at least 4");
   Require(min_inlier_share >= 0 && min_inlier_share <= 1,
           "pose_estimator.min_inlier_share must be in 0..1");
 }
@@ -44,13 +44,14 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.num_matches = num_observations;
   if (is_inlier) is_inlier->assign(observations.size(), 0);
   estimate.status = PoseStatus::kTooFewMatches;
-  if (num_observations < options.min_inliers) return estimate;
+  const int least = std::max(options.min_inliers, LeastAgreeing(num_observations));
+  if (num_observations < least) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;
   const Agreement agreement = HoldElection(camera, observations, predicted, options);
   const PoseRefinement& refinement = agreement.refinement;
   if (refinement.status != RefinementStatus::kConverged) return estimate;
-  if (refinement.num_inliers < options.min_inliers) return estimate;
+  if (refinement.num_inliers < least) return estimate;
   double votes = 0, all_votes = 0;
   for (size_t i = 0; i < observations.size(); ++i) {
     votes += refinement.is_inlier[i] * observations[i].votes;

@@ -27,8 +27,8 @@ FrameTracker::FrameTracker(const StereoCamera& camera, const FrameTrackerOptions
     : camera_(camera),
       options_(options),
       matcher_(camera, options.matching),
-      patches_(camera, {options.alignment, options.refinement, options.pose.min_inliers,
-                        options.pose.min_inlier_share, options.min_guided_inliers}) {
+      patches_(camera, {options.alignment, options.refinement, options.pose.min_inlier_share,
+                        options.min_guided_inliers}) {
   options.Check();
 }
 
@@ -156,8 +156,15 @@ void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
   const Correspondences patches =
       is_measured ? by_patches->matches
                   : patches_.MeasureInView(images, map, expected, tracked).patches;
-  // Too few patches are no better than the keypoints that agreed.
+  // Few patches are no surer than the keypoints that agreed.
+  const PoseEstimate by_keypoints = tracked.pose;
+  LandmarkObservations of_keypoints = tracked.observations;
   if (patches_.Refine(patches, tracked).empty()) return;
+  if (tracked.pose.covariance.determinant() > by_keypoints.covariance.determinant()) {
+    tracked.pose = by_keypoints;
+    tracked.observations = std::move(of_keypoints);
+    return;
+  }
   patches_.TellTurn(patches, expected, tracked);
   // Keypoints whose patches agree do too, unless the texture repeats and they are elsewhere.
   for (size_t i = 0; i < tracked.agrees.size(); ++i) {

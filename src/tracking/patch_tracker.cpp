@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arfm_vo/base/median.h"
+#include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/tracking/ground_weighing.h"
 #include "arfm_vo/tracking/right_turn.h"
 #include "arfm_vo/tracking/still_keypoints.h"
@@ -167,7 +168,7 @@ bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
     const PoseRefinement refined =
         RefinePose(camera_, patches.points, camera_from_world, options_.refinement);
     if (refined.status != RefinementStatus::kConverged ||
-        refined.num_inliers < options_.min_inliers) {
+        refined.num_inliers < LeastAgreeing(static_cast<int>(patches.points.size()))) {
       return false;
     }
     camera_from_world = refined.camera_from_world;
@@ -207,8 +208,9 @@ std::vector<char> PatchTracker::Refine(const Correspondences& patches,
                                        TrackedFrame& tracked) const {
   PoseRefinement refined =
       RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
-  const double enough = std::max<double>(
-      options_.min_inliers, options_.min_inlier_share * static_cast<double>(patches.points.size()));
+  const double enough =
+      std::max<double>(LeastAgreeing(static_cast<int>(patches.points.size())),
+                       options_.min_inlier_share * static_cast<double>(patches.points.size()));
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) return {};
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;

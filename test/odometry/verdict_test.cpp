@@ -82,6 +82,33 @@ TEST_F(VerdictTest, APoseIsTakenAwayOnlyWhereAnotherAnswerIsLikelier) {
   }
 }
 
+/// Then it is right, or hardly wrong, whatever is followed.
+TEST_F(VerdictTest, APoseToWhichTheMotionBeforeLeadsIsKeptHoweverUnlikely) {
+  PredictedPose predicted{Rigid3()};
+  predicted.sigma_shift_m = 0.1;
+  predicted.sigma_turn_rad = 0.1;
+  struct Case {
+    double off_m;
+    bool follows, is_kept;
+  };
+  for (const Case& one : {Case{0.05, true, true}, {0.05, false, false}, {0.5, true, false}}) {
+    verdict_.Reset(false);
+    Look();
+    tracked_.log_odds = 0;
+    tracked_.pose.camera_from_world = Rigid3();
+    Weigh();
+    if (!one.follows) Look();  // a pair without a pose
+    Look();
+    tracked_.log_odds = -12;
+    tracked_.pose.camera_from_world.translation.x() = one.off_m;
+    OdometryUpdate update;
+    update.pose = tracked_.pose;
+    EXPECT_EQ(verdict_.Weigh(tracked_, predicted, update), one.is_kept) << one.off_m;
+    EXPECT_EQ(update.reason, one.is_kept ? Reason::kGroupsDiffer : Reason::kGroundHidden);
+    if (one.is_kept) EXPECT_NEAR(update.pose.covariance(3, 3), 0.05 * 0.05, 1e-4);
+  }
+}
+
 TEST_F(VerdictTest, WhatWasFollowedInDoubtStaysInDoubtForAWhile) {
   Look();
   tracked_.log_odds = -5;
@@ -180,8 +207,9 @@ TEST_F(VerdictTest, TheLeftImageAloneDegrades) {
             "degraded: the right camera repeats its picture, the left one alone tells");
 }
 
-/// Whether the depths of 40 points of this disparity are known.
-bool AreKnownAt(double disparity_px) {
+/// Whether the depths of 40 points are known, of which so many have the disparity `near_px` and the
+/// rest one of 0.4 px.
+bool AreKnownAt(double near_px, int num_near) {
   const StereoCamera camera{700, 700, 320, 240, 0.5, 640, 480};
   StereoFrame frame;
   frame.features.descriptors = cv::Mat(40, 64, CV_32F, cv::Scalar(0.125));
@@ -191,6 +219,7 @@ bool AreKnownAt(double disparity_px) {
     keypoint.y = static_cast<float>(60 + 80 * (i / 8));
     keypoint.scale = 2;
     frame.features.keypoints.push_back(keypoint);
+    const double disparity_px = i < num_near ? near_px : 0.4;
     StereoPoint point;
     point.keypoint = i;
     point.observation << keypoint.x, keypoint.y, keypoint.x - disparity_px;
@@ -205,8 +234,10 @@ bool AreKnownAt(double disparity_px) {
 }
 
 TEST(AreDepthsKnown, PointsTooFarTellNoLengthOfThePath) {
-  EXPECT_TRUE(AreKnownAt(35));
-  EXPECT_FALSE(AreKnownAt(0.4));
+  EXPECT_TRUE(AreKnownAt(35, 40));
+  EXPECT_TRUE(AreKnownAt(35, 4)) << "the near ones tell it";
+  EXPECT_FALSE(AreKnownAt(1.5, 2));
+  EXPECT_FALSE(AreKnownAt(35, 0));
 }
 
 TEST(Reasons, EachHasItsTextAndItsEffectInItsPlace) {

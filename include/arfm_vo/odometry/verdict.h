@@ -55,7 +55,8 @@ class Verdict {
 
   double baseline_m_;
   double stamp_s_ = 0;
-  Belief right_belongs_{0.95};     ///< the right picture is of this moment and rig
+  bool follows_ = false, is_followed_ = false;  ///< the pair before had a pose; this one has
+  Belief right_belongs_{0.95};                  ///< the right picture is of this moment and rig
   Belief fixed_{0.01};             ///< something is fixed before the camera: so it is on few rigs
   Belief another_moves_{0.01};     ///< something large moves on its own
   Belief ground_{0.98};            ///< the poses up to here are the ground's
@@ -63,9 +64,10 @@ class Verdict {
   Reason left_fault_ = Reason::kNone, right_fault_ = Reason::kNone;
 };
 
-/// Whether both images tell the depth of half of the points well enough to tell how long the path
-/// is. Where they do not the pose looks certain all the same: looming tells the path in proportion
-/// to the depths, and the errors of these are no longer small, nor independent.
+/// Whether most of what tells how long the path is comes from points whose depth both images tell:
+/// a point tells it by the square of its disparity. Where they do not the pose looks certain all
+/// the same: looming tells the path in proportion to the depths, and the errors of these are no
+/// longer small, nor independent.
 bool AreDepthsKnown(const StereoCamera& camera, const LocalMap& map,
                     const LandmarkObservations& observations, const Rigid3& camera_from_world);
 

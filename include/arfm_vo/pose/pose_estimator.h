@@ -16,8 +16,8 @@ constexpr int kSamplePoints = 3;  ///< of P3P
 
 struct PoseEstimatorOptions {
   RansacOptions ransac;
-  int min_inliers = 15;            ///< fewer are no pose
-  double min_inlier_share = 0.15;  ///< of the observations' votes
+  int min_inliers = kSamplePoints + 1;  ///< fewer are no pose, nor as many as agree by chance
+  double min_inlier_share = 0.15;       ///< of the observations' votes
   PoseRefinementOptions refinement;
 
   /// The same, which looks for another pose also beside one with a majority.
@@ -30,7 +30,7 @@ struct PoseEstimatorOptions {
 
   /// Throws std::invalid_argument naming the key.
   void Check() const;
-  ARFM_FIELDS(ransac, min_inliers, min_inlier_share, refinement)
+  ARFM_FIELDS(ransac, min_inlier_share, refinement)
 };
 
 /// Where the camera may be by its motion before.

@@ -17,7 +17,6 @@ namespace arfm_vo {
 struct PatchTrackerOptions {
   LandmarkAlignerOptions alignment;
   PoseRefinementOptions refinement;
-  int min_inliers;
   double min_inlier_share;  ///< of the patches that were found
   int min_deciding;         ///< inliers, where no features are looked at
 };

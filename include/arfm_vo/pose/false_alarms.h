@@ -1,0 +1,14 @@
+#pragma once
+
+namespace arfm_vo {
+
+/// Natural logarithm of how many sets of `num_agreeing` of so many wrong matches agree with a pose
+/// by chance, where each of them agrees with a probability whose logarithm is `log_chance`: what an
+/// a contrario test asks for (Moisan and Stival 2004).
+double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance);
+
+/// The least number of `num_matches` matches, looked for near where they are expected, that agree
+/// with a pose by chance in fewer than one image in 10,000; more than `num_matches` where all may.
+int LeastAgreeing(int num_matches);
+
+}  // namespace arfm_vo

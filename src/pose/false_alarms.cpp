@@ -1,0 +1,35 @@
+#include "arfm_vo/pose/false_alarms.h"
+
+#include <cmath>
+
+#include "arfm_vo/pose/pose_estimator.h"
+
+namespace arfm_vo {
+namespace {
+
+/// A wrong match lies anywhere where it was looked for, 40 px around; it agrees within 3 sigma, some
+/// 2 px. (Both images must agree, and a search through the whole image is wider: less by far.)
+constexpr double kChance = 0.003;
+constexpr double kMaxFalseAlarms = 1e-4;  ///< of an image
+
+double LogChoose(int n, int k) {
+  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+}
+
+}  // namespace
+
+double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance) {
+  return LogChoose(num_matches, num_agreeing) + LogChoose(num_agreeing, kSamplePoints) +
+         (num_agreeing - kSamplePoints) * log_chance;
+}
+
+int LeastAgreeing(int num_matches) {
+  int least = kSamplePoints + 1;
+  while (least <= num_matches &&
+         LogFalseAlarms(num_matches, least, std::log(kChance)) > std::log(kMaxFalseAlarms)) {
+    ++least;
+  }
+  return least;
+}
+
+}  // namespace arfm_vo
