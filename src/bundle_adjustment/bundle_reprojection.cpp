@@ -36,8 +36,12 @@ ReprojectionModel::ReprojectionModel(const StereoCamera& camera, const StereoCor
                                      bool with_correction)
     : camera_(camera),
       correction_(correction),
+      with_correction_(with_correction),
       is_displaced_(with_correction || !correction.IsZero()),
-      radial_unit_(1 / RadialBasis::CornerPx(camera)) {}
+      radial_unit_(1 / RadialBasis::CornerPx(camera)) {
+  field_ << correction.coefficients_px.head<StereoCorrection::kNumField>().transpose(),
+      correction.coefficients_px.tail<StereoCorrection::kNumField>().transpose();
+}
 
 bool ReprojectionModel::Evaluate(const BundleObservation& observation,
                                  const Eigen::Matrix3d& rotation,
@@ -64,63 +68,61 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
                                   const Eigen::Vector3d& translation, const Eigen::Vector3d& point,
                                   ReprojectionTerm& term) const {
   term.x = rotation * point + translation;
-  term.by_x.setZero();
-  term.right_by_field.setZero();
-  term.by_radial.setZero();
-  term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
-  if (!(term.x.z() > kMinDepth)) return false;
+  if (with_correction_) {
+    term.right_by_field.setZero();
+    term.by_radial.setZero();
+  }
+  if (!(term.x.z() > kMinDepth)) {
+    term.by_x.setZero();
+    term.residual = Eigen::Vector4d(kBehindCamera, 0, 0, 0);
+    return false;
+  }
   const double inverse_sigma = 1 / double{observation.sigma_px}, inverse_z = 1 / term.x.z();
-  const double fx = camera_.fx * inverse_sigma, fy = camera_.fy * inverse_sigma;
   const double x_z = term.x.x() * inverse_z, y_z = term.x.y() * inverse_z;
   const Eigen::Vector4d pixels = observation.Pixels();
   // The two rows from `row` on, of the image whose ray is (ray_x, y_z).
   const auto project = [&](double ray_x, int row) {
-    term.residual[row] = fx * ray_x - (pixels[row] - camera_.cx) * inverse_sigma;
-    term.residual[row + 1] = fy * y_z - (pixels[row + 1] - camera_.cy) * inverse_sigma;
-    term.by_x(row, 0) = fx * inverse_z;
-    term.by_x(row, 2) = -fx * inverse_z * ray_x;
-    term.by_x(row + 1, 1) = fy * inverse_z;
-    term.by_x(row + 1, 2) = -fy * inverse_z * y_z;
+    const Eigen::Vector2d from_centre(camera_.fx * ray_x, camera_.fy * y_z);
+    const Displaced at = Displace(from_centre, row, inverse_sigma, term);
+    term.residual.segment<2>(row) = inverse_sigma * (at.pixel - pixels.segment<2>(row));
+    auto by_x = term.by_x.middleRows<2>(row);
+    by_x.col(0) = (inverse_sigma * inverse_z * camera_.fx) * at.by_pixel.col(0);
+    by_x.col(1) = (inverse_sigma * inverse_z * camera_.fy) * at.by_pixel.col(1);
+    by_x.col(2) = -ray_x * by_x.col(0) - y_z * by_x.col(1);
   };
   project(x_z, 0);
-  if (is_displaced_) DisplaceRadially({x_z, y_z}, 0, inverse_sigma, term);
-  if (!observation.has_right) return true;
-
-  const double xr_z = x_z - camera_.baseline_m * inverse_z;
-  project(xr_z, 2);
-  if (!is_displaced_) return true;
-
-  constexpr int kNumField = StereoCorrection::kNumField;
-  Eigen::Matrix<double, kNumField, 2> field;
-  field << correction_.coefficients_px.head<kNumField>(),
-      correction_.coefficients_px.tail<kNumField>();
-  const ImageBasis basis(camera_, {camera_.fx * xr_z + camera_.cx, camera_.fy * y_z + camera_.cy});
-  const Eigen::Matrix2d by_pixel = field.transpose().lazyProduct(basis.by_pixel);
-  const Eigen::Matrix<double, 2, 3> nominal_by_x = term.by_x.bottomRows<2>();
-  DisplaceRadially({xr_z, y_z}, 2, inverse_sigma, term);
-  term.right_by_field = basis.values * inverse_sigma;
-  term.residual.tail<2>() += field.transpose().lazyProduct(term.right_by_field);
-  term.by_x.bottomRows<2>() += by_pixel.lazyProduct(nominal_by_x);
+  if (observation.has_right) {
+    project(x_z - camera_.baseline_m * inverse_z, 2);
+  } else {
+    term.residual.tail<2>().setZero();
+    term.by_x.bottomRows<2>().setZero();
+  }
   return true;
 }
 
-void ReprojectionModel::DisplaceRadially(const Eigen::Vector2d& ray, int row, double inverse_sigma,
-                                         ReprojectionTerm& term) const {
-  constexpr int kNumRadial = StereoCorrection::kNumRadial;
-  const auto coefficients =
-      correction_.coefficients_px.segment<kNumRadial>(StereoCorrection::kNumField);
-  const Eigen::Vector2d p(radial_unit_ * (camera_.fx * ray.x()),
-                          radial_unit_ * (camera_.fy * ray.y()));
+ReprojectionModel::Displaced ReprojectionModel::Displace(const Eigen::Vector2d& from_centre,
+                                                         int row, double inverse_sigma,
+                                                         ReprojectionTerm& term) const {
+  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  const Eigen::Vector2d nominal = from_centre + Eigen::Vector2d(camera_.cx, camera_.cy);
+  Displaced at{nominal, Eigen::Matrix2d::Identity()};
+  if (!is_displaced_) return at;
+  const StereoCorrection::Coefficients& coefficients = correction_.coefficients_px;
+  const Eigen::Vector2d p = radial_unit_ * from_centre;
   const double r2 = p.squaredNorm();
   const auto gains = RadialBasis::Gains(r2);
-  const double gain = gains.dot(coefficients), slope = RadialBasis::Slopes(r2).dot(coefficients);
-  term.by_radial.middleRows<2>(row) = inverse_sigma * p * gains.transpose();
-  term.residual.segment<2>(row) += inverse_sigma * gain * p;
-  // The displacement's derivative by the pixel is radial_unit (gain I + slope p p^T).
-  const Eigen::RowVector3d along =
-      radial_unit_ * slope * p.transpose() * term.by_x.middleRows<2>(row);
-  term.by_x.middleRows<2>(row) *= 1 + radial_unit_ * gain;
-  term.by_x.middleRows<2>(row) += p * along;
+  const auto radial = coefficients.segment<kNumRadial>(kNumField);
+  const double gain = gains.dot(radial), slope = RadialBasis::Slopes(r2).dot(radial);
+  at.pixel += gain * p;
+  at.by_pixel.diagonal().array() += radial_unit_ * gain;
+  at.by_pixel += (radial_unit_ * slope * p).lazyProduct(p.transpose());
+  if (with_correction_) term.by_radial.middleRows<2>(row) = inverse_sigma * p * gains.transpose();
+  if (row == 0) return at;
+  const ImageBasis basis(camera_, nominal);
+  at.pixel += field_.lazyProduct(basis.values);
+  at.by_pixel += field_.lazyProduct(basis.by_pixel);
+  if (with_correction_) term.right_by_field = inverse_sigma * basis.values;
+  return at;
 }
 
 ConstraintTerm LinearizeConstraint(const PoseConstraint& constraint, const Rigid3& first_from_world,

@@ -84,7 +84,9 @@ void NormalEquations::EliminatePoint(int track, double damping) {
   }
   if (!problem_.correction_prior) return;
   const BorderMatrix<3> product = inverse * point_borders_[track];
-  reduced_.corner -= point_borders_[track].transpose().lazyProduct(product);
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxCoefficients, 3> by_point =
+      point_borders_[track].transpose();
+  reduced_.corner.noalias() -= by_point.lazyProduct(product);
   reduced_.corner_right.noalias() -= point_borders_[track].transpose() * inverse_right;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <vector>
 
 #include "arfm_vo/base/check.h"
 
@@ -44,25 +44,30 @@ LocalBundle MakeLocalBundle(const StereoCamera& camera, const StereoCorrection& 
   const int first_moving =
       std::max(1, static_cast<int>(keyframes.size()) - num_keyframes);  // the oldest is fixed
 
-  std::unordered_map<LandmarkId, int> rows;
+  std::vector<LandmarkId> seen;
   for (int k = first_moving; k < static_cast<int>(keyframes.size()); ++k) {
-    for (const LandmarkObservation& observation : keyframes[k].observations) {
-      const Landmark& landmark = map.landmarks().at(observation.landmark);
-      if (landmark.num_keyframes < 2) continue;  // fits whatever the poses are
-      if (!rows.emplace(landmark.id, rows.size()).second) continue;
-      bundle.landmarks.push_back(landmark.id);
-      bundle.problem.points.push_back(landmark.x_in_world);
-    }
+    for (const LandmarkObservation& one : keyframes[k].observations) seen.push_back(one.landmark);
   }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  for (const LandmarkId id : seen) {
+    const Landmark& landmark = map.landmarks().at(id);
+    if (landmark.num_keyframes < 2) continue;  // fits whatever the poses are
+    bundle.landmarks.push_back(id);
+    bundle.problem.points.push_back(landmark.x_in_world);
+  }
+  const std::vector<LandmarkId>& rows = bundle.landmarks;
   for (int k = 0; k < static_cast<int>(keyframes.size()); ++k) {
     const int pose = static_cast<int>(bundle.keyframes.size());
     bool sees_any = k >= first_moving;
+    auto row = rows.begin();
     for (const LandmarkObservation& observation : keyframes[k].observations) {
-      const auto row = rows.find(observation.landmark);
-      if (row == rows.end()) continue;
+      row = std::lower_bound(row, rows.end(), observation.landmark);
+      if (row == rows.end()) break;
+      if (*row != observation.landmark) continue;
       sees_any = true;
       bundle.problem.observations.push_back(
-          {WithRow(camera, correction, observation), pose, row->second});
+          {WithRow(camera, correction, observation), pose, static_cast<int>(row - rows.begin())});
     }
     if (!sees_any) continue;
     bundle.keyframes.push_back(keyframes[k].id);

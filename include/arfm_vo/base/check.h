@@ -12,6 +12,10 @@ namespace arfm_vo {
 inline void Require(bool condition, const std::string& message) {
   if (!condition) throw std::invalid_argument(message);
 }
+/// The same; where it holds no string is made.
+inline void Require(bool condition, const char* message) {
+  if (!condition) throw std::invalid_argument(message);
+}
 
 /// Throws std::system_error with `message` and the error, by default that of the last system call.
 [[noreturn]] inline void ThrowSystemError(const std::string& message, int error = errno) {

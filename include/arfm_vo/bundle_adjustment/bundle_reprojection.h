@@ -16,7 +16,8 @@ struct ReprojectionTerm {
   Eigen::Vector3d x;                 ///< m, camera frame
   Eigen::Matrix<double, 4, 3> by_x;  ///< derivative by x
   /// Derivative of the third row by the correction's coefficients of u, which is that of the fourth
-  /// by its coefficients of v; other rows do not depend on these.
+  /// by its coefficients of v; other rows do not depend on these. This and the next are set where
+  /// derivatives by the correction are wanted.
   Eigen::Matrix<double, StereoCorrection::kNumField, 1> right_by_field;
   Eigen::Matrix<double, 4, StereoCorrection::kNumRadial> by_radial;
 
@@ -44,12 +45,19 @@ class ReprojectionModel {
                 Eigen::Vector4d& residual) const;
 
  private:
-  /// Adds the radial displacement to the two rows of `term` from `row` on, whose ray is (x/z, y/z).
-  void DisplaceRadially(const Eigen::Vector2d& ray, int row, double inverse_sigma,
-                        ReprojectionTerm& term) const;
+  struct Displaced {
+    Eigen::Vector2d pixel;
+    Eigen::Matrix2d by_pixel;  ///< derivative by where it would be without the correction
+  };
+  /// Where the correction moves what is so many px from the principal point of the image that has
+  /// the rows of `term` from `row` on, whose derivatives by the correction it fills.
+  Displaced Displace(const Eigen::Vector2d& from_centre, int row, double inverse_sigma,
+                     ReprojectionTerm& term) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;
+  Eigen::Matrix<double, 2, StereoCorrection::kNumField> field_;  ///< (u, v) of the right image
+  bool with_correction_;
   bool is_displaced_;   ///< the correction is not zero, or derivatives by it are wanted
   double radial_unit_;  ///< px^-1, of RadialBasis
 };
