@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace arfm_vo {
 namespace {
 
@@ -238,17 +236,6 @@ TEST(AreDepthsKnown, PointsTooFarTellNoLengthOfThePath) {
   EXPECT_TRUE(AreKnownAt(35, 4)) << "the near ones tell it";
   EXPECT_FALSE(AreKnownAt(1.5, 2));
   EXPECT_FALSE(AreKnownAt(35, 0));
-}
-
-TEST(Reasons, EachHasItsTextAndItsEffectInItsPlace) {
-  std::set<std::string> texts;
-  for (size_t i = 0; i < ListReasons().size(); ++i) {
-    const ReasonRow& row = ListReasons()[i];
-    EXPECT_EQ(static_cast<size_t>(row.reason), i);
-    EXPECT_TRUE(texts.insert(row.text).second) << row.text;
-    EXPECT_NE(std::string(row.effect), "");
-  }
-  EXPECT_EQ(static_cast<size_t>(Reason::kNoConsensus) + 1, ListReasons().size());
 }
 
 }  // namespace
