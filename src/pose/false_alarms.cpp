@@ -1,5 +1,7 @@
 #include "arfm_vo/pose/false_alarms.h"
 
+#include <math.h>  // lgamma_r is POSIX
+
 #include <cmath>
 
 #include "arfm_vo/pose/pose_estimator.h"
@@ -7,14 +9,17 @@
 namespace arfm_vo {
 namespace {
 
-/// A wrong match lies anywhere where it was looked for, 40 px around; it agrees within 3 sigma, some
-/// 2 px. (Both images must agree, and a search through the whole image is wider: less by far.)
+/// A wrong match lies anywhere where it was looked for, 40 px around; it agrees within 3 sigma,
+/// some 2 px. (Both images must agree, and a search through the whole image is wider: less by far.)
 constexpr double kChance = 0.003;
 constexpr double kMaxFalseAlarms = 1e-4;  ///< of an image
 
-double LogChoose(int n, int k) {
-  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+double LogFactorial(int n) {
+  int sign = 0;  // std::lgamma keeps it where other threads write as well
+  return lgamma_r(n + 1, &sign);
 }
+
+double LogChoose(int n, int k) { return LogFactorial(n) - LogFactorial(k) - LogFactorial(n - k); }
 
 }  // namespace
 
