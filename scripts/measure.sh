@@ -13,7 +13,7 @@ benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet  
 closed_loop          test/rehearsal/closed_loop.sh           12_min  -             24 simulated drives to a goal
 coverage             test/static_checks/coverage.sh          25_min  gcovr         lines and branches that the tests reach
 experiments          test/experiments/experiments.sh         10_min  KITTI         section 4 of the paper
-fault_campaign       test/faults/fault_campaign.sh           15_min  quiet         faults in the running nodes, time to stop
+fault_campaign       test/faults/fault_campaign.sh           26_min  quiet         faults in the running nodes, time to stop
 fault_table          test/faults/fault_table.sh              10_s    -             faults in process, time to stop
 fuzz                 test/fuzz/fuzz.sh                       15_min  clang         readers of bytes from outside
 malformed_input      test/fuzz/malformed_input.sh            15_min  -             malformed messages, with sanitizers

@@ -2,6 +2,7 @@
 
 #include <math.h>  // lgamma_r is POSIX
 
+#include <algorithm>
 #include <cmath>
 
 #include "arfm_vo/pose/pose_estimator.h"
@@ -28,8 +29,8 @@ double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance) {
          (num_agreeing - kSamplePoints) * log_chance;
 }
 
-int LeastAgreeing(int num_matches) {
-  int least = kSamplePoints + 1;
+int LeastAgreeing(int num_matches, int at_least) {
+  int least = std::max(kSamplePoints + 1, at_least);
   while (least <= num_matches &&
          LogFalseAlarms(num_matches, least, std::log(kChance)) > std::log(kMaxFalseAlarms)) {
     ++least;

@@ -14,7 +14,7 @@ Consensus::Consensus(const StereoCamera& camera, const std::vector<PointObservat
                      const PoseEstimatorOptions& options)
     : camera_(camera),
       observations_(observations),
-      least_(std::max(options.min_inliers, LeastAgreeing(static_cast<int>(observations.size())))),
+      least_(LeastAgreeing(static_cast<int>(observations.size()), options.min_inliers)),
       bounds_{ChiSquareQuantile(2, kInlierProbability), ChiSquareQuantile(3, kInlierProbability)} {
   spreads_.reserve(observations.size());
   for (const PointObservation& observation : observations) {

@@ -44,7 +44,7 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.num_matches = num_observations;
   if (is_inlier) is_inlier->assign(observations.size(), 0);
   estimate.status = PoseStatus::kTooFewMatches;
-  const int least = std::max(options.min_inliers, LeastAgreeing(num_observations));
+  const int least = LeastAgreeing(num_observations, options.min_inliers);
   if (num_observations < least) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;

@@ -86,7 +86,7 @@ class Refiner {
   /// New points join where they agree with the pose of these: on something that moves they agree
   /// with one another so well that they would take the pose along.
   void BeginWithProven() {
-    constexpr int kEnough = 15;
+    constexpr int kEnough = 15;  // fewer hardly fix a pose: all begin
     for (const PointObservation& observation : observations_) {
       result_.is_inlier.push_back(observation.is_proven);
     }

@@ -208,13 +208,13 @@ std::vector<char> PatchTracker::Refine(const Correspondences& patches,
                                        TrackedFrame& tracked) const {
   PoseRefinement refined =
       RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
+  const int num_patches = static_cast<int>(patches.points.size());
   const double enough =
-      std::max<double>(LeastAgreeing(static_cast<int>(patches.points.size())),
-                       options_.min_inlier_share * static_cast<double>(patches.points.size()));
+      std::max<double>(LeastAgreeing(num_patches), options_.min_inlier_share * num_patches);
   if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) return {};
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
-  tracked.pose.num_matches = static_cast<int>(patches.points.size());
+  tracked.pose.num_matches = num_patches;
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;
   tracked.observations = patches.Select(refined.is_inlier, 1);

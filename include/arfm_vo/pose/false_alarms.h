@@ -8,7 +8,8 @@ namespace arfm_vo {
 double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance);
 
 /// The least number of `num_matches` matches, looked for near where they are expected, that agree
-/// with a pose by chance in fewer than one image in 10,000; more than `num_matches` where all may.
-int LeastAgreeing(int num_matches);
+/// with a pose by chance in fewer than one image in 10,000, but `at_least`; more than `num_matches`
+/// where all may.
+int LeastAgreeing(int num_matches, int at_least = 0);
 
 }  // namespace arfm_vo
