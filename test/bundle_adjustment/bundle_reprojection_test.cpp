@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/numeric_derivative.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
 namespace {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 StereoCorrection MakeCorrection() {
   StereoCorrection correction;
@@ -47,6 +46,14 @@ TEST(BundleReprojection, APointBehindTheCameraIsALargeConstant) {
   EXPECT_TRUE(term.by_x.isZero(0));
 }
 
+/// Of residuals in pixels by steps of 1e-5.
+template <int kInputs, class Residual, class Analytic>
+void ExpectDerivative(const Residual& residual, const Analytic& analytic) {
+  const auto numeric = NumericDerivative<4, kInputs>(residual, 1e-5);
+  for (int i = 0; i < kInputs; ++i)
+    EXPECT_LT((analytic.col(i) - numeric.col(i)).norm(), 1e-5 * (1 + numeric.col(i).norm())) << i;
+}
+
 TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
   RandomEngine engine(1);
   for (int trial = 0; trial < 20; ++trial) {
@@ -55,41 +62,24 @@ TEST(BundleReprojection, DerivativesAgreeWithNumericOnes) {
                             5 + 20 * RandomUnit(engine));
     const Eigen::Vector3d point = pose.Inverse() * x;
     const BundleObservation observation{{{600, 180, 590, 180}, true, 0.7}, 0, 0};
-    const auto residual = [&](const Vector6d& pose_step, const Eigen::Vector3d& point_step,
-                              const StereoCorrection::Coefficients& change) {
-      const Rigid3 moved = BoxPlus(pose, pose_step);
+    const auto residual = [&](const Rigid3& camera, const Eigen::Vector3d& at,
+                              const StereoCorrection::Coefficients& px) {
       Eigen::Vector4d value;
-      ReprojectionModel(kBundleCamera, {kCorrection.coefficients_px + change}, false)
-          .Evaluate(observation, moved.RotationMatrix(), moved.translation, point + point_step,
-                    value);
+      ReprojectionModel(kBundleCamera, {px}, false)
+          .Evaluate(observation, camera.RotationMatrix(), camera.translation, at, value);
       return value;
     };
-    const Vector6d zero6 = Vector6d::Zero();
-    const Eigen::Vector3d zero3 = Eigen::Vector3d::Zero();
-    const StereoCorrection::Coefficients zero20 = StereoCorrection::Coefficients::Zero();
+    const StereoCorrection::Coefficients& px = kCorrection.coefficients_px;
     ReprojectionTerm term;
     ReprojectionModel(kBundleCamera, kCorrection, true)
         .Linearize(observation, pose.RotationMatrix(), pose.translation, point, term);
-    EXPECT_LT((term.residual - residual(zero6, zero3, zero20)).norm(), 1e-9);
-    constexpr double kStep = 1e-5;
-    const auto expect_near = [](const Eigen::Vector4d& analytic, const Eigen::Vector4d& numeric) {
-      EXPECT_LT((analytic - numeric).norm(), 1e-5 * (1 + numeric.norm()));
-    };
-    for (int i = 0; i < 6; ++i) {
-      const Vector6d step = kStep * Vector6d::Unit(i);
-      expect_near(term.ByPose().col(i),
-                  (residual(step, zero3, zero20) - residual(-step, zero3, zero20)) / (2 * kStep));
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
-      expect_near(term.ByPoint(pose.RotationMatrix()).col(i),
-                  (residual(zero6, step, zero20) - residual(zero6, -step, zero20)) / (2 * kStep));
-    }
-    for (int i = 0; i < StereoCorrection::kSize; ++i) {
-      const StereoCorrection::Coefficients step = kStep * StereoCorrection::Coefficients::Unit(i);
-      expect_near(term.ByCorrection().col(i),
-                  (residual(zero6, zero3, step) - residual(zero6, zero3, -step)) / (2 * kStep));
-    }
+    EXPECT_LT((term.residual - residual(pose, point, px)).norm(), 1e-9);
+    ExpectDerivative<6>([&](const auto& d) { return residual(BoxPlus(pose, d), point, px); },
+                        term.ByPose());
+    ExpectDerivative<3>([&](const auto& d) { return residual(pose, point + d, px); },
+                        term.ByPoint(pose.RotationMatrix()));
+    ExpectDerivative<StereoCorrection::kSize>(
+        [&](const auto& d) { return residual(pose, point, px + d); }, term.ByCorrection());
   }
 }
 
@@ -112,20 +102,15 @@ TEST(PoseConstraint, DerivativesAgreeWithNumericOnes) {
     const Rigid3 off(ExpSO3(0.3 * RandomNormal3(engine)), 0.5 * RandomNormal3(engine));
     const Rigid3 second = off * constraint.second_from_first * first;
     const ConstraintTerm term = LinearizeConstraint(constraint, first, second);
-    constexpr double kStep = 1e-6;
-    for (int i = 0; i < 6; ++i) {
-      const Vector6d step = kStep * Vector6d::Unit(i);
-      const Vector6d by_first =
-          (LinearizeConstraint(constraint, BoxPlus(first, step), second).residual -
-           LinearizeConstraint(constraint, BoxPlus(first, -step), second).residual) /
-          (2 * kStep);
-      const Vector6d by_second =
-          (LinearizeConstraint(constraint, first, BoxPlus(second, step)).residual -
-           LinearizeConstraint(constraint, first, BoxPlus(second, -step)).residual) /
-          (2 * kStep);
-      EXPECT_LT((term.by_first.col(i) - by_first).norm(), 1e-6);
-      EXPECT_LT((term.by_second.col(i) - by_second).norm(), 1e-6);
-    }
+    const auto residual = [&](const Rigid3& one, const Rigid3& other) {
+      return LinearizeConstraint(constraint, one, other).residual;
+    };
+    const auto by_first = NumericDerivative<6, 6>(
+        [&](const auto& d) { return residual(BoxPlus(first, d), second); }, 1e-6);
+    const auto by_second = NumericDerivative<6, 6>(
+        [&](const auto& d) { return residual(first, BoxPlus(second, d)); }, 1e-6);
+    EXPECT_LT((term.by_first - by_first).colwise().norm().maxCoeff(), 1e-6);
+    EXPECT_LT((term.by_second - by_second).colwise().norm().maxCoeff(), 1e-6);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/numeric_derivative.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -12,14 +14,12 @@ TEST(PointCovariance, AgreesWithNumericPropagation) {
   StereoPoint point;
   point.sigma_px = 0.5;
   point.x_in_camera = kCamera.Triangulate(pixels.x(), pixels.y(), pixels.x() - pixels.z());
-  Eigen::Matrix3d jacobian;
-  for (int i = 0; i < 3; ++i) {
-    Eigen::Vector3d moved = pixels;
-    moved[i] += 1e-6;
-    jacobian.col(i) =
-        (kCamera.Triangulate(moved.x(), moved.y(), moved.x() - moved.z()) - point.x_in_camera) /
-        1e-6;
-  }
+  const Eigen::Matrix3d jacobian = NumericDerivative<3, 3>(
+      [&](const Eigen::Vector3d& step) -> Eigen::Vector3d {
+        const Eigen::Vector3d moved = pixels + step;
+        return kCamera.Triangulate(moved.x(), moved.y(), moved.x() - moved.z());
+      },
+      1e-6);
   const Eigen::Matrix3d expected = 0.25 * jacobian * jacobian.transpose();
   EXPECT_LT((PointCovariance(kCamera, point) - expected).norm(), 1e-4 * expected.norm());
 }
