@@ -1,20 +1,13 @@
-#include <arfm_vo/DriveStatus.h>
 #include <arpa/inet.h>
-#include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
-#include <ros/ros.h>
 #include <signal.h>
-#include <std_srvs/Trigger.h>
-
-#include <algorithm>
 
 #include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/start_check.h"
 #include "arfm_vo/hardware/file_descriptor.h"
-#include "arfm_vo/simulation/simulated_chassis.h"
 #include "hardware/guard/started_process.h"
+#include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
-#include "simulation/tapped_bus.h"
 
 // chassis_node behind chassis_guard, both as processes, and a chassis on the bus whose time-out of
 // 0.5 s is longer than what is allowed here. Wall time.
@@ -38,6 +31,7 @@ class GuardedNodeTest : public ::testing::Test {
   }
   void StartNode() {
     node_.reset();
+    world_.ForgetNode();
     // All but the emergency stop: that of the guard must not keep a start from releasing it.
     ros::param::set("/guarded/chassis_node/pilot/overridden_checks",
                     std::vector<std::string>(std::begin(kCheckItems) + 1, std::end(kCheckItems)));
@@ -45,75 +39,42 @@ class GuardedNodeTest : public ::testing::Test {
         "chassis_node", "__ns:=guarded", "_can:=guard:udp:3" + digits_ + ":4" + digits_,
         "_pilot/velocity_needs_pose:=false", "_pilot/operator_watch/is_required:=false"});
   }
-  static double Now() { return ros::SteadyTime::now().toSec(); }
-
-  template <class Done>
-  bool RunUntil(Done&& done, double limit_s = 30) {
-    const double end_s = Now() + limit_s;
-    bool is_done = false;
-    for (double looked_s = Now(); !is_done && Now() < end_s; is_done = done()) {
-      held_up_s_ = std::max(held_up_s_, Now() - looked_s);
-      looked_s = Now();
-      chassis_.Tick(Now());
-      if (Now() >= velocity_due_s_) {
-        geometry_msgs::Twist ahead;
-        ahead.linear.x = 0.1;
-        velocity_.publish(ahead);
-        velocity_due_s_ = Now() + 0.04;
-      }
-      ros::spinOnce();
-      ros::WallDuration(0.001).sleep();
-    }
-    return is_done;
-  }
-  bool Moves() {
-    return RunUntil([this] { return log_.last.forward_mps > 0.09 && Speed() > 0.09; }, 6);
-  }
-  double Speed() const { return chassis_.plant().Speeds().left_mps; }
+  bool RunUntil(const std::function<bool()>& done) { return world_.RunUntil(done, 30); }
+  double Speed() const { return world_.chassis_.plant().Speeds().left_mps; }
   /// A person starts it until it drives.
   void Drive() {
-    bool moves = false;
-    for (int i = 0; i < 10 && !moves; ++i) {
-      std_srvs::Trigger start;
-      velocity_due_s_ = Now() + 60;  // a start is refused while a velocity is commanded
-      RunUntil([&] {
-        return ros::service::call("/guarded/chassis_node/start", start) && start.response.success;
-      });
-      velocity_due_s_ = 0;
-      moves = Moves();
-    }
-    ASSERT_TRUE(moves) << status_.state_text << ": " << status_.reason << " " << status_.detail;
-    held_up_s_ = 0;
+    ASSERT_TRUE(world_.IsConnected());
+    world_.Drive([this] { world_.velocity_mps_ = 0.1; });
+    ASSERT_TRUE(RunUntil([this] { return Speed() > 0.09; }));
+    world_.held_up_s_ = 0;
   }
   /// From now to the zero on the bus and to the tracks' rest; what the machine held this test up
   /// for does not count.
   void ExpectToStop(const std::string& what) {
-    const double began_s = Now(), way_m = chassis_.plant().DrivenDistance();
-    EXPECT_TRUE(RunUntil([&] { return log_.last.IsZero() && Speed() < 1e-3; })) << what;
-    const double stop_s = log_.stopped_s - began_s, held_up_s = held_up_s_;
-    const double gone_m = chassis_.plant().DrivenDistance() - way_m;
+    const double began_s = World::Now(), way_m = world_.chassis_.plant().DrivenDistance();
+    EXPECT_TRUE(RunUntil([&] { return world_.log_.last.IsZero() && Speed() < 1e-3; })) << what;
+    const double stop_s = world_.log_.stopped_s - began_s, held_up_s = world_.held_up_s_;
+    const double gone_m = world_.chassis_.plant().DrivenDistance() - way_m;
     std::printf("%s: zero after %.0f ms, %.3f m\n", what.c_str(), 1000 * stop_s, gone_m);
     EXPECT_LT(stop_s, kMaxStop_s + held_up_s) << what;
     EXPECT_LT(gone_m, kMaxWay_m + 0.1 * held_up_s) << what;
   }
+  /// From now on, for a second, although velocities are commanded.
+  void ExpectToStand(const std::string& why) {
+    world_.log_.fastest_mps = 0;
+    world_.Run(1);
+    EXPECT_EQ(world_.log_.fastest_mps, 0) << why;
+  }
   void ExpectToSay(const std::string& reason, const std::string& detail) {
+    const DriveStatus& status = world_.status_;
     EXPECT_TRUE(RunUntil([&] {
-      return status_.reason == reason && status_.detail.find(detail) != std::string::npos;
-    })) << status_.reason
-        << " " << status_.detail;
+      return status.reason == reason && status.detail.find(detail) != std::string::npos;
+    })) << status.reason
+        << " " << status.detail;
   }
 
-  ros::NodeHandle names_{"guarded"};
   std::string digits_ = ros::param::param<std::string>("~digits", "");
-  TappedBus::Log log_;
-  SimulatedChassis chassis_{
-      std::make_unique<TappedBus>(OpenCanBus("udp:4" + digits_ + ":3" + digits_), &log_),
-      TrackedPlant(TrackedPlantOptions{}, RoverPose{})};
-  ros::Publisher velocity_ = names_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
-  DriveStatus status_;
-  ros::Subscriber status_subscriber_ = names_.subscribe<DriveStatus>(
-      "drive_status", 10, [this](const DriveStatus::ConstPtr& status) { status_ = *status; });
-  double velocity_due_s_ = 0, held_up_s_ = 0;
+  World world_{"guarded", "udp:4" + digits_ + ":3" + digits_};
   std::unique_ptr<StartedProcess> guard_, node_;
 };
 
@@ -135,20 +96,18 @@ TEST_F(GuardedNodeTest, AGuardThatIsKilledOrHangsIsABusThatIsDownAndTheNodeSends
   guard_->Signal(SIGKILL);
   ExpectToStop("chassis_guard killed");
   ExpectToSay("CAN bus is down", "chassis_guard does not answer");
-  const int num_commands = log_.num_commands;
-  RunUntil([] { return false; }, 0.5);
-  EXPECT_GT(log_.num_commands, num_commands + 10);
-  EXPECT_TRUE(log_.last.IsZero());
+  const int num_commands = world_.log_.num_commands;
+  world_.Run(0.5);
+  EXPECT_GT(world_.log_.num_commands, num_commands + 10);
+  EXPECT_TRUE(world_.log_.last.IsZero());
   StartGuard();
   Drive();
   guard_->Signal(SIGSTOP);
   ExpectToStop("chassis_guard hangs");
   ExpectToSay("CAN bus is down", "chassis_guard does not answer");
-  RunUntil([] { return false; }, 1.5);
+  world_.Run(1.5);
   guard_->Signal(SIGCONT);
-  log_.fastest_mps = 0;
-  RunUntil([] { return false; }, 1);
-  EXPECT_EQ(log_.fastest_mps, 0) << "it wakes up with old commands";
+  ExpectToStand("it wakes up with old commands");
   Drive();
 }
 
@@ -162,9 +121,7 @@ TEST_F(GuardedNodeTest, APacketStopsUntilTheOperatorStartsAnew) {
   ::sendto(person.Get(), "stop", 4, 0, reinterpret_cast<sockaddr*>(&address), sizeof(address));
   ExpectToStop("a packet");
   ExpectToSay("software emergency stop is set", "by chassis_guard");
-  log_.fastest_mps = 0;
-  RunUntil([] { return false; }, 1);
-  EXPECT_EQ(log_.fastest_mps, 0);
+  ExpectToStand("until a start");
   Drive();
 }
 
@@ -176,7 +133,7 @@ TEST_F(GuardedNodeTest, TheOperatorsScriptSendsThePacket) {
                             .c_str(),
                         "r");
   ASSERT_NE(relay, nullptr);
-  EXPECT_TRUE(RunUntil([this] { return log_.last.IsZero(); }));
+  EXPECT_TRUE(RunUntil([this] { return world_.log_.last.IsZero(); }));
   ExpectToSay("software emergency stop is set", "by chassis_guard");
   int status = 0;
   const std::string said = Finish(relay, status);
@@ -185,13 +142,13 @@ TEST_F(GuardedNodeTest, TheOperatorsScriptSendsThePacket) {
 
 TEST_F(GuardedNodeTest, ARoverThatRunsAwayIsBrakedAndDrivesOnAfterAStart) {
   Drive();
-  chassis_.SetRunaway(PlanarMotion{0.3, 0});
-  EXPECT_TRUE(RunUntil([this] { return chassis_.is_brake_on(); }));
+  world_.chassis_.SetRunaway(PlanarMotion{0.3, 0});
+  EXPECT_TRUE(RunUntil([this] { return world_.chassis_.is_brake_on(); }));
   ExpectToSay("tracks run faster than commanded", "");
-  chassis_.SetRunaway({});
+  world_.chassis_.SetRunaway({});
   RunUntil([this] { return Speed() < 1e-3; });
   Drive();
-  EXPECT_FALSE(chassis_.is_brake_on());
+  EXPECT_FALSE(world_.chassis_.is_brake_on());
 }
 
 }  // namespace

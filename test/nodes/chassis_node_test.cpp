@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
-#include <limits>
-#include <regex>
 
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
@@ -67,16 +65,6 @@ class ChassisNodeTest : public ::testing::Test {
         std::count_if(world_->reports_.begin(), world_->reports_.end(),
                       [](const auto& report) { return report.result == GoalReport::ARRIVED; }));
   }
-  /// The node is asked to end by `signal` while the rover drives.
-  static void ExpectToLeaveTheRoverStanding(int signal) {
-    DriveFarAhead();
-    world_->log_.last_mode = ControlMode::kUnknown;
-    const double killed_s = World::Now();
-    ASSERT_EQ(::kill(PidOf("/chassis_node"), signal), 0);
-    EXPECT_LT(SecondsToStop(killed_s), kPatience_s);
-    EXPECT_TRUE(world_->RunUntil([] { return world_->log_.last_mode == ControlMode::kStandby; }));
-    world_->ForgetNode();  // roslaunch starts it anew
-  }
   static Eigen::Vector3d Place() { return world_->chassis_.plant().WorldFromBase().translation; }
 
   static World* world_;
@@ -92,20 +80,6 @@ TEST_F(ChassisNodeTest, SaysNothingOnTheBusBeforeStart) {
   world_->Call("cancel");
 }
 
-TEST_F(ChassisNodeTest, RefusesGoalsThatAreNone) {
-  world_->SendGoal(std::numeric_limits<double>::quiet_NaN(), 0);
-  EXPECT_TRUE(Refuses("its position is not finite"));
-  world_->SendGoal(1, 0, "moon");
-  EXPECT_TRUE(Refuses("frame 'moon'"));
-  world_->goal_stamp_ = ros::Time();
-  world_->SendGoal(1, 0);
-  EXPECT_TRUE(Refuses("it has no stamp"));
-  world_->goal_stamp_ = ros::Time::now() - ros::Duration(30);
-  world_->SendGoal(1, 0);
-  EXPECT_TRUE(Refuses("s old, older than 5"));
-  world_->goal_stamp_.reset();
-}
-
 TEST_F(ChassisNodeTest, ASecondNodeOnTheBusIsRefused) {
   std::string can;
   ASSERT_TRUE(ros::param::get("/chassis_node/can", can));
@@ -115,18 +89,6 @@ TEST_F(ChassisNodeTest, ASecondNodeOnTheBusIsRefused) {
   EXPECT_NE(status, 0);
   EXPECT_NE(said.find("another driver has it"), std::string::npos) << said;
   world_->Run(1);  // chassis and operator were silent meanwhile
-}
-
-TEST_F(ChassisNodeTest, DrivesToAGoalBeforeTheRoverAndReportsIt) {
-  ASSERT_TRUE(world_->Call("start").success);
-  world_->SendGoal(0.4, 0);
-  const auto has_arrived = [] {
-    return !world_->reports_.empty() && world_->reports_.back().result == GoalReport::ARRIVED;
-  };
-  ASSERT_TRUE(world_->RunUntil(has_arrived)) << world_->status_.reason;
-  EXPECT_NEAR(world_->chassis_.plant().Pose().x_m, 0.4, 0.05);
-  EXPECT_LE(world_->log_.fastest_mps, 0.1);
-  EXPECT_TRUE(world_->log_.last.IsZero());
 }
 
 TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
@@ -143,6 +105,8 @@ TEST_F(ChassisNodeTest, DrivesByWayOfWaypoints) {
   ASSERT_TRUE(has_arrived) << world_->status_.reason;
   EXPECT_LT(nearest_to_corner_m, 0.15);  // straight ahead it would be 0.23
   EXPECT_LT((Place().head<2>() - end).norm(), 0.05);
+  EXPECT_LE(world_->log_.fastest_mps, 0.1);
+  EXPECT_TRUE(world_->log_.last.IsZero());
 }
 
 TEST_F(ChassisNodeTest, TheStopServiceStops) {
@@ -207,14 +171,6 @@ TEST_F(ChassisNodeTest, AnOdometryThatIsRestartedDropsTheGoalAndBlocks) {
   EXPECT_EQ(world_->status_.state, DriveStatus::READY);
 }
 
-TEST_F(ChassisNodeTest, AMapFrameThatIsNoLongerToldStops) {
-  DriveFarAhead();
-  world_->has_map_ = false;
-  EXPECT_TRUE(Says("map frame is no longer told"));
-  EXPECT_TRUE(world_->log_.last.IsZero());
-  world_->has_map_ = true;
-}
-
 TEST_F(ChassisNodeTest, StampsOfTheEndOfTimeAreIgnored) {
   DriveFarAhead();
   world_->SendStampsOfTheEnd();
@@ -237,15 +193,14 @@ TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
   EXPECT_TRUE(world_->Call("set_datum").success);
 }
 
-TEST_F(ChassisNodeTest, LosingTheOdometryStopsAndHavingItBackResumes) {
+TEST_F(ChassisNodeTest, WithoutAMapOrAPoseItStopsAndHavingItBackResumes) {
   DriveFarAhead();
+  ExpectToStop([] { world_->has_map_ = false; }, 1.1, "map frame is no longer told");
+  world_->has_map_ = true;
+  EXPECT_TRUE(Moves());
   ExpectToStop([] { world_->variance_m2_ = 9999; }, 0, "pose is too uncertain");
   world_->variance_m2_ = 1e-4;
   EXPECT_TRUE(Moves());
-}
-
-TEST_F(ChassisNodeTest, AStalePoseStops) {
-  DriveFarAhead();
   ExpectToStop([] { world_->has_sight_ = false; }, 1.0, "pose is stale");
   world_->Call("stop");
   EXPECT_FALSE(world_->Call("start").success) << "the start-up check misses the camera";
@@ -260,54 +215,17 @@ TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {
   EXPECT_TRUE(world_->log_.last.IsZero());
 }
 
-TEST_F(ChassisNodeTest, AnswersThatAreLateRepeatedOrForeignAreNobody) {
-  const auto expect_nobody = [](const std::string& refused) {
-    EXPECT_TRUE(world_->RunUntil([&] {
-      world_->Run(0.2);
-      return std::regex_search(world_->Call("start").message, std::regex("[1-9][0-9]* " + refused));
-    })) << refused;
-    world_->Run(1);
-    EXPECT_FALSE(world_->Call("start").success) << refused;
-  };
-  DriveFarAhead();
-  world_->answer_delay_s_ = 0.7;
-  EXPECT_TRUE(Says("operator does not answer"));
-  expect_nobody("late");
-  world_->answer_delay_s_ = 0;
-  world_->spoil_answer_ = [](OperatorChallenge& challenge) { challenge.rover = "another"; };
-  expect_nobody("foreign");
-  world_->spoil_answer_ = [first = OperatorChallenge()](OperatorChallenge& challenge) mutable {
-    if (first.rover.empty()) first = challenge;
-    challenge = first;
-  };
-  expect_nobody("repeated");
-  world_->spoil_answer_ = [](OperatorChallenge&) {};
-  EXPECT_TRUE(world_->Start());
-}
-
-TEST_F(ChassisNodeTest, VelocitiesOfTwoNodesBlock) {
-  world_->Drive([] { world_->velocity_mps_ = 0.1; });
-  FILE* stranger = ::popen(
-      "timeout 60 rostopic pub __name:=stranger -r 5 /cmd_vel geometry_msgs/Twist "
-      "'{linear: {x: 0.05}}'",
-      "r");
-  ASSERT_NE(stranger, nullptr);
-  EXPECT_TRUE(Says("two nodes command velocities")) << world_->status_.reason;
-  EXPECT_NE(world_->status_.detail.find(ros::this_node::getName()), std::string::npos)
-      << world_->status_.detail;
-  EXPECT_TRUE(world_->RunUntil([] { return world_->log_.last.IsZero(); }));
-  world_->velocity_mps_ = 0;
-  ASSERT_EQ(::kill(PidOf("/stranger"), SIGINT), 0);
-  ::pclose(stranger);
-  world_->Run(1);  // chassis and operator were silent meanwhile
-}
-
-TEST_F(ChassisNodeTest, LosingItsTerminalLeavesTheRoverStandingInStandby) {
-  ExpectToLeaveTheRoverStanding(SIGHUP);
-}
-
-TEST_F(ChassisNodeTest, EndingTheNodeLeavesTheRoverStandingInStandby) {
-  ExpectToLeaveTheRoverStanding(SIGTERM);
+TEST_F(ChassisNodeTest, EndingTheNodeOrItsTerminalLeavesTheRoverStandingInStandby) {
+  for (const int signal : {SIGHUP, SIGTERM}) {
+    ASSERT_TRUE(world_->IsConnected());
+    DriveFarAhead();
+    world_->log_.last_mode = ControlMode::kUnknown;
+    const double killed_s = World::Now();
+    ASSERT_EQ(::kill(PidOf("/chassis_node"), signal), 0);
+    EXPECT_LT(SecondsToStop(killed_s), kPatience_s) << signal;
+    EXPECT_TRUE(world_->RunUntil([] { return world_->log_.last_mode == ControlMode::kStandby; }));
+    world_->ForgetNode();  // roslaunch starts it anew
+  }
 }
 
 /// For clock_stall.test, where time is simulated.

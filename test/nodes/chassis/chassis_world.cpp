@@ -13,8 +13,9 @@
 
 namespace arfm_vo {
 
-World::World()
-    : chassis_(OpenChassisBus(), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
+World::World(const std::string& name_space, const std::string& can)
+    : chassis_(OpenChassisBus(can), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
+      node_(name_space),
       goal_(node_.advertise<geometry_msgs::PoseStamped>("goal", 1)),
       waypoints_(node_.advertise<nav_msgs::Path>("waypoints", 1)),
       velocity_(node_.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
@@ -29,7 +30,7 @@ World::World()
 
 std_srvs::Trigger::Response World::Call(const std::string& service) {
   std_srvs::Trigger trigger;
-  EXPECT_TRUE(ros::service::call("chassis_node/" + service, trigger)) << service;
+  EXPECT_TRUE(ros::service::call(node_.resolveName("chassis_node/" + service), trigger)) << service;
   return trigger.response;
 }
 
@@ -90,10 +91,9 @@ void World::SendStampsOfTheEnd() {
   goal_stamp_.reset();
 }
 
-std::unique_ptr<CanBus> World::OpenChassisBus() {
-  std::string address;
-  if (!ros::param::get("~can", address)) throw std::runtime_error("no parameter ~can");
-  return std::make_unique<TappedBus>(OpenCanBus(address), &log_);
+std::unique_ptr<CanBus> World::OpenChassisBus(std::string can) {
+  if (can.empty() && !ros::param::get("~can", can)) throw std::runtime_error("no parameter ~can");
+  return std::make_unique<TappedBus>(OpenCanBus(can), &log_);
 }
 
 geometry_msgs::TransformStamped World::Transform(const std::string& parent,
@@ -129,9 +129,8 @@ nav_msgs::Odometry World::Odometry(const Rigid3& pose) const {
   return odometry;
 }
 
-void World::Answer(OperatorChallenge challenge) {
-  spoil_answer_(challenge);
-  if (has_operator_) answers_.push_back({Now() + answer_delay_s_, challenge});
+void World::Answer(const OperatorChallenge& challenge) {
+  if (has_operator_) answer_.publish(challenge);
 }
 
 void World::SendVelocity() {
@@ -151,7 +150,9 @@ void World::TellTime() {
 
 void World::Drive(const std::function<void()>& command) {
   bool moves = false;
-  for (int i = 0; i < 5 && !moves && Start(); ++i) {
+  for (int i = 0; i < 5 && !moves; ++i) {
+    velocity_mps_ = 0;  // while one is commanded a start is refused
+    if (!Start()) break;
     command();
     moves = RunUntil([this] { return log_.last.forward_mps > 0.09; }, 12);
   }
@@ -168,8 +169,6 @@ bool World::RunUntil(const std::function<bool()>& done, double limit_s) {
     chassis_.Tick(Now());
     if (has_clock_ && ros::Time::isSimTime()) TellTime();
     if (has_clock_ && Now() >= sight_due_s_) See();
-    for (; !answers_.empty() && Now() >= answers_.front().first; answers_.pop_front())
-      answer_.publish(answers_.front().second);
     if (velocity_mps_ != 0 && Now() >= velocity_due_s_) SendVelocity();
     ros::spinOnce();
     ros::WallDuration(0.002).sleep();

@@ -10,7 +10,6 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,7 +26,8 @@ namespace arfm_vo {
 /// sight in tf, an operator and goals. Wall time; where time is simulated, this is the clock.
 class World {
  public:
-  World();
+  /// The node's topics are in `name_space`; without an address the chassis' is the parameter ~can.
+  explicit World(const std::string& name_space = "", const std::string& can = "");
 
   /// Goes on until done(), at most for a minute; says whether it was done.
   bool RunUntil(const std::function<bool()>& done, double limit_s = 60);
@@ -61,8 +61,6 @@ class World {
   DriveStatus status_;
   std::vector<GoalReport> reports_;
   bool has_sight_ = true, has_map_ = true, has_operator_ = true, has_clock_ = true;
-  double answer_delay_s_ = 0;
-  std::function<void(OperatorChallenge&)> spoil_answer_ = [](OperatorChallenge&) {};
   double time_rate_ = 1;  // of simulated time
   double held_up_s_ = 0;  // for which the machine did not run this test, at most
   Rigid3 odom_from_world_;
@@ -71,12 +69,12 @@ class World {
   double velocity_mps_ = 0;  // told on cmd_vel where it is not 0
 
  private:
-  std::unique_ptr<CanBus> OpenChassisBus();
+  std::unique_ptr<CanBus> OpenChassisBus(std::string can);
   static geometry_msgs::TransformStamped Transform(const std::string& parent,
                                                    const std::string& child, const Rigid3& pose);
   void See();
   nav_msgs::Odometry Odometry(const Rigid3& pose) const;
-  void Answer(OperatorChallenge challenge);
+  void Answer(const OperatorChallenge& challenge);
   void SendVelocity();
   void TellTime();
   void TakeStatus(const DriveStatus& status) {
@@ -91,7 +89,6 @@ class World {
   ros::Subscriber challenge_subscriber_, status_subscriber_, report_subscriber_;
   tf2_ros::TransformBroadcaster broadcaster_;
   bool has_status_ = false;
-  std::deque<std::pair<double, OperatorChallenge>> answers_;  // and when they are due
   double sight_due_s_ = 0, velocity_due_s_ = 0, time_s_ = 0, told_s_ = 0;
 };
 

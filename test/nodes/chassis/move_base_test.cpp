@@ -171,14 +171,6 @@ TEST_F(MoveBaseTest, AFaultAbortsAndTheGoalIsNotDrivenToLater) {
   EXPECT_TRUE(world_->RunUntil([] { return world_->status_.state == DriveStatus::READY; }));
 }
 
-TEST_F(MoveBaseTest, AWrongPoseAborts) {
-  Drive(Ahead(40));
-  world_->RestartOdometry();
-  ASSERT_TRUE(world_->RunUntil([this] { return client_->getState().isDone(); }));
-  EXPECT_EQ(client_->getState().toString(), "ABORTED") << client_->getState().getText();
-  ExpectToStandWithoutAGoal();
-}
-
 TEST_F(MoveBaseTest, TheGoalOfAClientThatIsGoneIsDrivenToAndAnybodyCancelsIt) {
   Drive(Ahead(40));
   client_.reset();
