@@ -1,7 +1,6 @@
 // The panel's node, and chassis_node's services in the test's place.
 #include <arfm_vo/DriveStatus.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>

@@ -2,7 +2,6 @@
 #include <ros/ros.h>
 
 #include <cstdio>
-#include <map>
 #include <tuple>
 
 #include "arfm_vo/ros/messages/stereo_messages.h"
@@ -23,54 +22,39 @@ FILE* StartPlayer(const std::string& name, const std::string& parameters) {
 TEST(KittiPlayer, PublishesEveryPairWithItsTimeOnTheClock) {
   constexpr int kNumPairs = 5;
   const SequenceFolder folder(kNumPairs);
-  std::map<double, int> left, right, num_infos;
-  std::vector<double> truth_z;
-  sensor_msgs::CameraInfo left_info, right_info;
-  ros::NodeHandle node("/stereo");
-  using Image = sensor_msgs::Image;
-  using Info = sensor_msgs::CameraInfo;
-  const auto keep_grey = [](std::map<double, int>& greys) {
-    return [&greys](const Image::ConstPtr& image) {
-      greys[image->header.stamp.toSec()] = image->data.at(0);
-    };
-  };
-  const auto keep_info = [&](Info& last) {
-    return [&](const Info::ConstPtr& info) {
-      last = *info;
-      ++num_infos[info->header.stamp.toSec()];
-    };
-  };
   FILE* player =
       StartPlayer("player", "_sequence:=" + folder.Path() + " _rate_hz:=30 _end_delay_s:=0.5");
   // The player waits for the pictures' subscribers: the other topics must be connected before.
   WaitUntil([] { return !ros::Time::now().isZero(); }, "the clock");
-  const ros::Subscriber truth = node.subscribe<geometry_msgs::PoseStamped>(
-      "ground_truth", 100, [&](const geometry_msgs::PoseStamped::ConstPtr& pose) {
-        truth_z.push_back(pose->pose.position.z);
-      });
-  WaitUntil([&] { return truth.getNumPublishers() > 0; }, "ground_truth");
-  const std::vector<ros::Subscriber> subscribers = {
-      node.subscribe<Image>("left/image_rect", 100, keep_grey(left)),
-      node.subscribe<Image>("right/image_rect", 100, keep_grey(right)),
-      node.subscribe<Info>("left/camera_info", 100, keep_info(left_info)),
-      node.subscribe<Info>("right/camera_info", 100, keep_info(right_info))};
+  const Inbox<geometry_msgs::PoseStamped> truth("/stereo/ground_truth");
+  WaitUntil([&] { return truth.has_publisher(); }, "ground_truth");
+  const Inbox<sensor_msgs::CameraInfo> left_info("/stereo/left/camera_info"),
+      right_info("/stereo/right/camera_info");
+  const Inbox<sensor_msgs::Image> left("/stereo/left/image_rect"),
+      right("/stereo/right/image_rect");
+  const ros::Time last = ros::Time(kStampOffset_s) + ros::Duration(0.1 * (kNumPairs - 1));
+  const auto has_last = [&](const auto& infos) {
+    return infos.size() > 0 && infos.last().header.stamp == last;
+  };
   WaitUntil(
       [&] {
-        return left.size() + right.size() == 2 * kNumPairs &&
-               num_infos[kStampOffset_s + 0.4] == 2 && truth_z.size() == kNumPairs &&
-               ros::Time::now().toSec() >= kStampOffset_s + 0.4;
+        return left.size() + right.size() == 2 * kNumPairs && truth.size() == kNumPairs &&
+               has_last(left_info) && has_last(right_info) && ros::Time::now() >= last;
       },
       "all pairs");
   int status = -1;
   const std::string text = Finish(player, status);
   EXPECT_EQ(status, 0) << text;
-  ASSERT_EQ(left.size(), size_t(kNumPairs));
+  ASSERT_EQ(left.size(), kNumPairs);
   for (int i = 0; i < kNumPairs; ++i) {
-    EXPECT_EQ(left.at((ros::Time(kStampOffset_s) + ros::Duration(0.1 * i)).toSec()), 10 * i);
-    EXPECT_EQ(right.at((ros::Time(kStampOffset_s) + ros::Duration(0.1 * i)).toSec()), 10 * i + 5);
-    EXPECT_EQ(truth_z[i], i);
+    const ros::Time stamp = ros::Time(kStampOffset_s) + ros::Duration(0.1 * i);
+    EXPECT_EQ(left.all()[i].header.stamp, stamp);
+    EXPECT_EQ(right.all()[i].header.stamp, stamp);
+    EXPECT_EQ(left.all()[i].data.at(0), 10 * i);
+    EXPECT_EQ(right.all()[i].data.at(0), 10 * i + 5);
+    EXPECT_EQ(truth.all()[i].pose.position.z, i);
   }
-  EXPECT_NEAR(MakeStereoCamera(left_info, right_info).baseline_m, 0.5, 1e-9);
+  EXPECT_NEAR(MakeStereoCamera(left_info.last(), right_info.last()).baseline_m, 0.5, 1e-9);
 }
 
 TEST(KittiPlayer, AMistypedParameterOrAMissingFolderStopsItWithItsName) {

@@ -1,6 +1,5 @@
 #include <arfm_vo/DriveStatus.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
@@ -21,10 +20,14 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kCount_rad = 185.1428 / 3600 * kDegree;
 
-std::unique_ptr<SimulatedPtuPort> ptu;  ///< stays plugged in from test to test
-
 class PanTiltNodeTest : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    SimulatedPtuOptions options;
+    options.reset_time_s = 0.5;
+    ptu_ = std::make_unique<SimulatedPtuPort>(ros::param::param<std::string>("~port", ""), options);
+  }
+  static void TearDownTestSuite() { ptu_.reset(); }
   void Send(double pan_rad, double tilt_rad) {
     WaitUntil([this] { return commands_.getNumSubscribers() > 0; }, "the node");
     sensor_msgs::JointState command;
@@ -62,6 +65,7 @@ class PanTiltNodeTest : public testing::Test {
   Inbox<std_msgs::Bool> settled_{"/head/settled"};
   Inbox<std_msgs::String> refused_{"/head/refused"};
   Diagnoses diagnoses_;
+  static inline std::unique_ptr<SimulatedPtuPort> ptu_;  ///< stays plugged in from test to test
 };
 
 TEST_F(PanTiltNodeTest, DoesNotMoveAtItsStartAndGoesWhereItIsSent) {
@@ -69,8 +73,8 @@ TEST_F(PanTiltNodeTest, DoesNotMoveAtItsStartAndGoesWhereItIsSent) {
   EXPECT_NEAR(Position("pan"), 0, kCount_rad);
   for (const auto& state : joint_states_.all()) EXPECT_NEAR(state.position.at(0), 0, kCount_rad);
   GoTo(0.5, -0.3);
-  EXPECT_NEAR(ptu->Angle(PtuAxis::kPan), 0.5, kCount_rad);
-  EXPECT_NEAR(ptu->Angle(PtuAxis::kTilt), -0.3, kCount_rad);
+  EXPECT_NEAR(ptu_->Angle(PtuAxis::kPan), 0.5, kCount_rad);
+  EXPECT_NEAR(ptu_->Angle(PtuAxis::kTilt), -0.3, kCount_rad);
   // Stamped when the axes were read: in order, not in the future.
   ros::Time last;
   for (const auto& state : joint_states_.all()) {
@@ -102,7 +106,7 @@ TEST_F(PanTiltNodeTest, GoalsOutsideTheLimitsAreRefusedWithAMessage) {
   GoTo(0, 0);
   ExpectRefused(4, 0, "pan");
   ExpectRefused(0.1, NAN, "no number");
-  EXPECT_NEAR(ptu->Position(PtuAxis::kPan), 0, 1);
+  EXPECT_NEAR(ptu_->Position(PtuAxis::kPan), 0, 1);
 }
 
 TEST_F(PanTiltNodeTest, HomesWhenItIsAskedToAndNotWhileTheRoverDrives) {
@@ -131,11 +135,11 @@ TEST_F(PanTiltNodeTest, HomesWhenItIsAskedToAndNotWhileTheRoverDrives) {
 
 TEST_F(PanTiltNodeTest, AnUnpluggedLineIsAnErrorAndSurvived) {
   GoTo(0.2, 0);
-  ptu->Unplug();
+  ptu_->Unplug();
   diagnoses_.Await("pan-tilt", diagnostic_msgs::DiagnosticStatus::ERROR, "");
   WaitUntil([this] { return !IsSettled(); }, "unsettled");
   const int num_before = joint_states_.size();
-  ptu->Plug();
+  ptu_->Plug();
   WaitUntil([&] { return joint_states_.size() > num_before + 4; }, "readings");
   EXPECT_NEAR(Position("pan"), 0.2, kCount_rad);
   GoTo(-0.2, 0.1);
@@ -143,17 +147,3 @@ TEST_F(PanTiltNodeTest, AnUnpluggedLineIsAnErrorAndSurvived) {
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_pan_tilt");
-  const ros::NodeHandle keeper;  // between tests too
-  std::string port;
-  if (!ros::param::get("~port", port)) return 1;
-  arfm_vo::SimulatedPtuOptions options;
-  options.reset_time_s = 0.5;
-  arfm_vo::ptu = std::make_unique<arfm_vo::SimulatedPtuPort>(port, options);
-  const int status = RUN_ALL_TESTS();
-  arfm_vo::ptu.reset();
-  return status;
-}

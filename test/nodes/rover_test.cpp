@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
@@ -61,10 +60,59 @@ const std::set<std::string> kWays = {
     "/robot_state_publisher /tf /pose_node",
     "/robot_state_publisher /tf_static /pose_node",
     "/pose_node /tf /chassis_node",
-    "/ba_node /tf /chassis_node"};
+    "/ba_node /tf /chassis_node",
+    "/chassis_node /drive_status /black_box/recorder",
+    "/pose_node /odom /black_box/recorder",
+    "/pose_node /status /black_box/recorder",
+    "/stereo/stereo_camera_node /stereo/left/image_raw /black_box/pairs",
+    "/black_box/pairs /black_box/right/image_raw /black_box/recorder"};
+
+/// The chassis at the other end of the bus while it lives.
+class ChassisThread {
+ public:
+  explicit ChassisThread(const std::string& can)
+      : chassis_(OpenCanBus(can), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
+        thread_([this] {
+          while (!is_stopping_) {
+            chassis_.Tick(MonotonicNow());
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+        }) {}
+  ~ChassisThread() {
+    is_stopping_ = true;
+    thread_.join();
+  }
+
+ private:
+  SimulatedChassis chassis_;
+  std::atomic<bool> is_stopping_{false};
+  std::thread thread_;
+};
+
+std::string Parameter(const std::string& name) {
+  std::string value;
+  EXPECT_TRUE(ros::param::get("~" + name, value)) << name;
+  return value;
+}
 
 class RoverTest : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    SimulatedPtuOptions options;
+    options.reset_time_s = 0.5;
+    // The folder must be there before the recorder, which is started again until it is.
+    std::filesystem::create_directories(Parameter("bags"));
+    ptu_ = std::make_unique<SimulatedPtuPort>(Parameter("port"), options);
+    chassis_ = std::make_unique<ChassisThread>(Parameter("can"));
+  }
+  static void TearDownTestSuite() {
+    ptu_.reset();
+    chassis_.reset();
+    std::filesystem::remove_all(Parameter("bags"));
+  }
+
+  static inline std::unique_ptr<SimulatedPtuPort> ptu_;
+  static inline std::unique_ptr<ChassisThread> chassis_;
   Diagnoses diagnoses_;
 };
 
@@ -118,73 +166,15 @@ TEST_F(RoverTest, WithoutCamerasNoNodeIsBusy) {
     EXPECT_LT(CpuSeconds(PidOf(node)) - cpu_s[node], 0.3 * passed_s) << node;
 }
 
-std::string FolderOfBags() {
-  std::string folder;
-  EXPECT_TRUE(ros::param::get("~bags", folder));
-  return folder;
-}
-
 TEST_F(RoverTest, TheBlackBoxRecordsTheDrive) {
   const auto has_bag = [] {
-    for (const auto& file : std::filesystem::directory_iterator(FolderOfBags()))
+    for (const auto& file : std::filesystem::directory_iterator(Parameter("bags")))
       if (file.path().filename().string().rfind("drive_", 0) == 0 && file.file_size() > 0)
         return true;
     return false;
   };
   WaitUntil(has_bag, "a bag that grows");
-  const std::string recorder = " /black_box/recorder";
-  WaitUntil(
-      [&] {
-        const std::set<std::string> ways = ReadWays();
-        return ways.count("/chassis_node /drive_status" + recorder) &&
-               ways.count("/pose_node /odom" + recorder) &&
-               ways.count("/stereo/stereo_camera_node /stereo/left/image_raw /black_box/pairs") &&
-               ways.count("/black_box/pairs /black_box/right/image_raw" + recorder) &&
-               ways.count("/pose_node /status" + recorder);
-      },
-      "the recorder to listen");
 }
-
-/// The chassis at the other end of the bus while it lives.
-class ChassisThread {
- public:
-  explicit ChassisThread(const std::string& can)
-      : chassis_(OpenCanBus(can), TrackedPlant(TrackedPlantOptions{}, RoverPose{})),
-        thread_([this] {
-          while (!is_stopping_) {
-            chassis_.Tick(MonotonicNow());
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-          }
-        }) {}
-  ~ChassisThread() {
-    is_stopping_ = true;
-    thread_.join();
-  }
-
- private:
-  SimulatedChassis chassis_;
-  std::atomic<bool> is_stopping_{false};
-  std::thread thread_;
-};
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_rover");
-  const ros::NodeHandle keeper;  // between tests too
-  std::string port, can;
-  if (!ros::param::get("~port", port) || !ros::param::get("~can", can)) return 1;
-  arfm_vo::SimulatedPtuOptions options;
-  options.reset_time_s = 0.5;
-  // The folder must be there before the recorder, which is started again until it is.
-  std::string bags;
-  if (!ros::param::get("~bags", bags)) return 1;
-  std::filesystem::create_directories(bags);
-  const arfm_vo::SimulatedPtuPort ptu(port, options);
-  const arfm_vo::ChassisThread chassis(can);
-  const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(bags);
-  return result;
-}

@@ -1,6 +1,5 @@
 #include <arfm_vo/DriveStatus.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/SetCameraInfo.h>
@@ -49,22 +48,20 @@ sensor_msgs::CameraInfo Calibration(bool is_right, int width = kWidth) {
   return info;
 }
 
-std::string folder;  ///< of the calibration
-
 class StereoCameraNodeTest : public testing::Test {
  protected:
   StereoCameraNodeTest() {
-    std::filesystem::remove_all(folder);
+    std::filesystem::remove_all(folder_);
     ros::NodeHandle options("/stereo/camera");
     options.setParam("left_device", "left");
     options.setParam("right_device", "right");
     options.setParam("video/width", kWidth);
     options.setParam("video/height", kHeight);
-    options.setParam("left_camera_info_url", "file://" + folder + "/left.yaml");
-    options.setParam("right_camera_info_url", "file://" + folder + "/right.yaml");
+    options.setParam("left_camera_info_url", "file://" + folder_ + "/left.yaml");
+    options.setParam("right_camera_info_url", "file://" + folder_ + "/right.yaml");
     Start();
   }
-  ~StereoCameraNodeTest() override { std::filesystem::remove_all(folder); }
+  ~StereoCameraNodeTest() override { std::filesystem::remove_all(folder_); }
 
   void Start() {
     node_.reset();
@@ -89,6 +86,8 @@ class StereoCameraNodeTest : public testing::Test {
               "P[3] of " + std::to_string(p3));
   }
 
+  /// Of the calibration.
+  const std::string folder_ = ros::param::param<std::string>("~folder", "no folder");
   SimulatedCameras world_;
   std::unique_ptr<StereoCameraNode> node_;
   Inbox<sensor_msgs::Image> left_{"/stereo/left/image_raw"}, right_{"/stereo/right/image_raw"};
@@ -121,9 +120,9 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsRefusedWhileTheRoverDrives) {
   publisher.publish(status);
   const std::string refusal = "refused: camera_info is not set: the rover drives: stop it first";
   WaitUntil([&] { return Set("left", Calibration(false)) == refusal; }, "the refusal");
-  std::filesystem::remove_all(folder);  // of answers before the status had come
+  std::filesystem::remove_all(folder_);  // of answers before the status had come
   EXPECT_EQ(Set("left", Calibration(false)), refusal);
-  EXPECT_FALSE(std::filesystem::exists(folder));
+  EXPECT_FALSE(std::filesystem::exists(folder_));
   status.state = DriveStatus::BLOCKED;
   publisher.publish(status);
   WaitUntil([&] { return Set("left", Calibration(false)).empty(); }, "acceptance");
@@ -136,7 +135,7 @@ TEST_F(StereoCameraNodeTest, ACalibrationThatIsNotFiniteIsRefusedByName) {
   info = Calibration(true);
   info.P[3] = NAN;
   EXPECT_EQ(Set("left", info), "refused: camera_info is not set: P[3] is not a finite number");
-  EXPECT_FALSE(std::filesystem::exists(folder));
+  EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
 TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
@@ -149,8 +148,8 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
   AwaitBaseline(-60);
   diagnoses_.Await(": calibration", DiagnosticStatus::OK, "calibrated");
   EXPECT_EQ(right_info_.last().K[0], 500);
-  EXPECT_TRUE(std::filesystem::exists(folder + "/left.yaml"));
-  EXPECT_TRUE(std::filesystem::exists(folder + "/right.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ + "/left.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ + "/right.yaml"));
   Start();
   diagnoses_.Await(": calibration", DiagnosticStatus::OK, "calibrated");
   const int num_before = right_info_.size();
@@ -202,11 +201,3 @@ TEST(StereoCameraProgram, AWrongParameterEndsItWithItsNameAndListSaysWhatThereIs
 
 }  // namespace
 }  // namespace arfm_vo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_stereo_camera");
-  const ros::NodeHandle keeper;  // between tests too
-  if (!ros::param::get("~folder", arfm_vo::folder)) return 1;
-  return RUN_ALL_TESTS();
-}
