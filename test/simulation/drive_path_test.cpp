@@ -2,17 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace arfm_vo {
 namespace {
 
 TEST(SamplePath, StraightStepsAreEven) {
   const PlanarPath path = SamplePath({1, 2, M_PI / 2}, {{0.35, 0}, {10, 0}}, 0.1, 0.1, 8);
   ASSERT_EQ(path.size(), 8u);
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 8; ++i)
     EXPECT_NEAR((PositionOf(path[i]) - Eigen::Vector2d(1, 2 + 0.1 * i)).norm(), 0, 1e-12) << i;
-  }
 }
 
 TEST(SamplePath, QuarterCircleEndsWhereItShould) {

@@ -21,9 +21,8 @@ TEST(NoiseTexture, HasMeanZeroAndDeviationOne) {
 
 TEST(NoiseTexture, RepeatsSeamlessly) {
   const NoiseTexture texture(7, 0, 2);
-  for (const double x : {-0.3, 0.2, 127.7}) {
+  for (const double x : {-0.3, 0.2, 127.7})
     EXPECT_DOUBLE_EQ(texture.Sample(x, 5.1, 0.5), texture.Sample(x + 128, 5.1 - 128, 0.5));
-  }
 }
 
 /// The brute-force mean over a footprint.

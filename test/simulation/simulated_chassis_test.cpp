@@ -113,23 +113,6 @@ TEST(TrackedPlant, ClimbsAlongTheSlopeAndSlidesDownIt) {
   EXPECT_NEAR(across.Pose().y_m, across.Ways().left_m, 1e-6);
 }
 
-TEST(ClosedLoop, EveryGoalIsReachedInSpiteOfSlip) {
-  RandomEngine engine(11);
-  for (int i = 0; i < 20; ++i) {
-    SimulatedDrive drive;
-    const double bearing_rad = 2 * M_PI * RandomUnit(engine), way_m = 0.3 + 3 * RandomUnit(engine);
-    const Waypoint goal{way_m * std::cos(bearing_rad), way_m * std::sin(bearing_rad),
-                        WrapAngle(2 * M_PI * RandomUnit(engine))};
-    drive.DriveAlong({goal});
-    ASSERT_TRUE(drive.RunUntil(300, [&] { return !drive.HasGoal(); })) << i;
-    EXPECT_EQ(drive.pilot().TakeResults().at(0).outcome, GoalOutcome::kArrived) << i;
-    const RoverPose& pose = drive.plant().Pose();
-    EXPECT_LT(std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m), 0.045) << i;
-    EXPECT_LT(std::abs(WrapAngle(pose.heading_rad - *goal.heading_rad)), 0.045) << i;
-    EXPECT_LE(drive.FastestCommand(), 0.1);
-  }
-}
-
 TEST(ClosedLoop, StopLookGoReachesTheGoalAndLooksAtRest) {
   PilotOptions options;
   options.stop_look_go.is_on = true;

@@ -24,16 +24,6 @@ TEST(SlippedBelt, OneThatHasSlippedBeforeTheDriveStopsItWithinAMetre) {
   }
 }
 
-TEST(SlippedBelt, OneThatSlipsInTheDriveStopsItAtOnce) {
-  SimulatedDrive drive;
-  drive.DriveAlong({{6, 0, {}}});
-  drive.Run(5);
-  drive.base_from_told_ = Aside(15);
-  drive.Run(0.3);
-  EXPECT_TRUE(drive.IsBlocked());
-  EXPECT_EQ(drive.pilot().Status().reason, StopReason::kPoseContradiction);
-}
-
 /// Hills of so steep sides, 8 m from crest to crest.
 Rigid3 PlaceOnHills(double slope_deg, const RoverPose& pose) {
   const double slope = std::tan(slope_deg * M_PI / 180), wave = 2 * M_PI / 8;

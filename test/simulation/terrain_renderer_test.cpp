@@ -43,9 +43,8 @@ TEST(TerrainRenderer, LevelGroundHasTheDepthsOfAPlane) {
   const TerrainRenderer renderer(terrain, {});
   const RenderedView view = renderer.Trace(kCamera, LookAhead(terrain, 0, 0, 0));
   // 1 m below the axis: z = fy * 1 m / (v - cy).
-  for (const int v : {60, 70, 100, 119}) {
+  for (const int v : {60, 70, 100, 119})
     EXPECT_NEAR(view.depth.at<float>(v, 80), 160 / (v - 59.5), 1e-4 * 160 / (v - 59.5)) << v;
-  }
 }
 
 TEST(TerrainRenderer, HorizonIsAtTheRowOfTheTilt) {

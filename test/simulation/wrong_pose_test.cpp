@@ -56,25 +56,6 @@ TEST_F(WrongPoseTest, OdometryThatRestartsOnTheGoalIsNoArrival) {
   EXPECT_FALSE(drive_.HasGoal());
 }
 
-TEST_F(WrongPoseTest, OdometryThatRestartsElsewhereDrivesNowhere) {
-  drive_.told_from_true_ = WrongPlaceAt(5, -15, M_PI / 2);
-  DriveTo({0, 5, {}}, 3);
-  RestartOdometryAt(WrongPlaceAt(0, 0));
-  drive_.Run(120);
-  ExpectBlocked(StopReason::kPoseContradiction);
-}
-
-TEST_F(WrongPoseTest, ANewEpochDropsTheGoalAndBlocksEvenWhereThePoseStaysTheSame) {
-  DriveTo({6, 0, {}}, 5);
-  ++drive_.epoch_;
-  drive_.Run(5);
-  ExpectBlocked(StopReason::kNewEpoch);
-  EXPECT_FALSE(drive_.HasGoal());
-  ASSERT_TRUE(drive_.pilot().Start(drive_.Now()).is_accepted);
-  drive_.Run(2);
-  EXPECT_EQ(drive_.pilot().Status().state, DriveState::kReady);
-}
-
 TEST_F(WrongPoseTest, AJumpThatIsSeenBeforeItsEpochIsToldIsANewEpoch) {
   DriveTo({6, 0, {}}, 5);
   RestartOdometryAt(WrongPlaceAt(0, 0));
