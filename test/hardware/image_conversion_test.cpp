@@ -103,17 +103,11 @@ TEST(ToGrey, MotionJpegWithoutHuffmanTablesIsDecodedByTheStandardOnes) {
   EXPECT_EQ(cv::norm(*expected, *grey, cv::NORM_INF), 0);
 }
 
-TEST(ToGrey, AShortBufferIsNoFrame) {
+TEST(ToGrey, AShortBufferOrLinesThatCannotBeAreNoFrame) {
   EXPECT_FALSE(Convert("GREY", {1, 2, 3}, 2, 2));
   EXPECT_FALSE(Convert("YUYV", {1, 2, 3, 4}, 2, 2));
-}
-
-TEST(ToGrey, LinesLongerThanAnIntegerAreNoFrame) {
-  EXPECT_FALSE(Convert("GREY", {1, 2, 3, 4}, 1, 2, -1));
-}
-
-TEST(ToGrey, LinesThatEndWithinASampleAreNoFrame) {
-  EXPECT_FALSE(Convert("Y10 ", std::vector<uint8_t>(10), 2, 2, 5));
+  EXPECT_FALSE(Convert("GREY", {1, 2, 3, 4}, 1, 2, -1)) << "longer than an integer";
+  EXPECT_FALSE(Convert("Y10 ", std::vector<uint8_t>(10), 2, 2, 5)) << "end within a sample";
 }
 
 TEST(ToGrey, AnUnknownFormatIsNamed) {

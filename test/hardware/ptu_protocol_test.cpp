@@ -56,15 +56,12 @@ TEST(PtuReplyParser, RepliesOfTheManualInVerboseModeWithEcho) {
       "PN * Minimum Pan position is -3090\r\nTX * Maximum Tilt position is 604\r\n"
       "PP3200 ! Maximum allowable Pan position is 3090\r\n"
       "PS3300 ! Pan speed cannot exceed 2902 positions/sec\r\n");
-  ASSERT_EQ(replies.size(), 8U);
-  EXPECT_EQ(replies[0], Done());
-  EXPECT_EQ(replies[1], Done());
-  EXPECT_EQ(replies[2], Value("Current Pan position is -2500"));
-  EXPECT_EQ(replies[3], Value("185.1428 seconds arc per Pan position"));
-  EXPECT_EQ(replies[4], Value("Minimum Pan position is -3090"));
-  EXPECT_EQ(replies[5], Value("Maximum Tilt position is 604"));
-  EXPECT_EQ(replies[6], Error("Maximum allowable Pan position is 3090"));
-  EXPECT_EQ(replies[7], Error("Pan speed cannot exceed 2902 positions/sec"));
+  EXPECT_EQ(replies, (std::vector{Done(), Done(), Value("Current Pan position is -2500"),
+                                  Value("185.1428 seconds arc per Pan position"),
+                                  Value("Minimum Pan position is -3090"),
+                                  Value("Maximum Tilt position is 604"),
+                                  Error("Maximum allowable Pan position is 3090"),
+                                  Error("Pan speed cannot exceed 2902 positions/sec")}));
 }
 
 TEST(PtuReplyParser, PiecesOfAnySizeGiveTheSameReplies) {

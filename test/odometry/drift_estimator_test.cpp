@@ -42,9 +42,7 @@ TEST(DriftEstimator, AWindowOfManyIsTheSameAsItsSteps) {
   DriftEstimator drift;
   for (int k = 0; k < 4; ++k) drift.Add(k, Noise(k * kOne));
   drift.Update({0, 1, 2, 3}, {1, 0, 0, 0}, Chain(4, 2));
-  for (int k = 0; k < 4; ++k) {
-    EXPECT_NEAR((drift.Covariance(k) - k * 0.5 * kOne).norm(), 0, 1e-12);
-  }
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR((drift.Covariance(k) - k * 0.5 * kOne).norm(), 0, 1e-12);
 }
 
 TEST(DriftEstimator, HeldKeyframesThatErrAlikeDoNotHelpEachOther) {

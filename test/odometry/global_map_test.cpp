@@ -35,9 +35,7 @@ std::vector<Rigid3> Drive(const CorridorScene& scene, const GlobalMapOptions& op
     if (map.num_keyframes() % interval != 0) continue;
     const auto update = map.Adjust();
     if (!update) return {};
-    for (const auto& keyframe : update->keyframes) {
-      poses[keyframe.id] = keyframe.camera_from_world;
-    }
+    for (const auto& keyframe : update->keyframes) poses[keyframe.id] = keyframe.camera_from_world;
   }
   EXPECT_EQ(map.num_keyframes(), kNumKeyframes);
   if (num_landmarks != nullptr) *num_landmarks = map.num_landmarks();

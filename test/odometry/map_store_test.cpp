@@ -5,17 +5,18 @@
 namespace arfm_vo {
 namespace {
 
-/// `num_keyframes` that see landmarks `first[k]` to `first[k] + 2` each.
-MapStore MakeStore(const std::vector<LandmarkId>& first) {
+/// Keyframes that see `num` landmarks from `first[k]` on each, 5 m ahead.
+MapStore MakeStore(const std::vector<LandmarkId>& first, int num = 3) {
   MapStore store;
   for (int k = 0; k < static_cast<int>(first.size()); ++k) {
     store.keyframes.push_back({k, Rigid3(), {}});
-    for (LandmarkId id = first[k]; id < first[k] + 3; ++id) {
+    for (LandmarkId id = first[k]; id < first[k] + num; ++id) {
       LandmarkObservation observation{};
       observation.landmark = id;
       observation.pixels.setZero();
       store.keyframes[k].observations.push_back(observation);
       MapStore::Point& point = store.landmarks[id];
+      point.x_in_world = Eigen::Vector3d(0, 0, 5);
       ++point.num_observations;
       point.last_keyframe = k;
     }
@@ -25,9 +26,8 @@ MapStore MakeStore(const std::vector<LandmarkId>& first) {
 
 std::vector<LandmarkId> Seen(const MapStore& store, int keyframe) {
   std::vector<LandmarkId> seen;
-  for (const auto& observation : store.keyframes[keyframe].observations) {
+  for (const auto& observation : store.keyframes[keyframe].observations)
     seen.push_back(observation.landmark);
-  }
   return seen;
 }
 
@@ -81,21 +81,7 @@ TEST(MapStore, ForgetsWhatASettledKeyframeAloneHasSeen) {
 }
 
 TEST(MapStore, WhatIsSettledOutlivesTheLandmarksAndFollowsThemUntilThen) {
-  std::vector<LandmarkId> first(6, 0);
-  for (int k = 3; k < 6; ++k) first[k] = 100;
-  MapStore store;
-  for (int k = 0; k < 6; ++k) {
-    store.keyframes.push_back({k, Rigid3(), {}});
-    for (LandmarkId id = first[k]; id < first[k] + 40; ++id) {
-      LandmarkObservation observation{};
-      observation.landmark = id;
-      store.keyframes[k].observations.push_back(observation);
-      MapStore::Point& point = store.landmarks[id];
-      point.x_in_world = Eigen::Vector3d(0, 0, 5);
-      ++point.num_observations;
-      point.last_keyframe = k;
-    }
-  }
+  MapStore store = MakeStore({0, 0, 0, 100, 100, 100}, 40);
   store.Settle(2, 1000);
   ASSERT_EQ(store.settled.size(), 2u);
   EXPECT_EQ(store.settled[0].points.size(), 40u);

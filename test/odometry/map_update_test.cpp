@@ -48,13 +48,11 @@ TEST_F(MapUpdateTest, KeyframesBeforeThoseThatItMovesKeepTheirLeftEyeAlone) {
   MapUpdate update;
   update.keyframes = {{1, Rigid3()}};
   ApplyMapUpdate(update, map_);
-  for (const LandmarkObservation& seen : map_.FindKeyframe(0)->observations) {
+  for (const LandmarkObservation& seen : map_.FindKeyframe(0)->observations)
     ASSERT_FALSE(seen.has_right);
-  }
   int num_right = 0;
-  for (const LandmarkObservation& seen : map_.FindKeyframe(1)->observations) {
+  for (const LandmarkObservation& seen : map_.FindKeyframe(1)->observations)
     num_right += seen.has_right;
-  }
   EXPECT_GT(num_right, 10);
 }
 

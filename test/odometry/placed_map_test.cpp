@@ -107,9 +107,8 @@ TEST(PlacedMap, ShowsALongDriveWithABoundedNumberOfLandmarks) {
   EXPECT_LT(most, 21500u);
   const std::vector<MapPose> poses = map.BasePoses();
   ASSERT_EQ(poses.size(), static_cast<size_t>(kLong));
-  for (int id = 0; id < kLong; id += 100) {
+  for (int id = 0; id < kLong; id += 100)
     EXPECT_NEAR(poses[id].map_from_base.translation.x(), 0.5 * id, 1e-3);
-  }
   const std::vector<LandmarkPoint> points = map.Landmarks();
   EXPECT_LT(points.front().x_in_map.x(), 30);  // from the start on, thinned
 }

@@ -54,9 +54,8 @@ TEST_F(StandstillLockTest, HoldsThePoseOfAParkedRoverExactly) {
 }
 
 TEST_F(StandstillLockTest, HoldsWhileAShadowMovesOverAThirdOfThePoints) {
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 100; ++i)
     ASSERT_TRUE(lock_.Hold(PoseAt(0, engine_), See(2.0 * i, 33, engine_))) << "frame " << i;
-  }
 }
 
 TEST_F(StandstillLockTest, LetsGoWhenThePointsMove) {

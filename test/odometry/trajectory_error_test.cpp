@@ -15,9 +15,8 @@ namespace {
 /// A straight drive of `num_poses` poses, `step_m` apart, that turns by `yaw_rad` a frame.
 std::vector<Rigid3> DriveStraight(int num_poses, double step_m, double yaw_rad = 0) {
   std::vector<Rigid3> path;
-  for (int i = 0; i < num_poses; ++i) {
+  for (int i = 0; i < num_poses; ++i)
     path.emplace_back(ExpSO3({0, yaw_rad * i, 0}), Eigen::Vector3d(0, 0, step_m * i));
-  }
   return path;
 }
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -32,13 +31,20 @@ Outcome RunProgram(const SequenceFolder& folder, const std::string& command,
   return {WEXITSTATUS(status), ReadWholeFile(out), ReadWholeFile(error)};
 }
 
+/// Drives the folder, the results below its root in `output`.
+Outcome RunOdometry(const SequenceFolder& folder, const std::string& output,
+                    const std::string& options = "", const std::string& environment = "") {
+  return RunProgram(
+      folder,
+      "kitti_odometry " + folder.Path() + options + " --output " + folder.Root() + "/" + output,
+      environment);
+}
 /// The lines `key: value`.
 std::map<std::string, double> ReadLines(const std::string& text) {
   std::map<std::string, double> lines;
   std::istringstream stream(text);
-  for (std::string key, value; stream >> key >> value;) {
+  for (std::string key, value; stream >> key >> value;)
     lines[key.substr(0, key.size() - 1)] = std::stod(value);
-  }
   return lines;
 }
 
@@ -58,8 +64,7 @@ TEST(KittiOdometry, FollowsADrawnSequenceTheSameEachTime) {
   const SequenceFolder folder(0);
   DrawSequence(folder, 6);
   const std::string first = folder.Root() + "/first", second = folder.Root() + "/second";
-  const Outcome outcome =
-      RunProgram(folder, "kitti_odometry " + folder.Path() + " --output " + first);
+  const Outcome outcome = RunOdometry(folder, "first");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(outcome.error, "");
   auto lines = ReadLines(outcome.out);
@@ -76,8 +81,7 @@ TEST(KittiOdometry, FollowsADrawnSequenceTheSameEachTime) {
   const std::string timing = ReadWholeFile(first + "/timing.csv");
   EXPECT_EQ(std::count(timing.begin(), timing.end(), '\n'), 7);
 
-  ASSERT_EQ(RunProgram(folder, "kitti_odometry " + folder.Path() + " --output " + second).status,
-            0);
+  ASSERT_EQ(RunOdometry(folder, "second").status, 0);
   for (const char* name : {"poses.txt", "poses_online.txt", "trajectory.tum", "trajectory.png"})
     EXPECT_EQ(ReadWholeFile(first + "/" + name), ReadWholeFile(second + "/" + name)) << name;
 }
@@ -85,9 +89,7 @@ TEST(KittiOdometry, FollowsADrawnSequenceTheSameEachTime) {
 TEST(KittiOdometry, TakesStrideAndPairs) {
   const SequenceFolder folder(0);
   DrawSequence(folder, 6);
-  const Outcome outcome =
-      RunProgram(folder, "kitti_odometry " + folder.Path() + " --stride 2 --pairs 2 --output " +
-                             folder.Root() + "/out");
+  const Outcome outcome = RunOdometry(folder, "out", " --stride 2 --pairs 2");
   auto lines = ReadLines(outcome.out);
   EXPECT_EQ(lines["pairs"], 2);
   EXPECT_NEAR(lines["path_length_m"], 0.5, 0.05);
@@ -97,8 +99,7 @@ TEST(KittiOdometry, TakesStrideAndPairs) {
 TEST(KittiOdometry, ASequenceWithNothingToSeeIsLostAndSaidSo) {
   const SequenceFolder folder(4);
   const std::string output = folder.Root() + "/out";
-  const Outcome outcome =
-      RunProgram(folder, "kitti_odometry " + folder.Path() + " --output " + output);
+  const Outcome outcome = RunOdometry(folder, "out");
   EXPECT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(ReadLines(outcome.out)["lost"], 4);
   EXPECT_EQ(ReadKittiPoses(output + "/poses.txt").size(), 4u);
@@ -109,8 +110,7 @@ TEST(KittiOdometry, ASequenceWithNothingToSeeIsLostAndSaidSo) {
 TEST(KittiOdometry, SaysSoWhereThePlotterIsMissing) {
   const SequenceFolder folder(2);
   const std::string output = folder.Root() + "/out";
-  const Outcome outcome = RunProgram(
-      folder, "kitti_odometry " + folder.Path() + " --output " + output, "PATH=/no/such/folder");
+  const Outcome outcome = RunOdometry(folder, "out", "", "PATH=/no/such/folder");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.error, "kitti_odometry: no trajectory.png: gnuplot is not installed\n");
   EXPECT_TRUE(fs::exists(output + "/poses.txt"));
@@ -172,9 +172,7 @@ TEST(BagOdometry, GivesTheTrajectoryOfTheFolderThatTheBagWasMadeOf) {
   EXPECT_EQ(ReadLines(outcome.out)["pairs"], 4);
   EXPECT_EQ(ReadLines(outcome.out).at("unpaired_images"), 0);
   EXPECT_LT(ReadLines(outcome.out).at("ate_rmse_m"), 0.05);
-  ASSERT_EQ(RunProgram(folder, "kitti_odometry " + folder.Path() + " --output " + output + "/kitti")
-                .status,
-            0);
+  ASSERT_EQ(RunOdometry(folder, "out/kitti").status, 0);
   const auto from_bag = ReadKittiPoses(output + "/bag/poses.txt");
   const auto from_folder = ReadKittiPoses(output + "/kitti/poses.txt");
   ASSERT_EQ(from_bag.size(), from_folder.size());

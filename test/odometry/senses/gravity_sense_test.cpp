@@ -1,7 +1,6 @@
 #include "arfm_vo/odometry/senses/gravity_sense.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "odometry/senses/rough_ground.h"
 #include "odometry/senses/seeing_rover.h"
@@ -50,52 +49,36 @@ TEST(GravitySense, IsNotUsedUnlessAskedFor) {
   EXPECT_FALSE(rover.prior().up_in_world());
 }
 
-struct FaultCase {
-  SenseFaults faults;
-  const char* named;
-};
-
-class FaultyGravitySense : public testing::TestWithParam<FaultCase> {};
-
-SenseFaults Turned(const Eigen::Vector3d& turn_rad) {
-  SenseFaults faults;
-  faults.force_from_base = ExpSO3(turn_rad);
-  return faults;
-}
-SenseFaults OfSign(double sign) {
-  SenseFaults faults;
-  faults.force_sign = sign;
-  return faults;
-}
-SenseFaults Biased(const Eigen::Vector3d& bias_m_s2) {
-  SenseFaults faults;
-  faults.force_bias_m_s2 = bias_m_s2;
-  return faults;
-}
-
-TEST_P(FaultyGravitySense, IsNamedAndLeftOut) {
-  double latest_m = 0;
-  for (int seed = 1; seed <= kNumSeeds; ++seed) {
-    Rover rover = OnRoughGround(seed, GetParam().faults);
-    latest_m = std::max(latest_m, rover.DriveFar(20));
-    EXPECT_THAT(rover.faults(), HasSubstr(GetParam().named)) << "seed " << seed;
-    EXPECT_FALSE(rover.prior().up_in_world());
+TEST(GravitySense, WhatIsWrongIsNamedAndLeftOut) {
+  const auto turned = [](const Eigen::Vector3d& turn_rad) {
+    return With(&SenseFaults::force_from_base, ExpSO3(turn_rad));
+  };
+  const auto biased = [](double x, double y, double z) {
+    return With(&SenseFaults::force_bias_m_s2, Eigen::Vector3d(x, y, z));
+  };
+  const auto of_sign = [](double sign) { return With(&SenseFaults::force_sign, sign); };
+  const std::string reads = "imu: force it reads along ";
+  const std::pair<SenseFaults, std::string> rows[] = {
+      {turned({0, 0, M_PI / 2}), ""},
+      {turned({0, M_PI / 2, 0}), ""},
+      {turned({M_PI / 2, 0, 0}), ""},
+      {of_sign(-1), "z on the level (m/s^2) -9."},
+      {of_sign(1 / 9.81), "z on the level"},
+      {of_sign(0), "z on the level "},
+      {biased(1, 0, 0), "x on the level (m/s^2) 1."},
+      {biased(0, -1.5, 0), "y on the level (m/s^2) -1."},
+      {biased(0, 0, 1), "z on the level (m/s^2) 10."}};
+  for (const auto& [faults, named] : rows) {
+    double latest_m = 0;
+    for (int seed = 1; seed <= kNumSeeds; ++seed) {
+      Rover rover = OnRoughGround(seed, faults);
+      latest_m = std::max(latest_m, rover.DriveFar(20));
+      EXPECT_THAT(rover.faults(), HasSubstr(reads + named)) << "seed " << seed;
+      EXPECT_FALSE(rover.prior().up_in_world());
+    }
+    std::printf("  '%s': left out after %.1f m at most\n", named.c_str(), latest_m);
   }
-  std::printf("  '%s': left out after %.1f m at most\n", GetParam().named, latest_m);
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    All, FaultyGravitySense,
-    testing::Values(
-        FaultCase{Turned({0, 0, M_PI / 2}), "imu: force it reads along "},
-        FaultCase{Turned({0, M_PI / 2, 0}), "imu: force it reads along "},
-        FaultCase{Turned({M_PI / 2, 0, 0}), "imu: force it reads along "},
-        FaultCase{OfSign(-1), "imu: force it reads along z on the level (m/s^2) -9."},
-        FaultCase{OfSign(1 / 9.81), "imu: force it reads along z on the level"},
-        FaultCase{OfSign(0), "imu: force it reads along z on the level "},
-        FaultCase{Biased({1, 0, 0}), "imu: force it reads along x on the level (m/s^2) 1."},
-        FaultCase{Biased({0, -1.5, 0}), "imu: force it reads along y on the level (m/s^2) -1."},
-        FaultCase{Biased({0, 0, 1}), "imu: force it reads along z on the level (m/s^2) 10."}));
 
 }  // namespace
 }  // namespace arfm_vo

@@ -17,6 +17,14 @@ inline SensesOptions Use(bool use_tracks, bool use_imu) {
   return options;
 }
 
+/// Right senses but for one thing.
+template <class Value>
+SenseFaults With(Value SenseFaults::*field, const Value& value) {
+  SenseFaults faults;
+  faults.*field = value;
+  return faults;
+}
+
 /// A rover whose cameras tell each pose but for some noise, in a world that leans ever more.
 class Rover {
  public:
@@ -33,9 +41,8 @@ class Rover {
   }
   void See() {
     Eigen::Matrix<double, 6, 1> noise;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 6; ++i)
       noise[i] = (i < 3 ? kCamera_rad : kCamera_m) * RandomDeviate(engine_);
-    }
     Matrix6 covariance = Matrix6::Zero();
     covariance.diagonal().head<3>().fill(kCamera_m * kCamera_m);
     covariance.diagonal().tail<3>().fill(kCamera_rad * kCamera_rad);

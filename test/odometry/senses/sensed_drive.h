@@ -43,9 +43,8 @@ class FaultySenses {
       senses.gyro().Add(imu_.front().first, imu_.front().second.rate_rad_s);
       senses.gravity().Add(imu_.front().first, imu_.front().second.force_m_s2);
     }
-    for (; !tracks_.empty(); tracks_.pop_front()) {
+    for (; !tracks_.empty(); tracks_.pop_front())
       senses.tracks().Add(tracks_.front().first, tracks_.front().second);
-    }
   }
 
  private:
