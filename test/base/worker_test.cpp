@@ -1,13 +1,9 @@
 #include "arfm_vo/base/worker.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <atomic>
-#include <future>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace arfm_vo {

@@ -97,9 +97,8 @@ void DlibSurf(benchmark::State& state) {
   const size_t wanted = Surf(Options(kPoints, 1)).Extract(RealPair().left).keypoints.size();
   const dlib::cv_image<unsigned char> image(cvIplImage(RealPair().left));
   long max_points = static_cast<long>(wanted);
-  while (dlib::get_surf_points(image, max_points).size() < wanted && max_points < 10000) {
+  while (dlib::get_surf_points(image, max_points).size() < wanted && max_points < 10000)
     max_points += max_points / 20;
-  }
   size_t num = 0;
   for (auto _ : state) num = dlib::get_surf_points(image, max_points).size();
   CountPoints(state, num);
@@ -111,9 +110,8 @@ void OpenCv(benchmark::State& state) {
   const auto feature = Feature::create(kPoints);
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
-  for (auto _ : state) {
+  for (auto _ : state)
     feature->detectAndCompute(RealPair().left, cv::noArray(), keypoints, descriptors);
-  }
   CountPoints(state, keypoints.size());
 }
 
@@ -164,13 +162,10 @@ void OpenCvMatching(benchmark::State& state) {
 void ExactMatching(benchmark::State& state) {
   const FeaturePair pair(state, static_cast<int>(state.range(0)));
   TwoWayNeighbours neighbours;
-  for (auto _ : state) {
-    neighbours = FindNeighboursExactly(pair.left, pair.right);
-  }
+  for (auto _ : state) neighbours = FindNeighboursExactly(pair.left, pair.right);
   std::vector<float> distances;
-  for (const Neighbours& found : neighbours.of_first) {
+  for (const Neighbours& found : neighbours.of_first)
     distances.push_back(std::sqrt(found.squared_distance));
-  }
   CountRecall(state, pair, distances);
 }
 

@@ -23,9 +23,8 @@ double WorstPoseError(const CorridorScene& scene, const BundleResult& result) {
 
 double WorstPointError(const CorridorScene& scene, const BundleResult& result) {
   double worst = 0;
-  for (size_t i = 0; i < scene.points.size(); ++i) {
+  for (size_t i = 0; i < scene.points.size(); ++i)
     worst = std::max(worst, (result.points[i] - scene.points[i]).norm());
-  }
   return worst;
 }
 
@@ -61,9 +60,8 @@ TEST(BundleAdjustment, OwnSolverAgreesWithCeres) {
     CorridorOptions corridor;
     corridor.outlier_share = 0.05;
     CorridorScene scene = MakeCorridor(corridor);
-    for (size_t i = 0; i < scene.problem.observations.size(); i += 7) {
+    for (size_t i = 0; i < scene.problem.observations.size(); i += 7)
       scene.problem.observations[i].has_right = false;
-    }
     if (loss != LossKind::kHuber) scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
     BundleOptions options = ExactOptions(BundleSolver::kOwn);
     options.loss = loss;
@@ -72,9 +70,8 @@ TEST(BundleAdjustment, OwnSolverAgreesWithCeres) {
     const BundleResult ceres = AdjustBundle(scene.problem, options);
     EXPECT_NEAR(own.initial_cost, ceres.initial_cost, 1e-9 * own.initial_cost);
     EXPECT_NEAR(own.final_cost, ceres.final_cost, 1e-7 * own.final_cost);
-    for (size_t i = 0; i < own.camera_from_world.size(); ++i) {
+    for (size_t i = 0; i < own.camera_from_world.size(); ++i)
       EXPECT_LT(StepBetween(own.camera_from_world[i], ceres.camera_from_world[i]).norm(), 1e-5);
-    }
     EXPECT_LT((own.correction.coefficients_px - ceres.correction.coefficients_px).norm(), 1e-4);
     EXPECT_EQ(own.correction.IsZero(), loss == LossKind::kHuber);
     EXPECT_EQ(own.is_inlier, ceres.is_inlier);
@@ -125,9 +122,8 @@ TEST(BundleAdjustment, AConstraintPullsAsItsInformationSays) {
 TEST(BundleAdjustment, LeavesFixedPosesWhereTheyAre) {
   const CorridorScene scene = MakeCorridor({});
   const BundleResult result = AdjustBundle(scene.problem, {});
-  for (const int i : {0, 1}) {
+  for (const int i : {0, 1})
     EXPECT_EQ(result.camera_from_world[i].Matrix(), scene.problem.camera_from_world[i].Matrix());
-  }
   EXPECT_NE(result.camera_from_world[2].Matrix(), scene.problem.camera_from_world[2].Matrix());
 }
 
@@ -162,9 +158,8 @@ TEST(BundleAdjustment, HasFiniteCovariancesWhereTheLossGivesUpAllObservations) {
   options.with_point_covariance = true;
   const BundleResult result = AdjustBundle(scene.problem, options);
   EXPECT_TRUE(std::isfinite(result.covariance_factor));
-  for (const Eigen::Matrix3d& covariance : result.point_covariances) {
+  for (const Eigen::Matrix3d& covariance : result.point_covariances)
     EXPECT_TRUE(covariance.allFinite());
-  }
 }
 
 TEST(BundleAdjustment, MeasuresTheScaleOfTheResiduals) {
@@ -228,9 +223,8 @@ TEST(BundleAdjustment, GivesTheSameBytesAgain) {
   CorridorScene scene = MakeCorridor({});
   scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
   const BundleResult one = AdjustBundle(scene.problem, {}), two = AdjustBundle(scene.problem, {});
-  for (size_t i = 0; i < one.camera_from_world.size(); ++i) {
+  for (size_t i = 0; i < one.camera_from_world.size(); ++i)
     EXPECT_EQ(one.camera_from_world[i].Matrix(), two.camera_from_world[i].Matrix());
-  }
   EXPECT_EQ(one.correction_covariance, two.correction_covariance);
 }
 

@@ -45,9 +45,8 @@ TEST(PoseGraph, BringsARoundDriveBackToItsStart) {
   EXPECT_LT((solved.back().translation - truth.back().translation).norm(), 1e-3);
   const auto error = [&](const std::vector<Rigid3>& poses) {
     double sum = 0;
-    for (int i = 0; i <= kPoses; ++i) {
+    for (int i = 0; i <= kPoses; ++i)
       sum += (poses[i].Inverse().translation - truth[i].Inverse().translation).norm();
-    }
     return sum;
   };
   EXPECT_LT(error(solved), 0.3 * error(drifted));

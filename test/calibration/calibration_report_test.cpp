@@ -1,7 +1,6 @@
 #include "arfm_vo/calibration/calibration_report.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
@@ -15,6 +14,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -73,25 +74,24 @@ TEST_F(CalibrationFolder, RenderedPairsGiveFilesThatHoldTheRig) {
   for (const char* file : {"report.md", "rectified.jpg", "coverage.png", "corners_10.jpg"})
     EXPECT_TRUE(fs::exists(output / file)) << file;
   for (const auto& entry : fs::directory_iterator(output))
-    EXPECT_THAT(entry.path().string(), testing::Not(testing::HasSubstr("partial")));
+    EXPECT_THAT(entry.path().string(), testing::Not(HasSubstr("partial")));
 }
 
 TEST_F(CalibrationFolder, APartOfTheBoardIsRefusedAsWrongBoardSize) {
   Render(MakeRig(0.3), {9, 6, 0.1}, 5, 22);
   for (const Chessboard& asked : {Chessboard{8, 5, 0.1}, Chessboard{12, 7, 0.1}}) {
     const std::string message = MessageOf<CalibrationError>(asked);
-    EXPECT_THAT(message, testing::HasSubstr("wrong board size"));
-    EXPECT_THAT(message, testing::HasSubstr("9x6"));
+    EXPECT_THAT(message, HasSubstr("wrong board size"));
+    EXPECT_THAT(message, HasSubstr("9x6"));
   }
 }
 
 TEST_F(CalibrationFolder, AnImageOfAnotherSizeOrNoneIsNamed) {
   Render(MakeRig(0.4), {9, 6, 0.1}, 5, 23);
   cv::imwrite((folder_ / "left14.png").string(), cv::Mat(100, 100, CV_8U, cv::Scalar(90)));
-  EXPECT_THAT(MessageOf<std::invalid_argument>({9, 6, 0.1}), testing::HasSubstr("left14.png"));
+  EXPECT_THAT(MessageOf<std::invalid_argument>({9, 6, 0.1}), HasSubstr("left14.png"));
   fs::resize_file(folder_ / "left14.png", 20);
-  EXPECT_THAT(MessageOf<std::invalid_argument>({9, 6, 0.1}),
-              testing::HasSubstr("cannot read image"));
+  EXPECT_THAT(MessageOf<std::invalid_argument>({9, 6, 0.1}), HasSubstr("cannot read image"));
 }
 
 double ReadFigure(const std::string& figures, const std::string& key) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/calibration/image_pairs.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -11,6 +10,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -55,17 +56,17 @@ TEST_F(ImagePairs, SubFoldersWithNamesOfTheirOwnPairByTheLastNumber) {
 
 TEST_F(ImagePairs, AnUnequalNumberIsRefusedNamingTheLonelyFile) {
   for (const char* name : {"left1.png", "left2.png", "right1.png"}) Touch(name);
-  EXPECT_THAT(Message(), testing::HasSubstr("left2.png"));
-  EXPECT_THAT(Message(), testing::HasSubstr("2 left images, 1 right images"));
+  EXPECT_THAT(Message(), HasSubstr("left2.png"));
+  EXPECT_THAT(Message(), HasSubstr("2 left images, 1 right images"));
   fs::remove(folder_ / "left2.png");
   Touch("right7.png");
-  EXPECT_THAT(Message(), testing::HasSubstr("right7.png"));
+  EXPECT_THAT(Message(), HasSubstr("right7.png"));
 }
 
 TEST_F(ImagePairs, EmptyAndMissingFoldersAreRefusedByName) {
-  EXPECT_THAT(Message(), testing::HasSubstr(folder_.string()));
+  EXPECT_THAT(Message(), HasSubstr(folder_.string()));
   fs::remove_all(folder_);
-  EXPECT_THAT(Message(), testing::HasSubstr("no folder"));
+  EXPECT_THAT(Message(), HasSubstr("no folder"));
 }
 
 }  // namespace

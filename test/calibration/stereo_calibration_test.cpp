@@ -1,7 +1,6 @@
 #include "arfm_vo/calibration/stereo_calibration.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <utility>
@@ -13,6 +12,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 const Chessboard kBoard{9, 6, 0.1};
 
@@ -121,7 +122,7 @@ TEST(StereoCalibration, ABoardThatMovedBetweenTheExposuresIsLeftOut) {
   const auto calibration = Calibrate(pairs, synthetic.rig);
   ASSERT_EQ(calibration.left_out.size(), 2U);
   EXPECT_EQ(calibration.left_out[0].name, "8");
-  EXPECT_THAT(calibration.left_out[0].reason, testing::HasSubstr("eyes disagree"));
+  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("eyes disagree"));
   EXPECT_EQ(calibration.left_out[1].name, "3");
   EXPECT_EQ(calibration.pairs.size(), 12U);
   EXPECT_NEAR(calibration.BaselineM(), 0.24, 0.0005);
@@ -134,7 +135,7 @@ TEST(StereoCalibration, CornersThatDoNotFitTheirEyeAreLeftOut) {
   const auto calibration = Calibrate(pairs, synthetic.rig);
   ASSERT_EQ(calibration.left_out.size(), 1U);
   EXPECT_EQ(calibration.left_out[0].name, "5");
-  EXPECT_THAT(calibration.left_out[0].reason, testing::HasSubstr("left eye"));
+  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("left eye"));
 }
 
 TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
@@ -142,11 +143,11 @@ TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
   auto pairs = synthetic.See(synthetic.Poses(5), 0.1);
   pairs[2].left = synthetic.Disturb(pairs[2].left, 2);
   const std::string message = MessageOf(pairs, synthetic.rig);
-  EXPECT_THAT(message, testing::HasSubstr("too few views: 4 good pairs of 5"));
-  EXPECT_THAT(message, testing::HasSubstr("left out 2:"));
+  EXPECT_THAT(message, HasSubstr("too few views: 4 good pairs of 5"));
+  EXPECT_THAT(message, HasSubstr("left out 2:"));
   pairs.resize(2);
-  EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr("too few views"));
-  EXPECT_THAT(MessageOf({}, synthetic.rig), testing::HasSubstr("too few views"));
+  EXPECT_THAT(MessageOf(pairs, synthetic.rig), HasSubstr("too few views"));
+  EXPECT_THAT(MessageOf({}, synthetic.rig), HasSubstr("too few views"));
 }
 
 TEST(StereoCalibration, PairsThatAreNotOfTwoEyesAtOneMomentAreRefused) {
@@ -170,21 +171,20 @@ TEST(StereoCalibration, PairsThatAreNotOfTwoEyesAtOneMomentAreRefused) {
     SyntheticPairs synthetic(9);
     auto pairs = synthetic.See(synthetic.Poses(9), 0.1);
     spoil(pairs);
-    EXPECT_THAT(MessageOf(pairs, synthetic.rig), testing::HasSubstr(complaint));
+    EXPECT_THAT(MessageOf(pairs, synthetic.rig), HasSubstr(complaint));
   }
 }
 
 TEST(StereoCalibration, ParallelViewsAreRefused) {
   SyntheticPairs synthetic(11);
   EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(12, 0), 0.1), synthetic.rig),
-              testing::HasSubstr("parallel"));
+              HasSubstr("parallel"));
   EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(12, 0), 0), synthetic.rig),
-              testing::HasSubstr("parallel"));
+              HasSubstr("parallel"));
   // Parallel to each other, slanted to the image.
   std::vector<Rigid3> slanted = synthetic.Poses(12, 0);
   for (Rigid3& pose : slanted) pose.rotation = ExpSO3({0.4, 0.3, 0}) * pose.rotation;
-  EXPECT_THAT(MessageOf(synthetic.See(slanted, 0.1), synthetic.rig),
-              testing::HasSubstr("parallel"));
+  EXPECT_THAT(MessageOf(synthetic.See(slanted, 0.1), synthetic.rig), HasSubstr("parallel"));
 }
 
 TEST(StereoCalibration, EyesAboveEachOtherAreRefused) {
@@ -192,7 +192,7 @@ TEST(StereoCalibration, EyesAboveEachOtherAreRefused) {
   rig.right_from_left.translation = {0.01, -0.2, 0};
   SyntheticPairs synthetic(12, rig);
   EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(8), 0.1), rig),
-              testing::HasSubstr("not side by side"));
+              HasSubstr("not side by side"));
 }
 
 TEST(Rectification, RowsOfExactCornersAgreeAndP3IsMinusFxTimesBaseline) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/configuration/learned_correction_file.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>

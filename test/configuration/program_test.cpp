@@ -1,7 +1,6 @@
 #include "arfm_vo/configuration/program.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <stdexcept>
 

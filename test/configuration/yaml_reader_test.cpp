@@ -1,9 +1,7 @@
 #include "arfm_vo/configuration/yaml_reader.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 

@@ -76,9 +76,8 @@ class SpeedLimiterTest : public ::testing::Test {
 
 TEST_F(SpeedLimiterTest, SpeedNeverExceedsTheCap) {
   SpeedLimiter limiter = Limiter();
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 1000; ++i)
     EXPECT_LE(std::abs(limiter.Limit({i % 3 - 1.0, std::sin(i)}, 0.02).forward_mps), 0.1);
-  }
 }
 
 TEST_F(SpeedLimiterTest, SpeedsUpNoFasterThanAllowed) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/evaluation/odometry_run.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 
@@ -12,6 +11,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -94,20 +95,20 @@ TEST(FormatRun, SaysTheErrorsWhereTheTruthIsKnown) {
   const std::string text = FormatRun(RunFakes(101));
   EXPECT_THAT(text,
               testing::StartsWith("pairs: 101\nlost: 1\ndegraded: 0\npath_length_m: 102.0000\n"));
-  EXPECT_THAT(text, testing::HasSubstr("\nend_error_percent: 2.00000\n"));
+  EXPECT_THAT(text, HasSubstr("\nend_error_percent: 2.00000\n"));
   EXPECT_THAT(text, testing::EndsWith("\nlength_ratio: 1.02000\n"));
-  EXPECT_THAT(text, testing::HasSubstr("\nlive_length_ratio: 1.01000\n"));
+  EXPECT_THAT(text, HasSubstr("\nlive_length_ratio: 1.01000\n"));
   EXPECT_LT(text.find("live_length_ratio"), text.find("\nlength_ratio"));
   for (const char* key :
        {"ms_per_pair_median", "ms_per_pair_p95", "cpu_ms_per_pair", "peak_rss_mb",
         "t_rel_short_percent", "r_rel_short_deg_per_m", "ate_rmse_m", "live_t_rel_short_percent",
         "live_ate_rmse_m", "live_end_error_percent"}) {
-    EXPECT_THAT(text, testing::HasSubstr(std::string("\n") + key + ": ")) << key;
+    EXPECT_THAT(text, HasSubstr(std::string("\n") + key + ": ")) << key;
   }
 }
 
 TEST(FormatRun, SaysNoErrorsWithoutTruth) {
-  EXPECT_THAT(FormatRun(RunFakes(5, false)), testing::Not(testing::HasSubstr("ate_rmse_m")));
+  EXPECT_THAT(FormatRun(RunFakes(5, false)), testing::Not(HasSubstr("ate_rmse_m")));
 }
 
 TEST(FormatRun, LeavesFramesWithoutTruthOut) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/evaluation/trajectory_plot.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace arfm_vo {
 namespace {

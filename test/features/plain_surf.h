@@ -63,9 +63,8 @@ inline void FindMaxima(const cv::Mat_<float>* layers, int octave, int layer, int
   for (int row = range.first; row < range.end_row; ++row) {
     for (int col = range.first; col < range.end_col; ++col) {
       const float response = layers[1](row, col);
-      if (response > threshold && IsMaximum(layers, row, col)) {
+      if (response > threshold && IsMaximum(layers, row, col))
         maxima.push_back({col * step, row * step, octave, layer, response});
-      }
     }
   }
 }
@@ -172,9 +171,8 @@ inline void NormaliseDescriptor(float* descriptor) {
 /// What Surf(options).Extract(grey) must give.
 inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) {
   cv::Mat smooth = grey;
-  if (options.smooth && !grey.empty()) {
+  if (options.smooth && !grey.empty())
     cv::GaussianBlur(grey, smooth, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
-  }
   const IntegralImage integral(smooth);
   const ScaleSpace space = ComputeScaleSpace(integral, options.detector);
   const auto maxima = FindMaxima(space, grey.size(), options.detector);

@@ -103,9 +103,8 @@ TEST(SurfTest, DescriptorsHaveUnitLength) {
   const Features features = Surf({}).Extract(RenderBlob(80, 90, 44, 41, 2.5, 100));
   ASSERT_GT(features.size(), 0);
   ASSERT_EQ(features.descriptors.size(), cv::Size(64, features.size()));
-  for (int i = 0; i < features.size(); ++i) {
+  for (int i = 0; i < features.size(); ++i)
     EXPECT_NEAR(cv::norm(features.descriptors.row(i)), 1, 1e-5);
-  }
 }
 
 TEST(SurfTest, FindsNothingInFlatAndTinyImages) {

@@ -119,9 +119,7 @@ void Guard(const std::string& input) {
       const bool is_fresh = message->number > newest && age_s >= 0 && age_s <= 0.1;
       const ChassisCommand command = DecodeCommand(message->frame);
       if (is_fresh) newest = message->number;
-      if (is_fresh && std::holds_alternative<MotionCommand>(command)) {
-        is_silent = false;
-      }
+      if (is_fresh && std::holds_alternative<MotionCommand>(command)) is_silent = false;
       guard.Take(now_s, *message);
       check(is_fresh);
     } else if (action % 8 == 4) {

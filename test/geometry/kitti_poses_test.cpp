@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "arfm_vo/base/whole_file.h"
 #include "base/folder_test.h"
 #include "base/refusal.h"

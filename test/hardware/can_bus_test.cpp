@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <system_error>
-#include <vector>
 
 #include "arfm_vo/hardware/file_descriptor.h"
 #include "base/refusal.h"

@@ -1,7 +1,6 @@
 #include "arfm_vo/hardware/pan_tilt.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -11,6 +10,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 constexpr double kCount = 185.1428 / 3600 * M_PI / 180;  // rad
 
@@ -53,8 +54,8 @@ TEST_F(PanTiltTest, ReadsLimitsResolutionAndSpeedFromTheUnit) {
   EXPECT_EQ(tilt->max_position, 604);
   EXPECT_EQ(pan->speed, 1000);
   EXPECT_EQ(pan->max_speed, 2902);
-  EXPECT_THAT(bench_.sent, testing::HasSubstr("ft ed ci "));
-  EXPECT_THAT(bench_.sent, testing::Not(testing::HasSubstr("ds"))) << "writes to the EEPROM";
+  EXPECT_THAT(bench_.sent, HasSubstr("ft ed ci "));
+  EXPECT_THAT(bench_.sent, testing::Not(HasSubstr("ds"))) << "writes to the EEPROM";
 }
 
 TEST_F(PanTiltTest, HomesAtTheStartWhereAsked) {
@@ -63,7 +64,7 @@ TEST_F(PanTiltTest, HomesAtTheStartWhereAsked) {
   Make(options);
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kHoming);
-  EXPECT_THAT(*head_->MoveTo({0.1, 0.0}), testing::HasSubstr("homing"));
+  EXPECT_THAT(*head_->MoveTo({0.1, 0.0}), HasSubstr("homing"));
   ASSERT_TRUE(BecomeReady());
   EXPECT_GT(bench_.now_s, 8);
   EXPECT_FALSE(head_->HasLostPosition());  // limits that homing finds are no faults
@@ -102,10 +103,10 @@ TEST_F(PanTiltTest, StampsAnAxisInTheMiddleOfItsRoundTrip) {
 TEST_F(PanTiltTest, RefusesGoalsOutsideTheLimitsBothAxesOrNone) {
   MakeReady();
   bench_.sent.clear();
-  EXPECT_THAT(*head_->MoveTo({0.5, 1.0}), testing::HasSubstr("tilt 57.30 deg is outside the limits "
-                                                             "-46.65 .. 31.06 deg"));
-  EXPECT_THAT(*head_->MoveTo({-3.0, {}}), testing::HasSubstr("pan"));
-  EXPECT_THAT(*head_->MoveTo({NAN, 0.0}), testing::HasSubstr("outside"));
+  EXPECT_THAT(*head_->MoveTo({0.5, 1.0}), HasSubstr("tilt 57.30 deg is outside the limits "
+                                                    "-46.65 .. 31.06 deg"));
+  EXPECT_THAT(*head_->MoveTo({-3.0, {}}), HasSubstr("pan"));
+  EXPECT_THAT(*head_->MoveTo({NAN, 0.0}), HasSubstr("outside"));
   EXPECT_EQ(bench_.sent, "");
 }
 
@@ -114,7 +115,7 @@ TEST_F(PanTiltTest, SaysWhyWhileThereIsNoUnit) {
   Make();
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kClosed);
-  EXPECT_THAT(*head_->MoveTo({0.1, {}}), testing::HasSubstr("line is gone"));
+  EXPECT_THAT(*head_->MoveTo({0.1, {}}), HasSubstr("line is gone"));
   EXPECT_TRUE(head_->Home());
 }
 
@@ -123,7 +124,7 @@ TEST_F(PanTiltTest, SurvivesAnUnpluggedLineWithGrowingWaits) {
   bench_.is_plugged = false;
   head_->Step();
   EXPECT_EQ(head_->state(), PanTiltState::kClosed);
-  EXPECT_THAT(head_->problem(), testing::HasSubstr("gone"));
+  EXPECT_THAT(head_->problem(), HasSubstr("gone"));
   EXPECT_FALSE(Reach(PanTiltState::kReady, 20));
   bench_.is_plugged = true;
   ASSERT_TRUE(Reach(PanTiltState::kReady, 6));
@@ -210,7 +211,7 @@ TEST_F(PanTiltTest, TenThousandRandomRepliesGiveNoWrongPositionAndNoHang) {
   ASSERT_TRUE(StepUntil([this] { return head_->Step().pan.has_value(); }, 30));
   std::printf("%d replies, %d positions taken, %d times reopened, %.0f s simulated\n",
               noise.num_replies, num_read, head_->num_reopened(), bench_.now_s);
-  EXPECT_THAT(bench_.sent, testing::Not(testing::HasSubstr("ds"))) << "writes to the EEPROM";
+  EXPECT_THAT(bench_.sent, testing::Not(HasSubstr("ds"))) << "writes to the EEPROM";
 }
 
 TEST_F(PanTiltTest, ALineThatGoesWithACommandOrHomingClosesTheUnitAndIsNamed) {
@@ -219,7 +220,7 @@ TEST_F(PanTiltTest, ALineThatGoesWithACommandOrHomingClosesTheUnitAndIsNamed) {
     MakeReady();
     bench_.is_plugged = false;
     EXPECT_THAT(*(is_homing ? head_->Home() : head_->MoveTo({0.2, 0.1})),
-                testing::HasSubstr("line is gone"));
+                HasSubstr("line is gone"));
     EXPECT_EQ(head_->state(), PanTiltState::kClosed);
     EXPECT_FALSE(head_->properties(PtuAxis::kPan));
     EXPECT_FALSE(head_->counts());
@@ -231,10 +232,10 @@ TEST_F(PanTiltTest, HomingThatDoesNotEndClosesTheUnit) {
   options.home_timeout_s = 1;
   MakeReady(options);
   ASSERT_EQ(head_->Home(), std::nullopt);
-  EXPECT_THAT(*head_->MoveTo({0.1, {}}), testing::HasSubstr("homing"));
+  EXPECT_THAT(*head_->MoveTo({0.1, {}}), HasSubstr("homing"));
   bench_.disturb = [](const std::string&) { return std::string(); };
   EXPECT_TRUE(Reach(PanTiltState::kClosed, 30));
-  EXPECT_THAT(head_->problem(), testing::HasSubstr("homing"));
+  EXPECT_THAT(head_->problem(), HasSubstr("homing"));
 }
 
 TEST_F(PanTiltTest, ASpeedWithinTheLimitsIsSetAndAnotherSaidWithThem) {
@@ -246,8 +247,7 @@ TEST_F(PanTiltTest, ASpeedWithinTheLimitsIsSetAndAnotherSaidWithThem) {
   EXPECT_NEAR(pan->speed * pan->resolution_rad, 0.2, pan->resolution_rad);
   options.pan_speed_rad_s = 50;
   MakeReady(options);
-  EXPECT_THAT(head_->problem(),
-              testing::AllOf(testing::HasSubstr("pan speed"), testing::HasSubstr("is outside")));
+  EXPECT_THAT(head_->problem(), testing::AllOf(HasSubstr("pan speed"), HasSubstr("is outside")));
 }
 
 TEST(PanTiltOptions, BadValuesAreNamed) {

@@ -1,7 +1,6 @@
 #include "arfm_vo/hardware/stereo_camera_device.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "base/refusal.h"
 #include "hardware/simulated_cameras.h"

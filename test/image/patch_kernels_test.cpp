@@ -146,16 +146,14 @@ TEST_P(PatchKernelsTest, ValuesAndGradientsAreFreeOfWhatBrightnessAndContrastExp
                                              {values.data(), x.data(), y.data(), raw.data()});
   const std::vector<float> ones(kPatchSamples, 1);
   EXPECT_GT(sums.squared_values, 100);
-  for (const auto* part : {&values, &x, &y}) {
+  for (const auto* part : {&values, &x, &y})
     EXPECT_NEAR(GetParam()->dot(part->data(), ones.data()), 0, 1e-3);
-  }
   EXPECT_NEAR(GetParam()->dot(values.data(), x.data()), 0, 1e-2);
   EXPECT_NEAR(GetParam()->dot(values.data(), y.data()), 0, 1e-2);
   EXPECT_FLOAT_EQ(raw[0], 0.5f * (bordered[kBorderedSize + 2] - bordered[kBorderedSize]));
   // The weights are equal: w g and w^2 g^2 differ by their number only.
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(sums.squared_gradients[i] * kPatchSamples, sums.hessian[i], 1e-3 * sums.hessian[0]);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSets, PatchKernelsTest,

@@ -50,9 +50,7 @@ TEST(LocalMap, SpreadsNewLandmarksOverThePicture) {
   const Keyframe& keyframe = map.AddKeyframe(MakeFrame(points), kImage, Rigid3(), {});
   ASSERT_EQ(keyframe.observations.size(), 10u);
   bool has_lonely = false;
-  for (const auto& observation : keyframe.observations) {
-    has_lonely |= observation.pixels.x() == 600;
-  }
+  for (const auto& observation : keyframe.observations) has_lonely |= observation.pixels.x() == 600;
   EXPECT_TRUE(has_lonely);
 }
 
@@ -127,9 +125,8 @@ TEST(LocalMap, WhatIsFoundElsewhereHasNotVanished) {
   LocalMap map(kCamera, SmallMap());
   const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});
   LandmarkObservations tracked, elsewhere;
-  for (const auto& observation : first.observations) {
+  for (const auto& observation : first.observations)
     (observation.pixels.x() < 400 ? elsewhere : tracked).push_back(observation);
-  }
   FindAgain(map);
   map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), tracked, elsewhere);
   EXPECT_LT(map.arrived(), 0.01);

@@ -39,9 +39,8 @@ class PlaceRecogniserTest : public ::testing::Test {
     LandmarkId next = 0;
     for (const Points& points : places_) {
       Place place;
-      for (const RandomPoint& point : points) {
+      for (const RandomPoint& point : points)
         place.push_back({next++, point.x_in_place, {point.descriptor.data(), point.sign}});
-      }
       recogniser.Add(place);
     }
     return recogniser.Find(view, revise);
@@ -83,9 +82,8 @@ TEST_F(PlaceRecogniserTest, DoesNotFindAnUnknownPlaceNorOneOfTooFewPoints) {
 
 TEST_F(PlaceRecogniserTest, PointsThatLookAlikeAndLieElsewhereAreNoPlace) {
   Points points = places_[0];
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kPoints; ++i)
     points[i].x_in_place = places_[0][(i + 17) % kPoints].x_in_place;
-  }
   EXPECT_FALSE(Find(See(points)));
 }
 

@@ -26,9 +26,8 @@ TEST(Appearance, DistancesAreThoseOfTheDescriptorsAndInfiniteAcrossSigns) {
 TEST(Appearance, NumbersBeyondOneAreCut) {
   float numbers[64] = {2, -2, 1, -1};
   const Appearance appearance(numbers, -1);
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < 64; ++i)
     EXPECT_EQ(appearance.descriptor[i], i >= 4 ? 0 : i % 2 == 0 ? 127 : -127) << i;
-  }
   EXPECT_EQ(appearance.laplacian_sign, -1);
 }
 

@@ -74,9 +74,8 @@ TEST(EpipolarRansac, SeparatesRightFromWrongMatches) {
 
 TEST(EpipolarRansac, FindsTheRowsOfARectifiedPair) {
   Scene scene = TurningCamera(200, 0, 0, 2);
-  for (size_t i = 0; i < scene.first.size(); ++i) {
+  for (size_t i = 0; i < scene.first.size(); ++i)
     scene.second[i] = At(scene.first[i].x - 5 - static_cast<double>(i % 37), scene.first[i].y);
-  }
   const auto geometry = Find(scene);
   ASSERT_TRUE(geometry);
   EXPECT_EQ(geometry->num_inliers, 200);

@@ -49,9 +49,8 @@ Features AxisFeatures(const std::vector<int>& axes) {
   Features features;
   features.keypoints.resize(axes.size());
   features.descriptors = cv::Mat::zeros(static_cast<int>(axes.size()), 64, CV_32FC1);
-  for (size_t i = 0; i < axes.size(); ++i) {
+  for (size_t i = 0; i < axes.size(); ++i)
     features.descriptors.at<float>(static_cast<int>(i), axes[i]) = 1;
-  }
   return features;
 }
 

@@ -21,9 +21,8 @@ struct StereoScene {
       right.keypoints[i].x = elsewhere.keypoints[i].x;
       right.keypoints[i].y = elsewhere.keypoints[i].y;
     }
-    for (int i = num_wrong; i < num_wrong + num_alike; ++i) {
+    for (int i = num_wrong; i < num_wrong + num_alike; ++i)
       right.descriptors.row(num_wrong).copyTo(right.descriptors.row(i));
-    }
   }
   Matches Match(MatchStrategy strategy, double ratio, double max_row_difference_px = 0) const {
     FeatureMatcherOptions options;

@@ -134,9 +134,8 @@ TEST(PredictedNeighbours, FindNoisyCopiesOfAWholeImage) {
   const Features first = RandomFeatures(500, 3);
   const Features second = ReversedWithNoise(first, 0.1, 4);
   std::vector<Prediction> predictions;
-  for (const Keypoint& k : first.keypoints) {
+  for (const Keypoint& k : first.keypoints)
     predictions.push_back({k.x + 6, k.y - 5, 20, k.scale, k.laplacian_sign});
-  }
   const auto found = FindPredictedNeighbours(predictions, first.descriptors, second, 1.5);
   for (int i = 0; i < first.size(); ++i) {
     EXPECT_EQ(found.of_first[i].nearest, 499 - i);

@@ -33,9 +33,8 @@ std::vector<RowSample> Samples(int count, double noise_px, double wrong_share, i
 double LargestError(const RowModel& model) {
   double largest = 0;
   for (int u = 0; u <= 1200; u += 100) {
-    for (int v = 0; v <= 360; v += 60) {
+    for (int v = 0; v <= 360; v += 60)
       largest = std::max(largest, std::abs(model.Predict(u, v) - TrueResidual(u, v)));
-    }
   }
   return largest;
 }

@@ -45,9 +45,7 @@ TEST(RowSearch, KeepsToTheGivenDisparities) {
 
 TEST(RowSearch, OfARepeatedPatternIsNotUnique) {
   cv::Mat stripes(kSize, kSize, CV_8U);
-  for (int x = 0; x < kSize; ++x) {
-    stripes.col(x).setTo(128 + 100 * std::sin(2 * CV_PI * x / 16.0));
-  }
+  for (int x = 0; x < kSize; ++x) stripes.col(x).setTo(128 + 100 * std::sin(2 * CV_PI * x / 16.0));
   EXPECT_FALSE(SearchIn(stripes, stripes).Find({150, 100}, 0, -40, 40));
 }
 

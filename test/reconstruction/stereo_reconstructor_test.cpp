@@ -46,9 +46,8 @@ struct Wall {
 
 double RmsDisparityError(const StereoPoints& points) {
   double sum = 0;
-  for (const StereoPoint& point : points) {
+  for (const StereoPoint& point : points)
     sum += std::pow(point.observation[0] - point.observation[2] - kDisparity, 2);
-  }
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 

@@ -77,9 +77,8 @@ ImageChange Dirty(double share, int seed) {
     // Smooth noise above the level that leaves `share` of the picture.
     cv::Mat noise(image.size(), CV_32F), smeared, dirt;
     for (int y = 0; y < image.rows; ++y) {
-      for (int x = 0; x < image.cols; ++x) {
+      for (int x = 0; x < image.cols; ++x)
         noise.at<float>(y, x) = static_cast<float>(GradientNoise(x / 60., y / 60., seed));
-      }
     }
     std::vector<float> levels(noise.begin<float>(), noise.end<float>());
     const auto level = levels.begin() + static_cast<int>((1 - share) * levels.size());

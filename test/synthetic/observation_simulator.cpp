@@ -52,9 +52,8 @@ std::optional<SimulatedFrame> ObservationSimulator::Next() {
   std::vector<int> others;  // tracks that go on come first
   VisitNear([&](int id) { GoesOn(landmarks_[id]) ? add(id) : others.push_back(id); });
   for (const int id : others) add(id);
-  for (int i = 0; !is_full() && i < kMaxTriesPerLandmark * options_.landmarks_in_view; ++i) {
+  for (int i = 0; !is_full() && i < kMaxTriesPerLandmark * options_.landmarks_in_view; ++i)
     add(PlaceLandmark());
-  }
   for (SimulatedObservation& observation : frame.observations) Disturb(observation);
   ++frame_;
   return frame;

@@ -48,9 +48,8 @@ TEST(ObservationSimulator, TracksHaveTheLengthAskedForAndNoGaps) {
   ObservationSimulator simulator(kCamera, std::vector<Rigid3>(200), options);  // at rest
   std::map<int, std::vector<int>> frames_of_track;
   for (int i = 0; const auto frame = simulator.Next(); ++i) {
-    for (const SimulatedObservation& seen : frame->observations) {
+    for (const SimulatedObservation& seen : frame->observations)
       frames_of_track[seen.track_id].push_back(i);
-    }
   }
   double sum = 0;
   int num_ended = 0;

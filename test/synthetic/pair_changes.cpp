@@ -156,9 +156,8 @@ PairChange Skew(double skew_s) {
   auto before = std::make_shared<StereoImages>();
   return [=](int, StereoImages& images) {
     const cv::Mat now = images.right;
-    if (!before->right.empty()) {
+    if (!before->right.empty())
       images.right = MovedBack(before->right, now, skew_s / (images.stamp_s - before->stamp_s));
-    }
     before->right = now;
     before->stamp_s = images.stamp_s;
   };

@@ -47,9 +47,8 @@ Drive Read(const std::string& folder) {
                  cv::Mat::zeros(drive.images[0].left.size(), CV_8U)};
   drive.black_frame = frontend.Process(drive.black);
   VisualOdometry odometry(drive.camera, {});
-  for (size_t i = 0; i < drive.frames.size(); ++i) {
+  for (size_t i = 0; i < drive.frames.size(); ++i)
     drive.whole.push_back(odometry.Process(drive.frames[i], drive.images[i]));
-  }
   return drive;
 }
 

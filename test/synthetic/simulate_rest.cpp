@@ -73,14 +73,12 @@ Drift Rest(const Arguments& arguments, bool is_shadow) {
     StereoImages images{0.1 * pair, still.left.clone(), still.right.clone()};
     intruder.Paint(images.left, pair, 0, is_shadow);
     intruder.Paint(images.right, pair, is_shadow ? 20 : 40, is_shadow);
-    for (cv::Mat* image : {&images.left, &images.right}) {
+    for (cv::Mat* image : {&images.left, &images.right})
       AddNoise(*image, arguments.noise_grey_levels, random);
-    }
     const SessionUpdate update = odometry.Process(images);
     const PoseEstimate& pose = update.update.pose;
-    if (!pose.HasPose()) {
+    if (!pose.HasPose())
       throw std::runtime_error("pair " + std::to_string(pair) + ": " + update.text);
-    }
     drift.num_degraded += !pose.IsTracked();
     drift.metres = std::max(drift.metres, pose.camera_from_world.translation.norm());
     drift.degrees = std::max(drift.degrees, pose.camera_from_world.Angle() * 180 / M_PI);

@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <cstdlib>
-#include <utility>
 
 #include "arfm_vo/hardware/chassis_protocol.h"
 #include "arfm_vo/hardware/clock_offset.h"

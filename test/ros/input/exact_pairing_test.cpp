@@ -1,7 +1,6 @@
 #include "arfm_vo/datasets/exact_pairing.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 

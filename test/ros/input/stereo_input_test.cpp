@@ -1,10 +1,7 @@
 #include "arfm_vo/ros/input/stereo_input.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <set>
-#include <string>
 #include <vector>
 
 namespace arfm_vo {

@@ -1,7 +1,6 @@
 #include "arfm_vo/ros/messages/conversions.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "arfm_vo/ros/odometry/camera_mount.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "arfm_vo/odometry/base_motion.h"
 #include "arfm_vo/ros/messages/transforms.h"

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <filesystem>
-
 #include "arfm_vo/base/random.h"
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/mapping/map_file.h"

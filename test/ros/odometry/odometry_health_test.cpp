@@ -1,10 +1,8 @@
 #include "arfm_vo/ros/odometry/odometry_health.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <map>
-#include <string>
 
 #include "base/refusal.h"
 

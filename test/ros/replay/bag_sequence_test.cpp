@@ -1,11 +1,9 @@
 #include "arfm_vo/ros/replay/bag_sequence.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <functional>
-#include <utility>
 
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/ros/replay/stereo_outputs.h"
@@ -14,6 +12,8 @@
 
 namespace arfm_vo {
 namespace {
+
+using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
@@ -147,7 +147,7 @@ TEST_F(BagSequenceTest, TruncationAnywhereIsAnError) {
     EXPECT_NE(ErrorOf(), "") << i;
   }
   WriteWholeFile(path_, bytes.substr(0, bytes.size() - 1));
-  EXPECT_THAT(ErrorOf(), testing::HasSubstr("truncated"));
+  EXPECT_THAT(ErrorOf(), HasSubstr("truncated"));
   WriteWholeFile(path_, "this is no bag");
   EXPECT_EQ(ErrorOf(), ": the bag is truncated or damaged: it is no bag of format 2.0");
 }
@@ -169,16 +169,16 @@ TEST_F(BagSequenceTest, LengthsAndOffsetsThatLeadNowhereAreNamed) {
             damaged + "0: it has no field index_pos");
   EXPECT_EQ(error_with(bytes.find("op=") + 2, '_'), damaged + "0: a field of a header has no name");
   EXPECT_THAT(error_with(bytes.find("index_pos=") + 10, 1),
-              testing::HasSubstr("there is no index where its header says"));
+              HasSubstr("there is no index where its header says"));
   EXPECT_THAT(error_with(bytes.find("chunk_pos=") + 11, 1),
-              testing::HasSubstr("there is no chunk where it says"));
+              HasSubstr("there is no chunk where it says"));
   // The index of the chunk: its number of messages; after its last field the length of its data,
   // a time and an offset.
   const size_t version = bytes.find("ver=");
   EXPECT_THAT(error_with(bytes.rfind("count=", version) + 6, 2),
-              testing::HasSubstr("it does not hold as many as it says"));
+              HasSubstr("it does not hold as many as it says"));
   EXPECT_THAT(error_with(version + 4 + 4 + 4 + 8, 1),
-              testing::HasSubstr("there is no message where it says"));
+              HasSubstr("there is no message where it says"));
 }
 
 TEST_F(BagSequenceTest, MissingTopicsAreNamed) {
@@ -216,7 +216,7 @@ TEST_F(BagSequenceTest, WhatIsWrongWithAMessageIsNamed) {
     StereoMessages messages = MakeMessages(0);
     spoil(messages);
     WriteBag({messages});
-    EXPECT_THAT(ErrorOf(), testing::HasSubstr(error));
+    EXPECT_THAT(ErrorOf(), HasSubstr(error));
   }
 }
 

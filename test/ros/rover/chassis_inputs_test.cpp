@@ -1,7 +1,6 @@
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 
