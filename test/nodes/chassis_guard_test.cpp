@@ -1,11 +1,10 @@
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
 #include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/start_check.h"
-#include "arfm_vo/hardware/file_descriptor.h"
 #include "hardware/guard/started_process.h"
+#include "hardware/loopback_socket.h"
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
 
@@ -113,12 +112,8 @@ TEST_F(GuardedNodeTest, AGuardThatIsKilledOrHangsIsABusThatIsDownAndTheNodeSends
 
 TEST_F(GuardedNodeTest, APacketStopsUntilTheOperatorStartsAnew) {
   Drive();
-  FileDescriptor person(::socket(AF_INET, SOCK_DGRAM, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<uint16_t>(std::stoi("5" + digits_)));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ::sendto(person.Get(), "stop", 4, 0, reinterpret_cast<sockaddr*>(&address), sizeof(address));
+  const LoopbackSocket person;
+  ASSERT_TRUE(person.SendTo(static_cast<uint16_t>(std::stoi("5" + digits_)), "stop"));
   ExpectToStop("a packet");
   ExpectToSay("software emergency stop is set", "by chassis_guard");
   ExpectToStand("until a start");

@@ -1,15 +1,14 @@
 #include "arfm_vo/hardware/guard/guarded_bus.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
-#include <sys/socket.h>
 
 #include <cstdlib>
 
 #include "arfm_vo/hardware/chassis_protocol.h"
 #include "arfm_vo/hardware/clock_offset.h"
 #include "hardware/guard/started_process.h"
+#include "hardware/loopback_socket.h"
 
 namespace arfm_vo {
 namespace {
@@ -42,21 +41,9 @@ class GuardedBusTest : public ::testing::TestWithParam<std::string> {
     const bool is_can = GetParam() == "vcan";
     if (is_can && (::if_nametoindex("vcan0") == 0 || std::system("ip link set vcan0 up") != 0))
       GTEST_SKIP() << "there is no interface vcan0";
-    bus_address_ = is_can ? "vcan0" : Udp(port_, chassis_port_);
-    chassis_ = OpenCanBus(is_can ? "vcan0" : Udp(chassis_port_, port_));
+    bus_address_ = is_can ? "vcan0" : UdpAddress(port_, chassis_port_);
+    chassis_ = OpenCanBus(is_can ? "vcan0" : UdpAddress(chassis_port_, port_));
     bus_ = OpenCanBus("guard:" + bus_address_);
-  }
-  static uint16_t FreePort() {
-    FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM, 0));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    socklen_t size = sizeof(address);
-    ::bind(socket.Get(), reinterpret_cast<sockaddr*>(&address), size);
-    ::getsockname(socket.Get(), reinterpret_cast<sockaddr*>(&address), &size);
-    return ntohs(address.sin_port);
-  }
-  static std::string Udp(uint16_t local, uint16_t peer) {
-    return "udp:" + std::to_string(local) + ":" + std::to_string(peer);
   }
   void StartGuard() {
     guard_ = std::make_unique<StartedProcess>(std::vector<std::string>{
@@ -151,7 +138,7 @@ TEST_P(GuardedBusTest, ASecondGuardAndWrongOptionsAreRefused) {
                {"chassis_guard", bus, "--stop-port", std::to_string(port), "--stop-address", host})
         .Await();
   };
-  const std::string other_bus = Udp(FreePort(), FreePort());
+  const std::string other_bus = UdpAddress(FreePort(), FreePort());
   EXPECT_EQ(refuses(bus_address_, FreePort()), 1);
   EXPECT_EQ(refuses(other_bus, stop_port_), 1);
   EXPECT_EQ(refuses("udp:1", FreePort()), 1);
