@@ -27,11 +27,7 @@ TEST(KittiSequence, GivesPairsStampsTruthAndCamera) {
   folder.Write("times.txt", "0\n0.125\n0.5\n");
   KittiSequence sequence(folder.Path());
   EXPECT_EQ(sequence.size(), 3);
-  EXPECT_EQ(sequence.camera().fx, 700);
-  EXPECT_EQ(sequence.camera().cx, 8);
-  EXPECT_EQ(sequence.camera().baseline_m, 0.5);
-  EXPECT_EQ(sequence.camera().width, 16);
-  EXPECT_EQ(sequence.camera().height, 12);
+  EXPECT_TRUE(sequence.camera() == (StereoCamera{700, 700, 8, 6, 0.5, 16, 12}));
   const double stamps_s[] = {0, 0.125, 0.5};
   for (int i = 0; i < 3; ++i) {
     const auto pair = sequence.Next();

@@ -36,12 +36,7 @@ StereoFrame MakeFrame(int number) {
     for (int j = 0; j < 64; ++j) row.at<float>(j) = static_cast<float>(Hash(1000 * i + j) - 0.5);
     row /= cv::norm(row);
     frame.features.descriptors.push_back(row);
-    StereoPoint point;
-    point.keypoint = static_cast<int>(frame.features.keypoints.size());
-    point.observation = uvu;
-    point.sigma_px = 0.5;
-    point.x_in_camera = x;
-    frame.points.push_back(point);
+    frame.points.push_back({static_cast<int>(frame.features.keypoints.size()), uvu, 0, 0.5, x});
     frame.features.keypoints.push_back({static_cast<float>(uvu.x()), static_cast<float>(uvu.y()),
                                         1.5f, 0.f, 1000.f, static_cast<int8_t>(i % 2 ? 1 : -1)});
   }

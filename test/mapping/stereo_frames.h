@@ -15,18 +15,11 @@ inline StereoFrame MakeFrame(const std::vector<Eigen::Vector3d>& points) {
   frame.features.descriptors =
       cv::Mat(static_cast<int>(points.size()), 64, CV_32F, cv::Scalar(0.125));
   for (size_t i = 0; i < points.size(); ++i) {
-    Keypoint keypoint;
-    keypoint.x = static_cast<float>(points[i].x());
-    keypoint.y = static_cast<float>(points[i].y());
-    keypoint.scale = 2;
-    keypoint.response = static_cast<float>(i);
-    frame.features.keypoints.push_back(keypoint);
-    StereoPoint point;
-    point.keypoint = static_cast<int>(i);
-    point.observation << points[i].x(), points[i].y(), points[i].x() - points[i].z();
-    point.sigma_px = 0.5;
-    point.x_in_camera = kCamera.Triangulate(points[i].x(), points[i].y(), points[i].z());
-    frame.points.push_back(point);
+    const double u = points[i].x(), v = points[i].y(), disparity = points[i].z();
+    frame.features.keypoints.push_back(
+        {static_cast<float>(u), static_cast<float>(v), 2, 0, static_cast<float>(i)});
+    frame.points.push_back(
+        {static_cast<int>(i), {u, v, u - disparity}, 0, 0.5, kCamera.Triangulate(u, v, disparity)});
   }
   return frame;
 }

@@ -9,13 +9,17 @@
 namespace arfm_vo {
 namespace {
 
+cv::Mat AxisDescriptor(int axis) {
+  cv::Mat row = cv::Mat::zeros(1, 64, CV_32FC1);
+  row.at<float>(0, axis) = 1;
+  return row;
+}
+
 /// One feature whose descriptor points along `axis`.
 void AddFeature(Features& features, float x, float y, int axis, float scale = 1.2f,
                 int8_t sign = 1) {
   features.keypoints.push_back({x, y, scale, 0, 1, sign});
-  cv::Mat row = cv::Mat::zeros(1, 64, CV_32FC1);
-  row.at<float>(0, axis) = 1;
-  features.descriptors.push_back(row);
+  features.descriptors.push_back(AxisDescriptor(axis));
 }
 
 int FindStereoMatchOf(const Keypoint& right, const StereoSearchOptions& options = {}) {
@@ -83,12 +87,6 @@ TEST(StereoNeighbours, AgreeWithTheDefinition) {
 TEST(StereoNeighbours, EmptyImagesGiveNothing) {
   EXPECT_TRUE(FindStereoNeighbours({}, RandomFeatures(3, 1), {}).of_first.empty());
   EXPECT_EQ(FindStereoNeighbours(RandomFeatures(3, 1), {}, {}).of_first.size(), 3u);
-}
-
-cv::Mat AxisDescriptor(int axis) {
-  cv::Mat row = cv::Mat::zeros(1, 64, CV_32FC1);
-  row.at<float>(0, axis) = 1;
-  return row;
 }
 
 TEST(PredictedNeighbours, AreWithinTheRadius) {

@@ -24,13 +24,9 @@ inline Features RandomFeatures(int count, int seed) {
   Features features;
   features.descriptors.create(count, 64, CV_32FC1);
   for (int i = 0; i < count; ++i) {
-    Keypoint keypoint;
-    keypoint.x = between(20, 1180);
-    keypoint.y = between(20, 350);
-    keypoint.scale = between(1.2, 4);
-    keypoint.response = between(1, 100);
-    keypoint.laplacian_sign = RandomBelow(2, engine) ? 1 : -1;
-    features.keypoints.push_back(keypoint);
+    features.keypoints.push_back({between(20, 1180), between(20, 350), between(1.2, 4)});
+    features.keypoints[i].response = between(1, 100);
+    features.keypoints[i].laplacian_sign = RandomBelow(2, engine) ? 1 : -1;
     float* descriptor = features.descriptors.ptr<float>(i);
     for (int k = 0; k < 64; ++k) descriptor[k] = between(-1, 1);
     Normalise(descriptor);

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "arfm_vo/base/random.h"
+#include "matching/random_features.h"
 
 namespace arfm_vo {
 namespace {
@@ -19,23 +17,13 @@ StereoFrame SeeWall(int seed, double shift_m) {
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector3d x(8 * RandomUnit(engine) - 4 - shift_m, 6 * RandomUnit(engine) - 3,
                             8 + 2 * RandomUnit(engine));
-    double squares = 0;
     float* descriptor = frame.features.descriptors.ptr<float>(i);
-    for (int k = 0; k < 64; ++k) {
-      descriptor[k] = static_cast<float>(RandomUnit(engine) - 0.5);
-      squares += descriptor[k] * descriptor[k];
-    }
-    for (int k = 0; k < 64; ++k) descriptor[k] /= static_cast<float>(std::sqrt(squares));
-    StereoPoint point;
-    point.keypoint = i;
-    point.observation = kCamera.ProjectStereo(x);
-    point.x_in_camera = x;
-    Keypoint keypoint;
-    keypoint.x = static_cast<float>(point.observation.x());
-    keypoint.y = static_cast<float>(point.observation.y());
-    keypoint.scale = 1;
-    frame.features.keypoints.push_back(keypoint);
-    frame.points.push_back(point);
+    for (int k = 0; k < 64; ++k) descriptor[k] = static_cast<float>(RandomUnit(engine) - 0.5);
+    Normalise(descriptor);
+    const Eigen::Vector3d seen = kCamera.ProjectStereo(x);
+    frame.features.keypoints.push_back(
+        {static_cast<float>(seen.x()), static_cast<float>(seen.y()), 1});
+    frame.points.push_back({i, seen, 0, 1, x});
   }
   return frame;
 }

@@ -25,11 +25,9 @@ class MotionStereoTest : public testing::Test {
     PosedFeatures seen{{{}, descriptors_.clone()}, camera_from_world};
     for (const Eigen::Vector3d& point : points_) {
       const Eigen::Vector2d uv = kSceneCamera.Project(camera_from_world * point);
-      Keypoint keypoint;
-      keypoint.x = static_cast<float>(uv.x() + noise_px * RandomNormal(engine_));
-      keypoint.y = static_cast<float>(uv.y() + noise_px * RandomNormal(engine_));
-      keypoint.scale = 1.5f;
-      seen.features.keypoints.push_back(keypoint);
+      seen.features.keypoints.push_back(
+          {static_cast<float>(uv.x() + noise_px * RandomNormal(engine_)),
+           static_cast<float>(uv.y() + noise_px * RandomNormal(engine_)), 1.5f});
     }
     return seen;
   }

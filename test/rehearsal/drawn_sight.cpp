@@ -33,11 +33,7 @@ Glimpse DrawnSight::Look(double now_s, const Rigid3& world_from_base) {
         map_from_base_ * (world_from_base_->Inverse() * world_from_base) * record.step_error;
   }
   world_from_base_ = world_from_base;
-  Glimpse glimpse;
-  glimpse.taken_s = now_s;
-  glimpse.told_s = now_s + latency_s_;
-  glimpse.map_from_base = map_from_base_;
-  glimpse.uncertainty = record.uncertainty;
+  Glimpse glimpse{now_s, now_s + latency_s_, map_from_base_, record.uncertainty};
   glimpse.uncertainty.taken_s = now_s;
   return glimpse;
 }

@@ -19,6 +19,7 @@
 
 #include "arfm_vo/odometry/placed_map.h"
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "base/held_memory.h"
 
 namespace arfm_vo {
@@ -68,13 +69,8 @@ inline nav_msgs::Odometry ValidOdometry(const ros::Time& stamp) {
 /// map -> odom -> base_link
 inline tf2_msgs::TFMessage ValidTransforms(const ros::Time& stamp) {
   tf2_msgs::TFMessage tf;
-  tf.transforms.resize(2);
-  for (int i = 0; i < 2; ++i) {
-    tf.transforms[i].header.stamp = stamp;
-    tf.transforms[i].header.frame_id = i == 0 ? "map" : "odom";
-    tf.transforms[i].child_frame_id = i == 0 ? "odom" : "base_link";
-    tf.transforms[i].transform.rotation.w = 1;
-  }
+  tf.transforms = {MakeTransform(stamp, "map", "odom", Rigid3()),
+                   MakeTransform(stamp, "odom", "base_link", Rigid3())};
   return tf;
 }
 

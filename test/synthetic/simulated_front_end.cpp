@@ -12,13 +12,9 @@ std::optional<StereoPoint> MakePoint(const StereoCamera& camera, const Simulated
                                      int keypoint, double sigma_px) {
   const double disparity = seen.pixels.x() - seen.pixels.z();
   if (disparity < kMinDisparity_px) return std::nullopt;
-  StereoPoint point;
-  point.keypoint = keypoint;
-  point.observation = seen.pixels;
-  point.row_residual_px = seen.v_right - seen.pixels.y();
-  point.sigma_px = sigma_px;
-  point.x_in_camera = camera.TriangulateMeasured(seen.pixels.x(), seen.pixels.y(), disparity);
-  return point;
+  const double row_residual_px = seen.v_right - seen.pixels.y();
+  return StereoPoint{keypoint, seen.pixels, row_residual_px, sigma_px,
+                     camera.TriangulateMeasured(seen.pixels.x(), seen.pixels.y(), disparity)};
 }
 
 }  // namespace
@@ -33,12 +29,8 @@ StereoFrame MakeStereoFrame(const StereoCamera& camera, const SimulatedFrame& si
   frame.features.descriptors.create(count, 64, CV_32F);
   for (int i = 0; i < count; ++i) {
     const SimulatedObservation& seen = simulated.observations[i];
-    Keypoint keypoint;
-    keypoint.x = static_cast<float>(seen.pixels.x());
-    keypoint.y = static_cast<float>(seen.pixels.y());
-    keypoint.scale = 1;
-    keypoint.response = 1;
-    frame.features.keypoints.push_back(keypoint);
+    const Eigen::Vector3f pixels = seen.pixels.cast<float>();
+    frame.features.keypoints.push_back({pixels.x(), pixels.y(), 1, 0, 1});
     const auto descriptor = simulator.Describe(seen.landmark_id, descriptor_noise);
     std::copy(descriptor.begin(), descriptor.end(), frame.features.descriptors.ptr<float>(i));
 

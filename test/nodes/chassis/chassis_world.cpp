@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/transforms.h"
 
 namespace arfm_vo {
 
@@ -38,9 +39,7 @@ void World::SendGoal(double x_m, double y_m, const std::string& frame) {
   geometry_msgs::PoseStamped goal;
   goal.header.frame_id = frame;
   goal.header.stamp = goal_stamp_.value_or(ros::Time::now());
-  goal.pose.position.x = x_m;
-  goal.pose.position.y = y_m;
-  goal.pose.orientation.w = 1;
+  goal.pose = ToPoseMessage(LiftFromPlane({x_m, y_m, 0}));
   goal_.publish(goal);
 }
 
@@ -49,11 +48,8 @@ void World::SendWaypoints(const std::vector<Eigen::Vector2d>& places) {
   path.header.frame_id = "map";
   path.header.stamp = ros::Time::now();
   for (const Eigen::Vector2d& place : places) {
-    path.poses.emplace_back();
-    path.poses.back().header = path.header;
-    path.poses.back().pose.position.x = place.x();
-    path.poses.back().pose.position.y = place.y();
-    path.poses.back().pose.orientation.w = 1;
+    path.poses.emplace_back().header = path.header;
+    path.poses.back().pose = ToPoseMessage(LiftFromPlane({place.x(), place.y(), 0}));
   }
   waypoints_.publish(path);
 }
@@ -80,9 +76,7 @@ void World::RestartOdometry() {
 }
 
 void World::SendStampsOfTheEnd() {
-  geometry_msgs::TransformStamped transform = Transform("odom", "base_link", Rigid3());
-  transform.header.stamp = ros::TIME_MAX;
-  broadcaster_.sendTransform(transform);
+  broadcaster_.sendTransform(MakeTransform(ros::TIME_MAX, "odom", "base_link", Rigid3()));
   nav_msgs::Odometry odometry = Odometry(Rigid3());
   odometry.header.stamp = ros::TIME_MAX;
   odom_.publish(odometry);
@@ -96,25 +90,16 @@ std::unique_ptr<CanBus> World::OpenChassisBus(std::string can) {
   return std::make_unique<TappedBus>(OpenCanBus(can), &log_);
 }
 
-geometry_msgs::TransformStamped World::Transform(const std::string& parent,
-                                                 const std::string& child, const Rigid3& pose) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ros::Time::now();
-  transform.header.frame_id = parent;
-  transform.child_frame_id = child;
-  transform.transform = ToTransformMessage(pose);
-  return transform;
-}
-
 void World::See() {
   sight_due_s_ = Now() + 0.05;
-  if (has_map_) broadcaster_.sendTransform(Transform("map", "odom", Rigid3()));
+  const ros::Time now = ros::Time::now();
+  if (has_map_) broadcaster_.sendTransform(MakeTransform(now, "map", "odom", Rigid3()));
   if (!has_sight_) return;
   const Rigid3 pose = odom_from_world_ * chassis_.plant().WorldFromBase();
   odom_.publish(Odometry(pose));
-  broadcaster_.sendTransform(Transform("odom", "base_link", pose));
+  broadcaster_.sendTransform(MakeTransform(now, "odom", "base_link", pose));
   OdometryStatus status;
-  status.header.stamp = ros::Time::now();
+  status.header.stamp = now;
   status.epoch = 1;
   status.num_features = status.num_stereo_points = 300;
   odometry_status_.publish(status);

@@ -4,7 +4,6 @@
 #include <arfm_vo/GoalReport.h>
 #include <arfm_vo/OdometryStatus.h>
 #include <arfm_vo/OperatorChallenge.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -70,8 +69,6 @@ class World {
 
  private:
   std::unique_ptr<CanBus> OpenChassisBus(std::string can);
-  static geometry_msgs::TransformStamped Transform(const std::string& parent,
-                                                   const std::string& child, const Rigid3& pose);
   void See();
   nav_msgs::Odometry Odometry(const Rigid3& pose) const;
   void Answer(const OperatorChallenge& challenge);

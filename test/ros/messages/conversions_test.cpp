@@ -99,12 +99,7 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
   EXPECT_EQ(FromMessage(ToMessage(StereoFrame{}, kCamera)).features.size(), 0);
 }
 
-TEST(Conversions, ACameraSurvives) {
-  const StereoCamera back = FromMessage(ToMessage(kCamera));
-  EXPECT_EQ(std::tie(back.fx, back.fy, back.cx, back.cy, back.baseline_m, back.width, back.height),
-            std::tie(kCamera.fx, kCamera.fy, kCamera.cx, kCamera.cy, kCamera.baseline_m,
-                     kCamera.width, kCamera.height));
-}
+TEST(Conversions, ACameraSurvives) { EXPECT_TRUE(FromMessage(ToMessage(kCamera)) == kCamera); }
 
 TEST(Conversions, AKeyframeSurvives) {
   const PlacedKeyframe keyframe = MakeKeyframe();

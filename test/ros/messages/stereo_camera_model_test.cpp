@@ -21,14 +21,9 @@ sensor_msgs::CameraInfo MakeInfo(double p3) {
 const sensor_msgs::CameraInfo kLeft = MakeInfo(0), kRight = MakeInfo(-350);
 
 TEST(StereoCameraModel, TakesIntrinsicsFromTheLeftAndTheBaselineFromTheRight) {
-  const StereoCamera camera = MakeStereoCamera(kLeft, kRight);
-  EXPECT_DOUBLE_EQ(camera.baseline_m, 0.5);  // 350 / 700
-  EXPECT_DOUBLE_EQ(camera.fx, 700);
-  EXPECT_DOUBLE_EQ(camera.fy, 710);
-  EXPECT_DOUBLE_EQ(camera.cx, 600);
-  EXPECT_DOUBLE_EQ(camera.cy, 180);
-  EXPECT_EQ(camera.width, 1226);
-  EXPECT_EQ(camera.height, 370);
+  const double baseline_m = 350. / 700;
+  EXPECT_TRUE(MakeStereoCamera(kLeft, kRight) ==
+              (StereoCamera{700, 710, 600, 180, baseline_m, 1226, 370}));
 }
 
 TEST(StereoCameraModel, SaysWhatIsWrongWithTheEyes) {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "arfm_vo/odometry/stereo_frontend.h"
-#include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "arfm_vo/ros/odometry/camera_mount.h"
 #include "arfm_vo/simulation/scene.h"
 
@@ -29,12 +29,9 @@ Drift Drive(const SceneOptions& options, double max_slew_dps = 0) {
   const Scene scene(options);
   tf2::BufferCore buffer{ros::Duration(600)};
   for (double t = -1; t < scene.Stamp(scene.num_pairs()) + 1; t += kReading_s) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp.fromSec(kStart_s + t);
-    transform.header.frame_id = "base_link";
-    transform.child_frame_id = "left_camera_optical";
-    transform.transform = ToTransformMessage(scene.BaseFromLeft(t));
-    buffer.setTransform(transform, "test");
+    buffer.setTransform(MakeTransform(ros::Time(kStart_s + t), "base_link", "left_camera_optical",
+                                      scene.BaseFromLeft(t)),
+                        "test");
   }
   CameraMountOptions mount_options;
   mount_options.max_slew_dps = max_slew_dps;

@@ -31,9 +31,14 @@ StereoMessages MakeMessages(int i) { return ToMessages(MakePair(i), kBagCamera, 
 
 class BagSequenceTest : public FolderTest {
  protected:
-  void WriteBag(const std::vector<StereoMessages>& pairs) {
+  void WriteBag(
+      int num_pairs, const std::function<void(StereoMessages&)>& spoil = [](StereoMessages&) {}) {
     StereoBagWriter writer(path_, StereoTopics{});
-    for (const StereoMessages& messages : pairs) writer.Write(messages);
+    for (int i = 0; i < num_pairs; ++i) {
+      StereoMessages messages = MakeMessages(i);
+      spoil(messages);
+      writer.Write(messages);
+    }
     writer.Close();
   }
   /// A bag of what `write` puts into it.
@@ -61,7 +66,7 @@ class BagSequenceTest : public FolderTest {
 };
 
 TEST_F(BagSequenceTest, GivesWhatWasWritten) {
-  WriteBag({MakeMessages(0), MakeMessages(1), MakeMessages(2)});
+  WriteBag(3);
   BagSequence sequence(path_, {});
   EXPECT_EQ(sequence.size(), 3);
   EXPECT_EQ(sequence.camera().fy, 710);
@@ -81,9 +86,7 @@ TEST_F(BagSequenceTest, GivesWhatWasWritten) {
 }
 
 TEST_F(BagSequenceTest, TakesEveryKthPairAndNotMoreThanAsked) {
-  std::vector<StereoMessages> all;
-  for (int i = 0; i < 8; ++i) all.push_back(MakeMessages(i));
-  WriteBag(all);
+  WriteBag(8);
   BagSequence sequence(path_, {}, {3, 2});
   EXPECT_EQ(sequence.size(), 2);
   EXPECT_EQ(sequence.Next()->images.left.at<uint8_t>(0, 0), 0);
@@ -138,9 +141,7 @@ TEST_F(BagSequenceTest, MissingFileAndFolder) {
 }
 
 TEST_F(BagSequenceTest, TruncationAnywhereIsAnError) {
-  std::vector<StereoMessages> all;
-  for (int i = 0; i < 8; ++i) all.push_back(MakeMessages(i));
-  WriteBag(all);
+  WriteBag(8);
   const std::string bytes = ReadWholeFile(path_);
   for (size_t i = 0; i < 40; ++i) {
     WriteWholeFile(path_, bytes.substr(0, bytes.size() * i / 40));
@@ -195,7 +196,7 @@ TEST_F(BagSequenceTest, MissingTopicsAreNamed) {
 }
 
 TEST_F(BagSequenceTest, ATopicOfAnotherTypeIsNamed) {
-  WriteBag({MakeMessages(0)});
+  WriteBag(1);
   StereoTopics topics;
   topics.left_image = topics.left_info;
   EXPECT_EQ(ErrorOf(topics),
@@ -213,9 +214,7 @@ TEST_F(BagSequenceTest, WhatIsWrongWithAMessageIsNamed) {
        ": topic /stereo/right/image_rect: an image is 16x11, camera_info says 16x12"},
       {[](auto& m) { m.ground_truth->pose.position.x = NAN; }, ": topic /stereo/ground_truth"}};
   for (const auto& [spoil, error] : rows) {
-    StereoMessages messages = MakeMessages(0);
-    spoil(messages);
-    WriteBag({messages});
+    WriteBag(1, spoil);
     EXPECT_THAT(ErrorOf(), HasSubstr(error));
   }
 }

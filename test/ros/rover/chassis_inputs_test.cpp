@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "arfm_vo/ros/messages/conversions.h"
+#include "arfm_vo/ros/messages/transforms.h"
 #include "base/refusal.h"
 
 namespace arfm_vo {
@@ -14,12 +15,7 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 void SetTransform(tf2::BufferCore& buffer, const std::string& parent, const std::string& child,
                   const Rigid3& parent_from_child, double stamp_s = 100) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp.fromSec(stamp_s);
-  transform.header.frame_id = parent;
-  transform.child_frame_id = child;
-  transform.transform = ToTransformMessage(parent_from_child);
-  buffer.setTransform(transform, "test");
+  buffer.setTransform(MakeTransform(ros::Time(stamp_s), parent, child, parent_from_child), "test");
 }
 
 geometry_msgs::PoseStamped Goal(double x_m, double y_m, double yaw_rad,
