@@ -45,8 +45,10 @@ TEST(SlipEstimator, FewPosesFillAWindowToo) {
 
 TEST(SlipEstimator, ALeapOfTheSightBeginsAnew) {
   SlipEstimator slip = Driven(1, 1);
-  for (int i = 0; i <= 40; ++i) slip.Add(Pose(9 + 0.01 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
-  ASSERT_TRUE(slip.Estimate());
+  for (int i = 0; i <= 40; ++i) {
+    slip.Add(Pose(9 + 0.01 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
+    EXPECT_EQ(slip.Estimate().has_value(), i >= 30) << i;
+  }
   EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
 }
 
@@ -55,7 +57,7 @@ TEST(SlipEstimator, TheRatioIsOfTheTracksWayAndHasALimit) {
     double track_m, share, ratio;
     bool is_excess;
   } rows[] = {{1, 1, 0, false},    {1, 0.9, 0.1, false},   {1, 0, 1, true},
-              {-1, 0, -1, true},    {1, 0.55, 0.45, false}, {1, 0.45, 0.55, true},
+              {-1, 0, -1, true},   {1, 0.55, 0.45, false}, {1, 0.45, 0.55, true},
               {1, 2, -0.5, false}, {1, 2.5, -0.6, true}};
   for (const auto& [track_m, share, ratio, is_excess] : rows) {
     const SlipEstimator slip = Driven(track_m, share);
@@ -138,12 +140,6 @@ TEST(SlipEstimator, OnlyTheLastWindowCounts) {
   SlipEstimator slip = Driven(1, 1);
   for (int i = 1; i <= 40; ++i) slip.Add(Pose(1, 0), {1 + 0.01 * i, 1 + 0.01 * i});
   EXPECT_NEAR(*slip.Estimate()->forward_ratio, 1, 1e-9);
-}
-
-TEST(SlipEstimator, ALeapOfThePoseBeginsANewWindow) {
-  SlipEstimator slip = Driven(1, 1);
-  slip.Add(Pose(30, 0), {1.01, 1.01});
-  EXPECT_FALSE(slip.Estimate());
 }
 
 TEST(SlipEstimator, StandingStillForLongChangesNothing) {
