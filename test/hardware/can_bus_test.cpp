@@ -6,7 +6,7 @@
 
 #include "base/refusal.h"
 #include "hardware/await_frame.h"
-#include "hardware/loopback_socket.h"
+#include "hardware/guard/loopback_socket.h"
 
 namespace arfm_vo {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "arfm_vo/base/format.h"
 #include "arfm_vo/driving/start_check.h"
+#include "hardware/guard/loopback_socket.h"
 #include "hardware/guard/started_process.h"
-#include "hardware/loopback_socket.h"
 #include "nodes/chassis/chassis_world.h"
 #include "nodes/node_process.h"
 

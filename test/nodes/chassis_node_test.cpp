@@ -215,6 +215,23 @@ TEST_F(ChassisNodeTest, TheRemoteControlTakesOverAndTheModeIsAskedForAgain) {
   EXPECT_TRUE(world_->log_.last.IsZero());
 }
 
+TEST_F(ChassisNodeTest, VelocitiesOfTwoNodesBlock) {
+  world_->Drive([] { world_->velocity_mps_ = 0.1; });
+  FILE* stranger = ::popen(
+      "timeout 60 rostopic pub __name:=stranger -r 5 /cmd_vel geometry_msgs/Twist "
+      "'{linear: {x: 0.05}}'",
+      "r");
+  ASSERT_NE(stranger, nullptr);
+  EXPECT_TRUE(Says("two nodes command velocities")) << world_->status_.reason;
+  EXPECT_NE(world_->status_.detail.find(ros::this_node::getName()), std::string::npos)
+      << world_->status_.detail;
+  EXPECT_TRUE(world_->RunUntil([] { return world_->log_.last.IsZero(); }));
+  world_->velocity_mps_ = 0;
+  ASSERT_EQ(::kill(PidOf("/stranger"), SIGINT), 0);
+  ::pclose(stranger);
+  world_->Run(1);  // chassis and operator were silent meanwhile
+}
+
 TEST_F(ChassisNodeTest, EndingTheNodeOrItsTerminalLeavesTheRoverStandingInStandby) {
   for (const int signal : {SIGHUP, SIGTERM}) {
     ASSERT_TRUE(world_->IsConnected());

@@ -7,8 +7,8 @@
 
 #include "arfm_vo/hardware/chassis_protocol.h"
 #include "arfm_vo/hardware/clock_offset.h"
+#include "hardware/guard/loopback_socket.h"
 #include "hardware/guard/started_process.h"
-#include "hardware/loopback_socket.h"
 
 namespace arfm_vo {
 namespace {
