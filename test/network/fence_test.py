@@ -121,9 +121,8 @@ def hear(rover, side, address, expected):
             heard |= set(os.read(listener.stdout.fileno(), 65536).decode().split())
         except BlockingIOError:
             pass
-    for process in (speaker, listener):
-        process.kill()
-        process.wait()
+    speaker.kill()
+    listener.kill()
     return heard
 
 
@@ -144,13 +143,11 @@ def run(rover, stranger):
     rover.python(f"import rosmaster.main\nrosmaster.main.rosmaster_main(['rosmaster', '--core', '-p', '{PORT}'])", ROVER, ROVER)
     check(any(connects(rover, PORT) or time.sleep(0.2) for _ in range(100)), "the master runs")
     everything = set(TOPICS) | {"start"}
-    heard = hear(rover, stranger, STRANGER, everything)
-    check(heard == everything, f"without the rules a stranger commands the rover: {sorted(heard)}")
+    check(hear(rover, stranger, STRANGER, everything) == everything, "without the rules a stranger commands the rover")
     for _ in range(2):  # once more is no error
         rover.run("nft", "-f", RULES, fault=RULES_FAULT)
     check(not connects(stranger, PORT), "with the rules he does not reach the master")
-    heard = hear(rover, stranger, STRANGER, set())
-    check(heard == set(), f"nothing that he says arrives: {sorted(heard)}")
+    check(hear(rover, stranger, STRANGER, set()) == set(), "nothing that he says arrives")
     check(connects(stranger, 22), "ssh is reached")
     heard = hear(rover, rover, ROVER, everything)
     check(heard == everything, f"what is said on the rover arrives: {sorted(heard)}")
