@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"
@@ -48,12 +49,11 @@ Drive Run(const Arguments& arguments, const Disturbance& disturbance) {
   return drive;
 }
 
-/// How far a place is from that of the undisturbed drive, in standard deviations of both: length
-/// over the root of the covariance's trace.
-double Deviation(const SessionUpdate& pose, const SessionUpdate& clean) {
-  const Eigen::Vector3d shift = pose.odom_from_base.translation - clean.odom_from_base.translation;
+/// An error against the undisturbed drive in standard deviations of both: the roots of the
+/// covariances' trace.
+double Deviation(double error_m, const SessionUpdate& pose, const SessionUpdate& clean) {
   const Matrix6 covariance = pose.covariance + clean.covariance;
-  return shift.norm() / std::sqrt(covariance.topLeftCorner<3, 3>().trace() + 1e-10);
+  return error_m / std::sqrt(covariance.topLeftCorner<3, 3>().trace() + 1e-10);
 }
 
 struct Errors {
@@ -70,6 +70,7 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
   std::vector<Rigid3> live, reference = drive.truth;
   int num_tracked = 0, num_degraded = 0, num_wrong = 0;
   double worst = 0;
+  std::optional<Rigid3> clean_from_first;  // the first tracked pair: odom begins there
   std::ofstream states;
   if (!arguments.states.empty()) {
     states.open(arguments.states + "/" + disturbance.name + ".csv");
@@ -79,7 +80,11 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
     const SessionUpdate &pose = drive.live[i], &clean_pose = clean.live[drive.pairs[i]];
     live.push_back(pose.odom_from_base);
     if (clean.truth.empty()) reference.push_back(clean_pose.odom_from_base);
-    const double deviation = Deviation(pose, clean_pose);
+    if (pose.IsTracked() && !clean_from_first) clean_from_first = clean_pose.odom_from_base;
+    const Rigid3 expected =
+        clean_from_first.value_or(Rigid3()).Inverse() * clean_pose.odom_from_base;
+    const double error_m = (pose.odom_from_base.translation - expected.translation).norm();
+    const double deviation = Deviation(error_m, pose, clean_pose);
     if (pose.IsTracked()) {
       ++num_tracked;
       worst = std::max(worst, deviation);
@@ -87,13 +92,11 @@ void Print(const Arguments& arguments, const Disturbance& disturbance, const Dri
     }
     num_degraded += pose.HasPose() && !pose.IsTracked();
     if (states) {
-      const auto error =
-          (pose.odom_from_base.translation - clean_pose.odom_from_base.translation).norm();
       states << drive.pairs[i] << ','
              << (pose.IsTracked() ? "tracked"
                  : pose.HasPose() ? "degraded"
                                   : "lost")
-             << ',' << deviation << ',' << error << ','
+             << ',' << deviation << ',' << error_m << ','
              << std::sqrt(pose.covariance.topLeftCorner<3, 3>().trace()) << ",\"" << pose.text
              << "\"\n";
     }
