@@ -4,7 +4,7 @@
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/pixel_scale.h"
-#include "moving_cells.h"
+#include "neighbour_evidence.h"
 #include "occupancy_grid.h"
 
 namespace arfm_vo {
@@ -61,10 +61,9 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
   for (const LandmarkObservation& known : keyframe.observations) {
     grid.Add(known.pixels.x(), known.pixels.y());
   }
-  const MovingCells moving(camera_, landmarks_, keyframe,
-                           keyframes_.empty() ? nullptr : &keyframes_.back(), contradicting,
-                           cell_px);
-  arrived_ = 1 - (1 - arrived_) * (1 - moving.arrived());
+  const Keyframe* before = keyframes_.empty() ? nullptr : &keyframes_.back();
+  const NeighbourEvidence neighbours(camera_, landmarks_, keyframe, before, contradicting, cell_px);
+  arrived_ = 1 - (1 - arrived_) * (1 - neighbours.arrived());
   std::vector<const StereoPoint*> candidates;
   for (const StereoPoint& point : frame.points) candidates.push_back(&point);
   std::stable_sort(candidates.begin(), candidates.end(), [&](const auto* a, const auto* b) {
@@ -84,8 +83,9 @@ void LocalMap::AddNewLandmarks(const StereoFrame& frame, const LandmarkObservati
       }
       grid.Add(u, v);
       Landmark& landmark = AddLandmark(frame, *point, keyframe);
-      landmark.num_contradicted = moving.NumContradicted(u, v);
-      landmark.doubt = moving.Doubt(u, v);
+      landmark.num_beside = neighbours.NumBeside(u, v);
+      landmark.num_contradicted = neighbours.NumContradicted(u, v);
+      landmark.doubt = neighbours.Doubt(u, v);
       --room;
     }
     candidates = std::move(later);

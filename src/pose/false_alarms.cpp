@@ -10,9 +10,6 @@
 namespace arfm_vo {
 namespace {
 
-/// A wrong match lies anywhere where it was looked for, 40 px around; it agrees within 3 sigma,
-/// some 2 px. (Both images must agree, and a search through the whole image is wider: less by far.)
-constexpr double kChance = 0.003;
 constexpr double kMaxFalseAlarms = 1e-4;  ///< of an image
 
 double LogFactorial(int n) {
@@ -31,8 +28,7 @@ double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance) {
 
 int LeastAgreeing(int num_matches, int at_least) {
   int least = std::max(kSamplePoints + 1, at_least);
-  while (least <= num_matches &&
-         LogFalseAlarms(num_matches, least, std::log(kChance)) > std::log(kMaxFalseAlarms)) {
+  while (least <= num_matches && LogFalseAlarms(num_matches, least) > std::log(kMaxFalseAlarms)) {
     ++least;
   }
   return least;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "arfm_vo/base/belief.h"
+#include "arfm_vo/pose/false_alarms.h"
 
 namespace arfm_vo {
 namespace {
@@ -22,8 +23,6 @@ constexpr double kByChance = 0.05;
 constexpr double kLeastAgreeing = 0.3, kMostAgreeing = 0.9, kFew = 10;
 /// An object that hides so much more of the image is e times as rare.
 constexpr double kHidden = 0.2;
-/// Of wrong matches nearly as many agree on some pose; each one fewer is e times likelier chance.
-constexpr double kByChanceAgree = 15;
 constexpr int kEnoughInRegion = 5;
 
 constexpr int kCellsAcross = 12, kFewInCell = 3;
@@ -79,7 +78,8 @@ struct Agreement {
       region.num_explained += is_explained[i];
       region.num_agreeing += agrees[i];
     }
-    double share = 0, weights = 0, num_agreeing = 0;
+    double share = 0, weights = 0;
+    int num_agreeing = 0;
     for (const Region& region : of_region) {
       num_agreeing += region.num_agreeing;
       if (region.num_explained == 0) continue;
@@ -88,7 +88,8 @@ struct Agreement {
       weights += weight;
     }
     const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
-    return -std::log1p(std::exp(-larger)) - std::max(0., kByChanceAgree - num_agreeing);
+    const double by_chance = LogFalseAlarms(static_cast<int>(agrees.size()), num_agreeing);
+    return -std::log1p(std::exp(-larger)) - std::log1p(std::exp(by_chance));
   }
 
  private:

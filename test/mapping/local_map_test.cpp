@@ -121,6 +121,54 @@ TEST(LocalMap, WhatWasNeverFoundAgainTellsNothingOfWhatHidesIt) {
   EXPECT_LT(map.arrived(), 0.01);
 }
 
+/// All known points agree with a frame's pose, or those in the left half contradict it.
+TEST(LocalMap, NewPointsAreAsLikelyTheGroundAsThoseBesideThem) {
+  for (const bool contradicting : {false, true}) {
+    LocalMapOptions options = SmallMap();
+    options.max_landmarks_in_view = 2000;
+    LocalMap map(kCamera, options);
+    const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});
+    LandmarkObservations tracked, elsewhere;
+    for (const auto& observation : first.observations) {
+      const bool is_elsewhere = contradicting && observation.pixels.x() < 320;
+      (is_elsewhere ? elsewhere : tracked).push_back(observation);
+    }
+    FindAgain(map);
+    map.AddKeyframe(MakeFrame({{100, 250, 70}, {600, 250, 70}}), kImage, Rigid3(), tracked,
+                    elsewhere);
+    const std::vector<Landmark> newest = map.NewestLandmarks();
+    ASSERT_EQ(newest.size(), 2u);
+    for (const Landmark& landmark : newest) {
+      const bool is_ground = !contradicting || landmark.keypoint.x > 320;
+      EXPECT_EQ(landmark.LogOddsOfGround(0) > 1, is_ground) << landmark.keypoint.x;
+      EXPECT_LE(landmark.LogOddsOfGround(), 0) << "no pose has told yet";
+    }
+  }
+}
+
+/// Nothing hides a part of the picture where every other of points far apart vanishes, or four do
+/// beside four others that are seen together.
+TEST(LocalMap, PointsThatVanishHereAndThereAreNotHidden) {
+  std::vector<Eigen::Vector3d> apart, few;
+  for (int i = 0; i < 35; ++i) apart.push_back({30. + 90 * (i % 7), 30. + 90 * (i / 7), 35});
+  for (int i = 0; i < 4; ++i) few.push_back({5. + 12 * i, 30, 35});
+  for (int i = 1; i < 5; ++i) few.push_back({140. * i, 30, 35});
+  for (const auto& points : {apart, few}) {
+    LocalMap map(kCamera, SmallMap());
+    LandmarkObservations tracked =
+        map.AddKeyframe(MakeFrame(points), kImage, Rigid3(), {}).observations;
+    ASSERT_EQ(tracked.size(), points.size());
+    FindAgain(map);
+    const auto vanishes = [&](const LandmarkObservation& one) {
+      const int place = static_cast<int>(one.pixels.x() + one.pixels.y()) / 90;
+      return points.size() == apart.size() ? place % 2 == 0 : one.pixels.x() > 100;
+    };
+    tracked.erase(std::remove_if(tracked.begin(), tracked.end(), vanishes), tracked.end());
+    map.AddKeyframe(MakeFrame({}), kImage, Rigid3(), tracked);
+    EXPECT_LT(map.arrived(), 0.05) << points.size();
+  }
+}
+
 TEST(LocalMap, WhatIsFoundElsewhereHasNotVanished) {
   LocalMap map(kCamera, SmallMap());
   const auto& first = map.AddKeyframe(MakeFrame(Grid(0)), kImage, Rigid3(), {});

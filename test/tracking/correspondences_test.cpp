@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "arfm_vo/base/belief.h"
+#include "arfm_vo/pose/false_alarms.h"
 
 namespace arfm_vo {
 namespace {
@@ -112,6 +113,22 @@ TEST_F(GroundTest, ThoseThatWereContradictedAreNot) {
   EXPECT_LT(LogOdds(2), -2);
 }
 
+TEST_F(GroundTest, AGroupBesideTheGroundIsTheGround) {
+  AddGroups(0, 0);
+  for (size_t i = 0; i < 60; ++i) landmarks_[i].num_beside = 5;
+  EXPECT_GT(LogOdds(1), 2);
+  EXPECT_FALSE(found_.points[0].is_proven) << "no pose has told of it";
+}
+
+TEST_F(GroundTest, AsFewAsAgreeByChanceAreHardlyTheGround) {
+  AddGroups(5, 0);
+  for (const int num_agreeing : {30, 12, 5}) {
+    for (int i = 0; i < 120; ++i) flags_[i] = i < num_agreeing;
+    const double by_chance = LogFalseAlarms(120, num_agreeing);
+    EXPECT_EQ(LogOdds(1) < -std::max(2., by_chance), num_agreeing == 5) << num_agreeing;
+  }
+}
+
 /// A group that may have come with something large: the left half is the ground known before.
 class ArrivalTest : public GroundTest {
  protected:
@@ -167,14 +184,6 @@ TEST_F(GroundTest, PointsBeyondTheBorderCountAsAtIt) {
   Add(1, 1, 0, 642, 483);
   flags_ = {1, 1};
   EXPECT_TRUE(std::isfinite(LogOdds(1)));
-}
-
-TEST_F(GroundTest, AFewThatAgreeAmongWrongMatchesDoSoByChance) {
-  for (int i = 0; i < 60; ++i) {
-    Add(i, 1, 0, 10 * i, 8 * i);
-    flags_.push_back(i < 40 ? 1 : i < 50 ? 2 : 0);
-  }
-  EXPECT_LT(LogOdds(2), LogOdds(1) - 5);
 }
 
 }  // namespace

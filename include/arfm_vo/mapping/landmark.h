@@ -31,6 +31,7 @@ struct Landmark {
   int num_missed = 0;           ///< frames in a row that should have seen it and did not
   double num_agreed = 0;        ///< frames whose pose it agreed with, those of late
   double num_contradicted = 0;  ///< the same of those whose pose others agreed with instead
+  double num_beside = 0;        ///< what its neighbours agreed when it was new, of late
   /// Log odds that it belongs to what has come before the scene, if anything has; and that it does
   /// not, if nothing has.
   double doubt = 0;
@@ -38,11 +39,13 @@ struct Landmark {
   /// A frame has told of it, whose pose is the ground's with this probability: the landmark agreed.
   void CountAgreed(double probability) {
     num_contradicted *= kRemembered;
+    num_beside *= kRemembered;
     num_agreed = kRemembered * num_agreed + Telling(probability);
   }
   /// It was seen elsewhere.
   void CountContradicted(double probability, double weight) {
     num_agreed *= kRemembered;
+    num_beside *= kRemembered;
     num_contradicted = kRemembered * num_contradicted + weight * Telling(probability);
   }
 
@@ -51,7 +54,8 @@ struct Landmark {
   double LogOddsOfGround() const { return std::log((num_agreed + 0.3) / (num_contradicted + 0.3)); }
   /// The same where something has come before the scene with the probability `arrived`.
   double LogOddsOfGround(double arrived) const {
-    return LogOddsOfGround() + (1 - 2 * arrived) * doubt;
+    return std::log((num_agreed + num_beside + 0.3) / (num_contradicted + 0.3)) +
+           (1 - 2 * arrived) * doubt;
   }
 
  private:
