@@ -56,8 +56,12 @@ TrackedFrame FrameTracker::Track(const StereoFrame& frame, const StereoImages& i
     if (is_better || !tracked.pose.HasPose()) tracked = found;
   }
   if (!tracked.pose.HasPose()) return tracked;
-  if (options_.align_patches) Align(images, map, expected, by_patches, tracked);
-  Weigh(frame, map, expected, tracked);
+  const auto align = [&] {
+    if (options_.align_patches) Align(images, map, expected, by_patches, tracked);
+    Weigh(frame, map, expected, tracked);
+  };
+  align();
+  if (PreferLikelier(tracked)) align();
   SortMatches(tracked);
   if (options_.align_patches) WeighSmooth(images, map, expected, by_patches, tracked);
   return tracked;
@@ -120,21 +124,26 @@ TrackedFrame FrameTracker::Localise(Correspondences matches, const StereoFrame& 
     estimate(options_.pose.Wary());
   }
   if (!tracked.pose.HasPose()) return tracked;
-  if (tracked.pose.rival && tracked.log_odds_of_rival > tracked.log_odds) PreferRival(tracked);
-  tracked.observations = tracked.matches.Select(tracked.agrees, 1);
-  for (const auto& observation : tracked.observations) {
-    tracked.expected.push_back(observation.landmark);
-  }
+  if (!PreferLikelier(tracked)) TakeAgreeing(tracked);
   return tracked;
 }
 
-void FrameTracker::PreferRival(TrackedFrame& tracked) const {
+void FrameTracker::TakeAgreeing(TrackedFrame& tracked) {
+  tracked.observations = tracked.matches.Select(tracked.agrees, 1);
+  tracked.expected.clear();
+  for (const auto& observation : tracked.observations) {
+    tracked.expected.push_back(observation.landmark);
+  }
+}
+
+bool FrameTracker::PreferLikelier(TrackedFrame& tracked) const {
+  if (!tracked.pose.rival || tracked.log_odds_of_rival <= tracked.log_odds) return false;
   std::vector<char>& agrees = tracked.agrees;
   std::vector<char> of_rival(agrees.size());
   for (size_t i = 0; i < agrees.size(); ++i) of_rival[i] = agrees[i] == kAgreesWithRival;
   const PoseRefinement refined = RefinePose(camera_, tracked.matches.points, *tracked.pose.rival,
                                             options_.refinement, of_rival);
-  if (refined.status != RefinementStatus::kConverged) return;
+  if (refined.status != RefinementStatus::kConverged) return false;
   for (size_t i = 0; i < agrees.size(); ++i) {
     agrees[i] = refined.is_inlier[i] ? 1 : agrees[i] == 1 ? kAgreesWithRival : 0;
   }
@@ -144,6 +153,8 @@ void FrameTracker::PreferRival(TrackedFrame& tracked) const {
   tracked.pose.num_inliers = refined.num_inliers;
   tracked.pose.rms_px = refined.rms_px;
   std::swap(tracked.log_odds, tracked.log_odds_of_rival);
+  TakeAgreeing(tracked);
+  return true;
 }
 
 void FrameTracker::Align(const StereoImages& images, const LocalMap& map,

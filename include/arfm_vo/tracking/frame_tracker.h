@@ -55,8 +55,10 @@ class FrameTracker {
   /// How likely its pose and the rival are the ground's.
   void Weigh(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
              TrackedFrame& tracked) const;
-  /// The rival is likelier: it becomes the pose, and the pose its rival.
-  void PreferRival(TrackedFrame& tracked) const;
+  /// Where the rival is likelier it becomes the pose, and the pose its rival. Returns whether.
+  bool PreferLikelier(TrackedFrame& tracked) const;
+  /// The matches that agree with the pose become its observations.
+  static void TakeAgreeing(TrackedFrame& tracked);
   /// Where the pose is not as the motion before has it: against one that is, both by patches. What
   /// repeats fits both, and the likelier becomes the pose, the other one its rival.
   void WeighSmooth(const StereoImages& images, const LocalMap& map, const Expectation& expected,
