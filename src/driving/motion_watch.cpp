@@ -87,8 +87,6 @@ void MotionWatch::ObserveMotion(double now_s, const PlanarMotion& motion) {
   KeepSince(!(excess_mps_ <= kMaxExcess_mps), now_s, excess_since_s_);
 }
 
-void MotionWatch::ObserveWays(double, const TrackWays& ways) { ways_ = ways; }
-
 void MotionWatch::ObserveRest(double now_s, bool is_at_rest) {
   KeepSince(is_at_rest, now_s, rest_since_s_);
   if (!is_at_rest) {

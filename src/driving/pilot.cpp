@@ -35,9 +35,7 @@ Pilot::Pilot(const PilotOptions& options)
       tracks_(PoseOptionsFor(options).max_pose_age_s + 1),
       slip_(options.slip, kinematics_),
       stop_look_go_(options.stop_look_go),
-      progress_(options.max_stall_s),
-      velocity_s_(kNeverCommanded_s),
-      commanded_s_(kNeverCommanded_s) {
+      progress_(options.max_stall_s) {
   options_.Check();
 }
 
@@ -135,7 +133,7 @@ void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {
 
 void Pilot::ObserveTracks(double now_s, int left_mm, int right_mm) {
   tracks_.Add(now_s, left_mm, right_mm);
-  motion_watch_.ObserveWays(now_s, *tracks_.At(now_s));
+  motion_watch_.ObserveWays(*tracks_.At(now_s));
   chassis_.ObserveFeedback(now_s, FeedbackKind::kOdometer);
 }
 

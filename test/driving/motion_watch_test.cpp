@@ -19,7 +19,7 @@ class MotionWatchTest : public ::testing::Test {
       ways_.right_m += kWatchTick_s * right_mps;
       watch_.ObserveRest(now_s_, commanded.IsZero());
       watch_.ObserveCommand(now_s_, commanded);
-      watch_.ObserveWays(now_s_, ways_);
+      watch_.ObserveWays(ways_);
       watch_.ObserveMotion(now_s_, kinematics.MotionOf({left_mps, right_mps}));
       watch_.ObserveCounter(now_s_, counter_ += counter_step_);
     }
@@ -96,7 +96,7 @@ TEST_F(MotionWatchTest, ACreepThatOnlyTheMeasuredMotionOrTheOdometerTellsIsNotic
     Run(2, {0, 0}, 0, 0);
     for (int i = 0; i < 150; ++i) {
       now_s_ += kWatchTick_s;
-      if (is_by_odometer) watch_.ObserveWays(now_s_, {ways_.left_m += 0.0004, ways_.right_m});
+      if (is_by_odometer) watch_.ObserveWays({ways_.left_m += 0.0004, ways_.right_m});
       watch_.ObserveMotion(now_s_, {is_by_odometer ? 0 : 0.02, 0});
       watch_.ObserveRest(now_s_, true);
     }
@@ -109,7 +109,7 @@ TEST_F(MotionWatchTest, NoiseAndOneWrongReadingAreNoMotionAtRest) {
   for (int i = 0; i < 3000; ++i) {
     now_s_ += kWatchTick_s;
     const bool is_misread = i == 1500;
-    watch_.ObserveWays(now_s_, {is_misread ? 0.9 : 0.001 * (i % 2), 0});
+    watch_.ObserveWays({is_misread ? 0.9 : 0.001 * (i % 2), 0});
     watch_.ObserveMotion(now_s_, {is_misread ? 30 : 0.004, 0.001});
     watch_.ObserveRest(now_s_, true);
     ASSERT_FALSE(watch_.FindMotionAtRest(now_s_)) << i;
@@ -120,7 +120,7 @@ TEST_F(MotionWatchTest, WhoeverElseDrivesItIsNotJudged) {
   Run(2, {0, 0}, 0, 0);
   for (int i = 0; i < 100; ++i) {
     now_s_ += kWatchTick_s;
-    watch_.ObserveWays(now_s_, {0.01 * i, 0.01 * i});
+    watch_.ObserveWays({0.01 * i, 0.01 * i});
     watch_.ObserveRest(now_s_, false);
   }
   Run(2, {0, 0}, 0, 0);
@@ -129,7 +129,7 @@ TEST_F(MotionWatchTest, WhoeverElseDrivesItIsNotJudged) {
 
 TEST_F(MotionWatchTest, AWayOfBeforeDoesNotHideAJam) {
   for (const double time_s : {10., 13., 16.}) {
-    watch_.ObserveWays(time_s, {time_s > 10 ? 0.3 : 0, 0.1 * time_s});
+    watch_.ObserveWays({time_s > 10 ? 0.3 : 0, 0.1 * time_s});
     watch_.ObserveCommand(time_s, {0.1, 0});
   }
   EXPECT_EQ(watch_.FindFault(16)->reason, StopReason::kTrackJammed);

@@ -43,13 +43,29 @@ TEST(SlipEstimator, FewPosesFillAWindowToo) {
   EXPECT_NEAR(Driven(2, 1, 5).Estimate()->track_forward_m, 0.4, 1e-9);
 }
 
-TEST(SlipEstimator, ALeapOfTheSightBeginsAnew) {
-  SlipEstimator slip = Driven(1, 1);
-  for (int i = 0; i <= 40; ++i) {
-    slip.Add(Pose(9 + 0.01 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
-    EXPECT_EQ(slip.Estimate().has_value(), i >= 30) << i;
+/// The check of poses against tracks names a jump, or their covariances excuse it; slip goes on.
+TEST(SlipEstimator, OneJumpOfTheSightIsNoSlip) {
+  for (const double jump_m : {-0.5, -0.2, 0.4, 8.0}) {
+    SlipEstimator slip = Driven(1, 1);
+    for (int i = 1; i <= 40; ++i) {
+      slip.Add(Pose(1 + jump_m + 0.01 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
+      EXPECT_FALSE(slip.FindExcess()) << jump_m << " " << i;
+    }
+    EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
   }
-  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0, 1e-9);
+}
+
+TEST(SlipEstimator, AJumpOfAWholeWindowSaysNothing) {
+  SlipEstimator slip = Driven(1, 1);
+  slip.Add(Pose(30, 0), {1.4, 1.4});
+  EXPECT_FALSE(slip.Estimate()->forward_ratio);
+}
+
+TEST(SlipEstimator, AJumpHidesNoSlipThatGoesOn) {
+  SlipEstimator slip = Driven(1, 1);
+  for (int i = 1; i <= 40; ++i) slip.Add(Pose(1.2 + 0.004 * i, 0), {1 + 0.01 * i, 1 + 0.01 * i});
+  EXPECT_NEAR(*slip.Estimate()->forward_ratio, 0.6, 1e-9);
+  EXPECT_TRUE(slip.FindExcess());
 }
 
 TEST(SlipEstimator, TheRatioIsOfTheTracksWayAndHasALimit) {

@@ -88,6 +88,21 @@ TEST_F(WrongPoseTest, TheFirstPoseAfterAPauseMustAgreeWithTheTracks) {
   ExpectBlocked(StopReason::kPoseContradiction);
 }
 
+/// What the covariance excuses is not the tracks' slip either; a jump that nothing excuses has its
+/// own name, and the goal goes.
+TEST_F(WrongPoseTest, AJumpThatTheCovarianceExcusesIsNoSlipAndALargerOneContradicts) {
+  DriveTo({6, 0, {}}, 6);
+  const double x_m = drive_.plant().Pose().x_m;
+  drive_.sigma_m_ = 0.05;
+  RestartOdometryAt(WrongPlaceAt(x_m - 0.2, 0));
+  ExpectToGoOn(2);
+  at_fault_ = drive_.plant().Pose();
+  RestartOdometryAt(WrongPlaceAt(x_m - 0.5, 0));
+  drive_.Run(1);
+  ExpectBlocked(StopReason::kPoseContradiction);
+  EXPECT_FALSE(drive_.HasGoal());
+}
+
 TEST_F(WrongPoseTest, ASmallStepOfTheMapIsDrivenOnAndALargeOneAsks) {
   const std::pair<Rigid3, Rigid3> kSmallAndLarge[] = {
       {WrongPlaceAt(0.05, 0.05), WrongPlaceAt(0.05, 1)},

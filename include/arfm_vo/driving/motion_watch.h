@@ -30,7 +30,7 @@ class MotionWatch {
   /// The motion that is sent to a chassis that obeys, zero to one that does not; each tick.
   void ObserveCommand(double now_s, const PlanarMotion& motion);
   void ObserveMotion(double now_s, const PlanarMotion& motion);
-  void ObserveWays(double now_s, const TrackWays& ways);
+  void ObserveWays(const TrackWays& ways) { ways_ = ways; }
   /// Whether the rover is told to stand and nobody else drives it; each tick.
   void ObserveRest(double now_s, bool is_at_rest);
   void ObserveCounter(double now_s, int counter);

@@ -110,9 +110,9 @@ class Pilot {
   std::optional<RoverPose> predicted_;
   PlanarMotion velocity_, motion_;
   std::string velocity_source_;
-  double velocity_s_ = 0, armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0, commanded_s_ = 0;
-  double warned_since_s_ = 0, compared_s_ = 0, last_tick_s_ = 0, driven_s_ = 0;
-  double at_rest_since_s_ = 0;
+  double velocity_s_ = kNeverCommanded_s, commanded_s_ = kNeverCommanded_s;
+  double armed_s_ = 0, pause_start_s_ = 0, flawed_s_ = 0, warned_since_s_ = 0, compared_s_ = 0;
+  double last_tick_s_ = 0, driven_s_ = 0, at_rest_since_s_ = 0;
   std::optional<double> waiting_since_s_, contradicted_s_, clock_set_s_;
   std::vector<GoalResult> results_;
 };

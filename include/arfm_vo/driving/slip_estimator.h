@@ -27,6 +27,7 @@ struct Slip {
   std::optional<double> turn_ratio;
   std::optional<double>
       sideways_ratio;  ///< of sight: aside over ahead, where the tracks go straight
+  double path_m = 0;   ///< of the tracks, mean of both, forth and back
   double sight_forward_m = 0, sight_sideways_m = 0, track_forward_m = 0;
   double sight_turn_rad = 0, track_turn_rad = 0;
 };
@@ -47,16 +48,16 @@ class SlipEstimator {
   std::optional<std::string> FindExcess() const;
 
   /// Forgets the windows, as after a stop.
-  void Reset() { samples_.clear(); }
+  void Reset() { samples_.clear(), level_since_m_ = 0; }
 
  private:
   struct Sample {
     Rigid3 odom_from_base;
     TrackWays ways;
-    double track_path_m = 0;  // sums since the last reset
-    double sight_forward_m = 0, sight_sideways_m = 0, sight_turn_rad = 0;
+    Slip sum;  // of the ways since the last reset
   };
-  /// The last `window_m` of the tracks' way; nothing where so much has not been driven.
+  /// The last `window_m` of the tracks' way, but for its largest jump: slip goes on. Nothing where
+  /// so much has not been driven.
   std::optional<Slip> Over(double window_m) const;
   /// The same; nothing where not all of it was level.
   std::optional<Slip> OverLevel(double window_m) const;
@@ -64,7 +65,7 @@ class SlipEstimator {
   SlipOptions options_;
   TrackKinematics kinematics_;
   std::deque<Sample> samples_;  // the last of the longest window
-  double level_since_m_ = 0;    // of Sample::track_path_m: level ground from here on
+  double level_since_m_ = 0;    // of sum.path_m: level ground from here on
 };
 
 }  // namespace arfm_vo
