@@ -41,7 +41,7 @@ def creep(campaign):
 
 
 def heal(campaign):
-    campaign.heal_bus()
+    campaign.obey(lambda frame: frame)
     time.sleep(0.5)
 
 

@@ -10,7 +10,10 @@ class NotPermitted(Exception):
 
 
 EITHER = "drives on, or stops and says why"
-BRIEFLY_UNCERTAIN = UNCERTAIN  # until the next good covariance
+BY_ITSELF = "by itself, with a warning"
+# What pauses a drive (docs/rover.md): it goes on by itself, with a warning, where the pose is good again within 3 s.
+PAUSES = {UNCERTAIN, "pose is stale", "no pose", "pose is invalid", "camera's exposure has not settled",
+          "odometry does not tell its epoch", "map frame is no longer told"}
 
 
 @dataclasses.dataclass
@@ -24,6 +27,6 @@ class Fault:
     is_load: bool = False  # holds the campaign itself up
     ends_node: bool = False  # ends the process of a node
     by_velocity: bool = False  # the rover is driven by cmd_vel, not to a goal
-    may_go_on: bool = False  # by itself and with a warning, while the rover is still watched
+    may_go_on: bool = False  # where it only pauses the drive: poses come again while the rover is still watched
     max_wrong_way_m: float = 0.10  # of the tracks while the pose that is told is wrong
     is_well: Callable = lambda campaign: True  # what else must hold when the rover has been watched

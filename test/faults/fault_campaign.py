@@ -20,7 +20,7 @@ import rospy  # noqa: E402
 import tf2_ros  # noqa: E402
 from bus_faults import bus_faults  # noqa: E402
 from camera_faults import camera_faults  # noqa: E402
-from fault import BRIEFLY_UNCERTAIN, EITHER, NotPermitted  # noqa: E402
+from fault import BY_ITSELF, EITHER, PAUSES, NotPermitted  # noqa: E402
 from machine_faults import last_faults, machine_faults  # noqa: E402
 from message_faults import message_faults, operator_faults  # noqa: E402
 from node_faults import node_faults  # noqa: E402
@@ -82,9 +82,6 @@ class Campaign:
     def obey(self, change):
         self.tap.change = change
 
-    def heal_bus(self):
-        self.tap.change = lambda frame: frame
-
     # A row.
 
     def measure(self, fault):
@@ -101,30 +98,29 @@ class Campaign:
         injected_s, simulated_s, way_m = self.began_s, self.began_simulated_s, self.began_way_m
         end_s = max(injected_s + fault.limit_s + WATCH_S, time.monotonic() + WATCH_S / 2)  # injecting may take long
         simulated_end_s = simulated_s + fault.limit_s + WATCH_S / 2
-        told, has_warned, end_way_m = [self.rover.status.reason], False, way_m
+        told, has_warned, end_way_m = {self.rover.status.reason: ""}, False, way_m  # reasons and what they measured
         looked_s, held_up_s, limit_ended_s = time.monotonic(), 0.0, injected_s
         awaited = {fault.promise} if fault.ends_node and fault.promise != "-" and " or " not in fault.promise else set()
         while looked_s < end_s or (not fault.ends_graph and looked_s < end_s + MAX_WAIT_S and (
-                rospy.get_time() < simulated_end_s or not awaited <= set(told))):  # a node may be slow to start
-            told.append(self.rover.status.reason)
+                rospy.get_time() < simulated_end_s or not awaited <= told.keys())):  # a node may be slow to start
+            told[self.rover.status.reason] = self.rover.status.detail
             if rospy.get_time() < simulated_s + fault.limit_s:  # simulated time runs unevenly on a busy machine
                 limit_ended_s = looked_s
             has_warned |= self.rover.status.state == DriveStatus.WARNING
             moves_on = has_warned and self.tap.starts_s and self.tap.starts_s[-1] > injected_s
-            if not (moves_on and (fault.may_go_on or fault.promise == BRIEFLY_UNCERTAIN)):
+            if not (moves_on and fault.may_go_on):
                 end_way_m = self.tap.way_m()
             time.sleep(0.01)
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = min(1.0, max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s)))
-        row = {"name": fault.name, "promise": fault.promise, "limit_s": max(fault.limit_s, limit_ended_s - injected_s)}
-        row["held_up_s"] = held_up_s
-        row["moves"] = self.rover.moves()
+        row = {"name": fault.name, "promise": fault.promise, "limit_s": max(fault.limit_s, limit_ended_s - injected_s),
+               "held_up_s": held_up_s, "details": told, "moves": self.rover.moves()}
         row["wrong_way_m"] = self.rover.sight.wrong_way_m(end_way_m)
         row["dead"] = [node for node, pid in self.pids.items() if not os.path.exists("/proc/%d" % pid)]
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
         row["way_m"] = end_way_m - way_m
-        row["told"] = list(dict.fromkeys(reason for reason in told if reason != "none"))
+        row["told"] = [reason for reason in told if reason != "none"]
         row["drives_on"] = fault.promise == "drives on" or (fault.promise.startswith("drives on") and row["moves"] and not row["told"])
         row["arrived"] = sum(report.result == GoalReport.ARRIVED for report in self.rover.reports)
         is_well = fault.is_well(self)
@@ -147,7 +143,9 @@ class Campaign:
 
     def is_kept(self, fault, row):
         is_dead = row["dead"] and not (fault.ends_node or fault.ends_graph)
-        if row["arrived"] or is_dead or row["unwarned"] or row["wrong_way_m"] > fault.max_wrong_way_m:
+        is_paused = set(row["told"]) <= PAUSES  # and nothing else
+        is_started = row["go_on"] != BY_ITSELF or is_paused
+        if row["arrived"] or is_dead or row["unwarned"] or not is_started or row["wrong_way_m"] > fault.max_wrong_way_m:
             return False
         if fault.promise == EITHER:
             return row["moves"] or row["told"] != []
@@ -156,7 +154,7 @@ class Campaign:
             return row["moves"] and not row["told"]
         is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or ("-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
-        is_over = not row["moves"] or fault.may_go_on or fault.promise == BRIEFLY_UNCERTAIN
+        is_over = not row["moves"] or (fault.may_go_on and is_paused)
         is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s
         return is_told and is_over and is_soon and row["way_m"] <= allowed_m
 
@@ -166,7 +164,7 @@ class Campaign:
         rover = self.rover
         rover.wait(lambda: time.monotonic() - self.tap.moving_s > 0.5, 2)
         if rover.wait_simulated(rover.moves, 6):
-            return "by itself, with a warning"
+            return BY_ITSELF
         is_uncertain = UNCERTAIN in (rover.status.reason + rover.status.detail)
         rover.wait(rover.start, 20)
         start = "datum and start" if is_uncertain else "start"

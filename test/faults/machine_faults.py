@@ -66,13 +66,13 @@ def freeze_terminal(campaign):
 
 
 def machine_faults():
-    slow = lambda c: time.sleep(3)  # noqa: E731
-    rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds), may_go_on=True, limit_s=1, mend=slow, promise=
-                  "drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose")
+    pause = "drives on or pose is stale"
+    rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds), may_go_on=True, limit_s=1, mend=lambda c: time.sleep(3),
+                  promise="drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose")
             for seconds in (1, -1, 3600, -3600)]
     return rows + [
-        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), "drives on or pose is stale", unburden, 3, is_load=True),
-        Fault("memory is short", press_memory, "drives on or pose is stale", unburden, 3, is_load=True),
+        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), pause, unburden, 3, is_load=True, may_go_on=True),
+        Fault("memory is short", press_memory, pause, unburden, 3, is_load=True, may_go_on=True),
         Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
         Fault("terminal is frozen", freeze_terminal, "- or drives on",
               lambda c: (setattr(c.launch, "is_read", True), time.sleep(2)), 1),

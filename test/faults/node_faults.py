@@ -48,8 +48,8 @@ def wait(duration_s):
     return lambda campaign: time.sleep(duration_s)
 
 
-def ended(node, number, name, promise="-", mend=respawned, limit_s=0.0):
-    return Fault(name, sent(node, number), promise, mend, limit_s, ends_node=True)
+def ended(node, number, name, promise="-", mend=respawned, limit_s=0.0, may_go_on=False):
+    return Fault(name, sent(node, number), promise, mend, limit_s, ends_node=True, may_go_on=may_go_on)
 
 
 def node_faults():
@@ -65,16 +65,16 @@ def node_faults():
         Fault("pose_node killed -9 and started anew", kill_and_restart("pose_node"), "odometry has started anew", limit_s=1.0,
               mend=wait(2), ends_node=True),
         Fault("arfm_node killed -9 and started anew", kill_and_restart("arfm_node"), "drives on or " + stale, limit_s=1.0,
-              mend=wait(2), ends_node=True),
+              mend=wait(2), ends_node=True, may_go_on=True),
         Fault("ba_node killed -9 and started anew", kill_and_restart("ba_node"), "drives on or map frame has jumped or " + no_map,
-              limit_s=1.1, mend=wait(2), ends_node=True),
+              limit_s=1.1, mend=wait(2), ends_node=True, may_go_on=True),
         Fault("pose_node/reset called", lambda c: c.rover.call("pose_node/reset"), "odometry has started anew",
               limit_s=0.7, mend=wait(2)),
         ended("ba_node", kill, "ba_node killed -9", no_map, killed("ba_node"), 1.1),
         Fault("ba_node stopped (SIGSTOP)", sent("ba_node", stop), no_map, sent("ba_node", go_on), 1.1),
         # roslaunch starts these two anew.
-        ended(head, kill, "pan_tilt_node killed -9 and started anew", stale, wait(5), 1),
-        ended(mast, kill, "robot_state_publisher killed -9 and started anew", "drives on or " + stale, wait(5), 1),
+        ended(head, kill, "pan_tilt_node killed -9 and started anew", stale, wait(5), 1, may_go_on=True),
+        ended(mast, kill, "robot_state_publisher killed -9 and started anew", "drives on or " + stale, wait(5), 1, may_go_on=True),
         Fault("pan_tilt_node stopped (SIGSTOP) for 5 s", stop_and_continue(head, 5), away, limit_s=1),
         ended("chassis_node", kill, "chassis_node killed -9"),
         ended("chassis_node", signal.SIGTERM, "chassis_node ends (SIGTERM)"),

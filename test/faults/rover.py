@@ -156,10 +156,6 @@ class Rover:
     def is_fast(self, limit_s):
         return self.wait(lambda: self.status.forward_mps > 0.09, limit_s)
 
-    def turn_round(self):
-        self.send_goal(-6)
-        self.is_fast(PATIENCE_S)
-
     def start(self):
         """As a person does it, who has seen where the rover stands; says whether it has started."""
         if self.status.reason == UNCERTAIN or UNCERTAIN in self.status.detail:
@@ -176,7 +172,8 @@ class Rover:
             self.call("chassis_node/cancel")
             self.speed_mps = 0.1
         elif self.sight.distance_m() > MAX_DISTANCE_M and not self.is_homeward:
-            self.turn_round()
+            self.send_goal(-6)
+            self.is_fast(PATIENCE_S)
         self.is_homeward = self.sight.distance_m() > MAX_DISTANCE_M
         for _ in range(10):
             if not by_velocity:
