@@ -120,7 +120,6 @@ std::optional<Fault> PoseWatch::Judge(double now_s, const TrackHistory& tracks) 
   }
   Keep(sighting);
   last_odom_from_base_ = told_->odom_from_base;
-  tilt_rad_ = TiltOf(told_->MapFromBase());
   return fault;
 }
 

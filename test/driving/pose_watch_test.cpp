@@ -40,6 +40,16 @@ TEST_F(PoseWatchTest, ASightingCountsOnceItsCovarianceHasCome) {
   EXPECT_EQ(watch_.Judge(10.6, tracks_)->reason, StopReason::kPoseContradiction);
 }
 
+TEST_F(PoseWatchTest, AMapThatTiltsIsNoticedBeforeTheNextSighting) {
+  Drive(10, 0);
+  See(10, SightingAt(0));
+  EXPECT_FALSE(watch_.IsTilted());
+  const Rigid3 tilted(ExpSO3({0.6, 0, 0}), Eigen::Vector3d::Zero());
+  watch_.Observe(10.1, PoseObservation{10, SightingAt(0), tilted});
+  watch_.Judge(10.1, tracks_);
+  EXPECT_TRUE(watch_.IsTilted());
+}
+
 TEST_F(PoseWatchTest, ACovarianceFromTheFutureIsNotTaken) {
   EXPECT_TRUE(watch_.Observe(10, PoseUncertainty{10, 0.01, 0.01}));
   for (const double later_s : {11.0, 1e9, static_cast<double>(NAN)})

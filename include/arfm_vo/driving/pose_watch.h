@@ -75,8 +75,10 @@ class PoseWatch {
   const Rigid3& LastSightingInOdom() const { return last_odom_from_base_; }
   /// The pose in the map that the tracks predict from the last sighting. HasPose must hold.
   RoverPose PredictInMap(const TrackWays& ways) const;
-  bool IsTilted() const { return tilt_rad_ > options_.max_tilt_deg * M_PI / 180; }
-  bool IsTiltNearLimit() const { return tilt_rad_ > 0.8 * options_.max_tilt_deg * M_PI / 180; }
+  /// Of the last sighting, in the map that is told now.
+  double Tilt() const { return TiltOf(map_from_odom_ * last_odom_from_base_); }
+  bool IsTilted() const { return Tilt() > options_.max_tilt_deg * M_PI / 180; }
+  bool IsTiltNearLimit() const { return Tilt() > 0.8 * options_.max_tilt_deg * M_PI / 180; }
 
  private:
   bool IsUncertain(double now_s) const;
@@ -94,7 +96,6 @@ class PoseWatch {
   std::deque<TrackedSighting> sightings_;  // judged, of the last slide_window_s
   Rigid3 map_from_odom_, last_odom_from_base_, agreed_map_from_odom_;
   TrackedSighting agreed_;
-  double tilt_rad_ = 0;
 };
 
 }  // namespace arfm_vo
