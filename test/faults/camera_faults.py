@@ -110,13 +110,14 @@ def names_the_right_eye(campaign):
 
 
 def camera_faults():
-    stale, anew = "pose is stale", "odometry has started anew"
+    stale, anew, contradiction = "pose is stale", "odometry has started anew", "pose contradicts the tracks"
     return [
         Fault("camera is frozen: the same pictures with new stamps", lambda c: setattr(c.camera, "change", freeze(c.camera.last)), stale, mend, 1),
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5, may_go_on=True),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_eye),
-        Fault("eyes are swapped", changed(swap), "pose contradicts the tracks or " + stale, mend, 1.5, is_well=is_true),
+        Fault("eyes are swapped", changed(swap), contradiction + " or " + stale, mend, 1.5, max_wrong_way_m=0.12,  # until a wrong one is stale
+              is_well=lambda c: is_true(c) or c.rover.status.reason == contradiction),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
         Fault("camera's node is stopped (SIGSTOP) for 2 s: its pairs wait", stop_camera_for(2), stale, mend, 1.5, may_go_on=True),
         Fault("camera's node is killed and started anew after 2 s: its topics go and come", restart_camera(2), stale, mend, 1.5,
@@ -130,6 +131,6 @@ def camera_faults():
         Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),
         Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend, is_well=is_true),
         Fault("an old pair comes again", changed(AgainOnce), "drives on", mend, is_well=is_true),
-        Fault("a second node tells the camera 0.5 m farther ahead", shift_camera, "pose contradicts the tracks", mend, 1),
+        Fault("a second node tells the camera 0.5 m farther ahead", shift_camera, contradiction, mend, 1),
         Fault("a second node tells map -> odom tilted by 35 degrees", tilt_map, "rover is tilted too far", mend, 0.6),
     ]

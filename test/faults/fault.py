@@ -9,8 +9,7 @@ class NotPermitted(Exception):
     """The machine does not let this fault be injected."""
 
 
-EITHER = "drives on, or stops and says why"
-BY_ITSELF = "by itself, with a warning"
+EITHER, BY_ITSELF = "drives on, or stops and says why", "by itself, with a warning"
 # What pauses a drive (docs/rover.md): it goes on by itself, with a warning, where the pose is good again within 3 s.
 PAUSES = {UNCERTAIN, "pose is stale", "no pose", "pose is invalid", "camera's exposure has not settled",
           "odometry does not tell its epoch", "map frame is no longer told"}

@@ -7,7 +7,7 @@ import tempfile
 import time
 
 import rospy
-from fault import Fault, NotPermitted
+from fault import UNCERTAIN, Fault, NotPermitted
 from node_faults import outside_ros
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
@@ -19,7 +19,7 @@ def step_clock(seconds):
 
 
 def spawn(campaign, program, count=1):
-    campaign.burden = [subprocess.Popen([sys.executable, "-c", program]) for _ in range(count)]
+    campaign.burden = [subprocess.Popen([sys.executable, "-c", program], start_new_session=True) for _ in range(count)]
 
 
 def unburden(campaign):
@@ -66,13 +66,12 @@ def freeze_terminal(campaign):
 
 
 def machine_faults():
-    pause = "drives on or pose is stale"
     rows = [Fault("clock steps by %+d s and back" % seconds, step_clock(seconds), may_go_on=True, limit_s=1, mend=lambda c: time.sleep(3),
-                  promise="drives on or chassis_node was held up or clock was set or pose is stale or odometry has started anew or no pose")
+                  promise="drives on or chassis_node was held up or clock was set or odometry has started anew or pose is stale or no pose or " + UNCERTAIN)
             for seconds in (1, -1, 3600, -3600)]
     return rows + [
-        Fault("8 busy loops", lambda c: spawn(c, "while True: pass", 8), pause, unburden, 3, is_load=True, may_go_on=True),
-        Fault("memory is short", press_memory, pause, unburden, 3, is_load=True, may_go_on=True),
+        *(Fault(name, inject, "drives on or pose is stale", unburden, 3, is_load=True, may_go_on=True) for name, inject in (
+            ("8 busy loops", lambda c: spawn(c, "while True: pass", 8)), ("memory is short", press_memory))),
         Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
         Fault("terminal is frozen", freeze_terminal, "- or drives on",
               lambda c: (setattr(c.launch, "is_read", True), time.sleep(2)), 1),
