@@ -48,7 +48,10 @@ class SlipEstimator {
   std::optional<std::string> FindExcess() const;
 
   /// Forgets the windows, as after a stop.
-  void Reset() { samples_.clear(), level_since_m_ = 0; }
+  void Reset() {
+    samples_.clear();
+    level_since_m_ = 0;
+  }
 
  private:
   struct Sample {
