@@ -12,8 +12,6 @@ namespace {
 constexpr double kContradicted = 2, kMostDoubt = 3;
 /// Cells in which points are hidden together, or are the ground, in the width of the image.
 constexpr int kCellsAcross = 12;
-/// Points so far apart, in cells, are beside each other.
-constexpr double kBeside = 1.5;
 /// Of points that something hides so many are found all the same.
 constexpr double kSeenIfHidden = 0.05;
 constexpr double kLeastSeen = 0.1, kMostSeen = 0.9;
@@ -81,11 +79,10 @@ void NeighbourEvidence::CountSeen(const StereoCamera& camera, const Landmarks& l
   }
   if (all.empty()) return;
   // Where one is seen nothing hides those beside it: how many of them are seen?
-  const double reach_px = kBeside * cell_px_;
   const auto count_pairs = [&](const std::vector<Eigen::Vector2d>& others) {
     auto num = -static_cast<double>(seen.size());  // none is beside itself
     for (const Eigen::Vector2d& one : seen) {
-      for (const Eigen::Vector2d& other : others) num += (one - other).norm() < reach_px;
+      for (const Eigen::Vector2d& other : others) num += (one - other).norm() < cell_px_;
     }
     return num;
   };
