@@ -75,13 +75,13 @@ class PoseWatch {
   const Rigid3& LastSightingInOdom() const { return last_odom_from_base_; }
   /// The pose in the map that the tracks predict from the last sighting. HasPose must hold.
   RoverPose PredictInMap(const TrackWays& ways) const;
-  /// Of the last sighting, in the map that is told now.
-  double Tilt() const { return TiltOf(map_from_odom_ * last_odom_from_base_); }
   bool IsTilted() const { return Tilt() > options_.max_tilt_deg * M_PI / 180; }
   bool IsTiltNearLimit() const { return Tilt() > 0.8 * options_.max_tilt_deg * M_PI / 180; }
 
  private:
   bool IsUncertain(double now_s) const;
+  /// Of the last sighting, in the map that is told now.
+  double Tilt() const { return TiltOf(map_from_odom_ * last_odom_from_base_); }
   std::optional<Fault> CompareWithTracks(const TrackedSighting& sighting) const;
   std::optional<Fault> TakeMap(const Rigid3& map_from_odom);
   void Keep(const TrackedSighting& sighting);

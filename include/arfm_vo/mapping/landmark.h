@@ -51,16 +51,19 @@ struct Landmark {
 
   /// That it belongs to the ground, not to what moves on its own; 0: it is not known. By what
   /// poses have told of it alone.
-  double LogOddsOfGround() const { return std::log((num_agreed + 0.3) / (num_contradicted + 0.3)); }
-  /// The same where something has come before the scene with the probability `arrived`.
+  double LogOddsOfGround() const { return LogOdds(num_agreed); }
+  /// By what its neighbours agreed as well, and where something has come before the scene with the
+  /// probability `arrived`.
   double LogOddsOfGround(double arrived) const {
-    return std::log((num_agreed + num_beside + 0.3) / (num_contradicted + 0.3)) +
-           (1 - 2 * arrived) * doubt;
+    return LogOdds(num_agreed + num_beside) + (1 - 2 * arrived) * doubt;
   }
 
  private:
   /// Of what was counted, at each further frame that tells.
   static constexpr double kRemembered = 0.9;
+  double LogOdds(double agreed) const {
+    return std::log((agreed + 0.3) / (num_contradicted + 0.3));
+  }
   /// What a pose tells that is the ground's with this probability: of even odds nothing.
   static double Telling(double probability) { return std::max(0., 2 * probability - 1); }
 };
