@@ -19,6 +19,13 @@ struct RankedMaximum {
 
 }  // namespace
 
+void KeepStrongest(size_t num, std::vector<ScaleSpaceMaximum>& maxima) {
+  if (maxima.size() <= num) return;
+  std::nth_element(maxima.begin(), maxima.begin() + static_cast<std::ptrdiff_t>(num), maxima.end(),
+                   IsStronger);
+  maxima.resize(num);
+}
+
 std::vector<ScaleSpaceMaximum> RankSpread(const std::vector<ScaleSpaceMaximum>& maxima, int rows,
                                           int cols, int bucket_px) {
   std::vector<ScaleSpaceMaximum> strongest = maxima;

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
 
 #include "arfm_vo/features/box_hessian.h"
+#include "arfm_vo/features/keypoint_budget.h"
 #include "scale_space.h"
 #include "surf_kernels.h"
 #include "surf_stages.h"
@@ -56,19 +58,33 @@ void MaximumFinder::ComputeLayer(const IntegralImage& integral, int octave, int 
 std::vector<ScaleSpaceMaximum> MaximumFinder::Find(const IntegralImage& integral,
                                                    const SurfDetectorOptions& options,
                                                    int threads) {
-  const SurfKernels& kernels = ChooseSurfKernels();
-  const auto threshold = static_cast<float>(options.hessian_threshold);
   space_.initial_step = options.initial_step;
   space_.layers.resize(options.octaves);
-  std::vector<ScaleSpaceMaximum> maxima;
-  std::vector<int32_t> columns(integral.cols() + kKernelReadAhead);
   for (int octave = 0; octave < options.octaves; ++octave) {
-    const int step = space_.Step(octave);
     space_.layers[octave].resize(options.layers);
     for (int layer = 0; layer < options.layers; ++layer) {
       ComputeLayer(integral, octave, layer, threads);
     }
-    for (int layer = 1; layer + 1 < options.layers; ++layer) {
+  }
+  const size_t target = options.target_keypoints;
+  auto maxima = FindAbove(options.hessian_threshold, integral);
+  if (maxima.size() < target) {
+    maxima = FindAbove(std::min(SurfDetectorOptions::kNoise, options.hessian_threshold), integral);
+    KeepStrongest(target, maxima);
+  }
+  return maxima;
+}
+
+std::vector<ScaleSpaceMaximum> MaximumFinder::FindAbove(double least,
+                                                        const IntegralImage& integral) const {
+  const SurfKernels& kernels = ChooseSurfKernels();
+  const auto threshold = static_cast<float>(least);
+  std::vector<ScaleSpaceMaximum> maxima;
+  std::vector<int32_t> columns(integral.cols() + kKernelReadAhead);
+  for (int octave = 0; octave < static_cast<int>(space_.layers.size()); ++octave) {
+    const int step = space_.Step(octave);
+    const int num_layers = static_cast<int>(space_.layers[octave].size());
+    for (int layer = 1; layer + 1 < num_layers; ++layer) {
       const cv::Mat_<float>* three = &space_.layers[octave][layer - 1];
       const SearchRange range(octave, layer, step, integral.cols(), integral.rows());
       for (int row = range.first; row < range.end_row; ++row) {

@@ -18,13 +18,15 @@ inline IntegralView View(const IntegralImage& integral) {
 class MaximumFinder {
  public:
   /// Maxima of 3 x 3 x 3 neighbours of the scale space, octave by octave, layer by layer, row by
-  /// row.
+  /// row. Where fewer than the wanted keypoints are above the threshold: the strongest, as many as
+  /// are wanted, in any order, down to what noise makes.
   std::vector<ScaleSpaceMaximum> Find(const IntegralImage& integral,
                                       const SurfDetectorOptions& options, int threads);
   /// Of the last image.
   const ScaleSpace& scale_space() const { return space_; }
 
  private:
+  std::vector<ScaleSpaceMaximum> FindAbove(double least, const IntegralImage& integral) const;
   void ComputeLayer(const IntegralImage& integral, int octave, int layer, int threads);
 
   ScaleSpace space_;

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "arfm_vo/features/keypoint_budget.h"
 #include "arfm_vo/features/surf.h"
 #include "arfm_vo/image/integral_image.h"
 #include "features/orientation_histogram.h"
@@ -83,12 +84,13 @@ inline ScaleSpace ComputeScaleSpace(const IntegralImage& integral,
 }
 
 inline std::vector<ScaleSpaceMaximum> FindMaxima(const ScaleSpace& space, const cv::Size& image,
-                                                 const SurfDetectorOptions& options) {
+                                                 const SurfDetectorOptions& options,
+                                                 double threshold) {
   std::vector<ScaleSpaceMaximum> maxima;
   for (int octave = 0; octave < options.octaves; ++octave) {
     for (int layer = 1; layer + 1 < options.layers; ++layer) {
       FindMaxima(&space.layers[octave][layer - 1], octave, layer, space.Step(octave), image,
-                 static_cast<float>(options.hessian_threshold), maxima);
+                 static_cast<float>(threshold), maxima);
     }
   }
   return maxima;
@@ -175,7 +177,15 @@ inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) 
     cv::GaussianBlur(grey, smooth, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
   const IntegralImage integral(smooth);
   const ScaleSpace space = ComputeScaleSpace(integral, options.detector);
-  const auto maxima = FindMaxima(space, grey.size(), options.detector);
+  const auto find = [&](double threshold) {
+    return FindMaxima(space, grey.size(), options.detector, threshold);
+  };
+  const size_t target = options.detector.target_keypoints;
+  auto maxima = find(options.detector.hessian_threshold);
+  if (maxima.size() < target) {
+    maxima = find(SurfDetectorOptions::kNoise);
+    KeepStrongest(target, maxima);
+  }
   Features features;
   features.keypoints = SelectKeypoints(integral, space, maxima, options.detector);
   features.descriptors.create(features.size(), kDescriptorLength, CV_32FC1);

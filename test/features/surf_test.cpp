@@ -116,6 +116,22 @@ TEST(SurfTest, FindsNothingInFlatAndTinyImages) {
   }
 }
 
+TEST(SurfTest, WeakTextureIsTakenWhereThereIsNoOtherButNoNoise) {
+  cv::RNG random(5);
+  cv::Mat texture(240, 320, CV_32F), weak, noise;
+  random.fill(texture, cv::RNG::NORMAL, 0, 1);
+  cv::GaussianBlur(texture, texture, cv::Size(), 2);
+  cv::normalize(texture, texture, 0, 255, cv::NORM_MINMAX);
+  cv::Mat(texture / 20 + 60).convertTo(weak, CV_8U);
+  random.fill(texture, cv::RNG::NORMAL, 60, 0.3);
+  texture.convertTo(noise, CV_8U);
+  SurfOptions strong;
+  strong.detector.target_keypoints = 0;
+  EXPECT_LT(Surf(strong).Extract(weak).size(), 100);
+  EXPECT_GT(Surf({}).Extract(weak).size(), 500);
+  EXPECT_EQ(Surf({}).Extract(noise).size(), 0);
+}
+
 TEST(SurfTest, ARegionOfInterestIsAPictureOfItsOwn) {
   cv::Mat whole(120, 160, CV_8UC1);
   cv::RNG random(5);
@@ -137,6 +153,7 @@ TEST(SurfTest, InLargeImagesOnlyLargeBlobsAreLookedFor) {
   cv::circle(image, {300, 200}, 20, cv::Scalar(200), cv::FILLED, cv::LINE_AA);
   cv::circle(image, {100, 100}, 3, cv::Scalar(200), cv::FILLED, cv::LINE_AA);
   SurfOptions options;
+  options.detector.target_keypoints = 0;  // nothing weak
   const Features all = Surf(options).Extract(image);
   options.max_pixels = 0.3 * image.total();
   const Features large = Surf(options).Extract(image);

@@ -10,9 +10,12 @@
 namespace arfm_vo {
 
 struct SurfDetectorOptions {
+  /// What noise makes: of the maxima of a noise of one grey level 99 in 100 lie below.
+  static constexpr double kNoise = 0.03;
+
   /// Least determinant of the Hessian (eq 3) of a keypoint, of second derivatives in grey levels
   /// 0..255 divided by the filter's area. 650 times OpenSURF's; 30 gives some 1000 to 2000 points
-  /// on a street scene. With a target it is the floor, below which nothing but noise is found.
+  /// on a street scene. Weaker ones are taken only where target_keypoints are not reached.
   double hessian_threshold = 1.0;
   int octaves = 3;  ///< of the scale space: each doubles the filters' size
   int layers = 4;   ///< filters an octave, the outer two for comparison only
