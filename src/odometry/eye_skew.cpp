@@ -37,6 +37,13 @@ EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera)
                                              .covariance.bottomRightCorner<kRows, kRows>()
                                              .inverse();
   prior_(kRows, kRows) = 1 / (kSkewSigma_s * kSkewSigma_s);
+  skew_.sigma_s = kSkewSigma_s;
+}
+
+void EyeSkewEstimator::Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
+  later_from_now_ = found_ ? MotionIn(found_->s, stamp_s, predicted) : Rigid3();
+  const double unknown_s = std::hypot(found_ ? 0 : skew_.s, skew_.sigma_s);
+  turn_sigma_rad_ = LogSO3(MotionIn(unknown_s, stamp_s, predicted).rotation);
 }
 
 double EyeSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
@@ -99,20 +106,20 @@ void EyeSkewEstimator::Solve() {
   // Rows of one frame err together, so that frames count, not points (the sandwich estimator).
   const Vector by_score = decomposed.solve(Vector::Unit(kSize - 1));
   const double variance = by_score[kSize - 1] + by_score.dot(scatter_ * by_score);
-  const EyeSkew skew{solution_[kSize - 1], std::sqrt(variance)};
-  const bool is_significant = std::abs(skew.s) >= kMinSkew_s + kSignificance * skew.sigma_s;
-  found_ = is_significant ? std::optional(skew) : std::nullopt;
+  skew_ = {solution_[kSize - 1], std::sqrt(variance)};
+  const bool is_significant = std::abs(skew_.s) >= kMinSkew_s + kSignificance * skew_.sigma_s;
+  found_ = is_significant ? std::optional(skew_) : std::nullopt;
 }
 
-Rigid3 EyeSkewEstimator::MotionBetweenEyes(double stamp_s,
-                                           const std::optional<PredictedPose>& predicted) const {
-  if (!found_ || !last_) return {};
+Rigid3 EyeSkewEstimator::MotionIn(double duration_s, double stamp_s,
+                                  const std::optional<PredictedPose>& predicted) const {
+  if (!last_) return {};
   if (predicted && stamp_s > last_->stamp_s) {
     const Rigid3 now_from_last = predicted->camera_from_world * last_->camera_from_world.Inverse();
-    return Interpolate({}, now_from_last, found_->s / (stamp_s - last_->stamp_s));
+    return Interpolate({}, now_from_last, duration_s / (stamp_s - last_->stamp_s));
   }
   if (last_->interval_s == 0) return {};
-  return Interpolate({}, last_->now_from_before, found_->s / last_->interval_s);
+  return Interpolate({}, last_->now_from_before, duration_s / last_->interval_s);
 }
 
 double EyeSkewEstimator::MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const {

@@ -171,7 +171,12 @@ void LocalOdometry::Implementation::Accept(TrackedFrame tracked,
   update.is_keyframe = !resting && IsKeyframe(tracked);
   update.observations = std::move(tracked.observations);
   contradicting_ = std::move(tracked.contradicting);
-  covariance_.AddDoubtOfWay(skew_.Learn(map_, update));
+  const double doubt_m = skew_.Learn(map_, update);
+  covariance_.AddDoubtOfWay(doubt_m);
+  if (doubt_m > 0) {  // what has been learnt so far is of pictures of two moments
+    SetCorrection(CorrectionBelief::OfCalibration(camera_));
+    turns_.Interrupt(correction_, camera_);
+  }
   covariance_.AddPose(map_.keyframes().back(), update.pose.camera_from_world,
                       FindDrift(camera_, correction_.mean, map_, update, options_.bundle.solver));
   update.covariance_from_start = covariance_.OfNewest() + update.doubt;

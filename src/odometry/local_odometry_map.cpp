@@ -31,7 +31,12 @@ void LocalOdometry::Implementation::Reset() {
 }
 
 bool LocalOdometry::Implementation::HasTurned(const TrackedFrame& tracked) {
-  const auto turn = turns_.Look(tracked.turn_against_map, map_.next_keyframe());
+  auto against_map = tracked.turn_against_map;
+  if (against_map) {
+    const Eigen::Vector3d& sigma_rad = skew_.turn_sigma_rad();
+    against_map->covariance += sigma_rad * sigma_rad.transpose();
+  }
+  const auto turn = turns_.Look(against_map, map_.next_keyframe());
   if (!turn) return false;
   SetCorrection(correction_.After(*turn, camera_));
   map_.ForgetRight(map_.next_keyframe());

@@ -26,12 +26,13 @@ class EyeSkewEstimator {
   explicit EyeSkewEstimator(const StereoCamera& camera);
 
   /// Takes the next pair, with the pose that is expected for it.
-  void Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
-    later_from_now_ = MotionBetweenEyes(stamp_s, predicted);
-  }
+  void Advance(double stamp_s, const std::optional<PredictedPose>& predicted);
   /// The camera's motion from the pair's left picture to its right one; none where there is no skew
   /// to be found.
   const Rigid3& later_from_now() const { return later_from_now_; }
+  /// By how much the right picture may besides be turned against the left one, for what is not
+  /// known of the skew: a standard deviation, rad, about the camera's axes.
+  const Eigen::Vector3d& turn_sigma_rad() const { return turn_sigma_rad_; }
 
   /// Learns from the pair's pose and what both eyes saw, right pixels moved to where they would be
   /// without that motion; sets its skew: nothing where it may well be none, that is no more than a
@@ -53,8 +54,9 @@ class EyeSkewEstimator {
     double interval_s;  ///< of that motion; 0: none is known
   };
   void Add(const LocalMap& map, const OdometryUpdate& update);
-  /// At the speed of the way to `predicted`, or of the last way.
-  Rigid3 MotionBetweenEyes(double stamp_s, const std::optional<PredictedPose>& predicted) const;
+  /// In `duration_s`, at the speed of the way to `predicted`, or of the last way.
+  Rigid3 MotionIn(double duration_s, double stamp_s,
+                  const std::optional<PredictedPose>& predicted) const;
   /// How far the motion moves what the right eye sees of the observed landmarks, px, their median.
   double MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const;
   void AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s, double sigma_px);
@@ -66,9 +68,11 @@ class EyeSkewEstimator {
   Matrix scatter_ = Matrix::Zero();  ///< of the frames' scores, which rows that err together widen
   Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
+  EyeSkew skew_;                  ///< by all frames
   std::optional<EyeSkew> found_;  ///< where it is significant
   bool is_known_ = false;         ///< it was found once
   Rigid3 later_from_now_;
+  Eigen::Vector3d turn_sigma_rad_ = Eigen::Vector3d::Zero();
   std::optional<Last> last_;
 };
 
