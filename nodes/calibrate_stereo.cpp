@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   Program program;
   program.name = "calibrate_stereo";
   program.description =
-      "Calibrates both eyes from pictures of a chessboard, after Zhang. IMAGE_DIR holds files\n"
+      "Calibrates both cameras from pictures of a chessboard, after Zhang. IMAGE_DIR holds files\n"
       "left*.EXT and right*.EXT, or folders left/ and right/ with the same names. The output "
       "takes\n"
       "left.yaml and right.yaml for camera_info, report.md and pictures.";

@@ -19,8 +19,8 @@ struct BoardSet {
   double max_tilt_deg = 40;
 };
 
-void WriteImage(const std::string& folder, const char* eye, int pair, const cv::Mat& image) {
-  const std::string path = folder + Format("/%s%03d.png", eye, pair);
+void WriteImage(const std::string& folder, const char* side, int pair, const cv::Mat& image) {
+  const std::string path = folder + Format("/%s%03d.png", side, pair);
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 

@@ -16,7 +16,7 @@ import yaml
 from sensor_msgs.msg import CameraInfo
 
 
-class Eye:
+class Camera:
     """The calibration of one camera, from a sensor.yaml."""
 
     def __init__(self, path):
@@ -26,7 +26,7 @@ class Eye:
             self.size = [int(value) for value in values["resolution"]]
             self.fx, self.fy, self.cx, self.cy = map(float, values["intrinsics"])
             self.distortion = [float(value) for value in values["distortion_coefficients"]]
-            self.body_from_eye = np.array(values["T_BS"]["data"], float).reshape(4, 4)
+            self.body_from_camera = np.array(values["T_BS"]["data"], float).reshape(4, 4)
         except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError) as error:
             sys.exit(f"ERROR: {path}: no sensor.yaml of EuRoC: {type(error).__name__} {error}")
         if values.get("distortion_model") != "radial-tangential" or len(self.distortion) != 4:
@@ -34,9 +34,9 @@ class Eye:
 
 
 def rectify(left, right):
-    """The rotations of both eyes, and P of both."""
-    right_from_left = np.linalg.inv(right.body_from_eye) @ left.body_from_eye
-    matrices = [np.array([[eye.fx, 0, eye.cx], [0, eye.fy, eye.cy], [0, 0, 1]]) for eye in (left, right)]
+    """The rotations of both cameras, and P of both."""
+    right_from_left = np.linalg.inv(right.body_from_camera) @ left.body_from_camera
+    matrices = [np.array([[camera.fx, 0, camera.cx], [0, camera.fy, camera.cy], [0, 0, 1]]) for camera in (left, right)]
     rotations_and_projections = cv2.stereoRectify(
         matrices[0], np.array(left.distortion), matrices[1], np.array(right.distortion), tuple(left.size),
         right_from_left[:3, :3], right_from_left[:3, 3], flags=cv2.CALIB_ZERO_DISPARITY, alpha=-1)[:4]
@@ -47,9 +47,9 @@ def make_infos(left, right):
     if left.size != right.size:
         sys.exit(f"ERROR: the images of both cameras must have one resolution, not {left.size} and {right.size}")
     infos = []
-    for eye, rotation, projection in zip((left, right), *rectify(left, right)):
-        infos.append(CameraInfo(width=eye.size[0], height=eye.size[1], distortion_model="plumb_bob",
-                                D=eye.distortion + [0], K=[eye.fx, 0, eye.cx, 0, eye.fy, eye.cy, 0, 0, 1],
+    for camera, rotation, projection in zip((left, right), *rectify(left, right)):
+        infos.append(CameraInfo(width=camera.size[0], height=camera.size[1], distortion_model="plumb_bob",
+                                D=camera.distortion + [0], K=[camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1],
                                 R=list(rotation.ravel()), P=list(projection.ravel())))
     return infos
 
@@ -76,7 +76,7 @@ def main():
     bag, left, right, output = sys.argv[1:]
     if os.path.exists(output):
         sys.exit(f"ERROR: {output}: exists already")
-    infos = dict(zip(("/cam0", "/cam1"), make_infos(Eye(left), Eye(right))))
+    infos = dict(zip(("/cam0", "/cam1"), make_infos(Camera(left), Camera(right))))
     try:
         with rosbag.Bag(bag) as source, rosbag.Bag(output, "w") as target:
             counts = add_infos(source, infos, target)

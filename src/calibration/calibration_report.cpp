@@ -62,13 +62,13 @@ cv::Mat DrawRectified(const cv::Mat& left, const cv::Mat& right,
   return both;
 }
 
-/// All corners of all used pairs as dots over an empty image of each eye, side by side.
+/// All corners of all used pairs as dots over an empty image of each camera, side by side.
 cv::Mat DrawCoverage(const StereoCalibration& calibration) {
-  const auto draw = [&](const BoardCorners CornerPair::*eye) {
+  const auto draw = [&](const BoardCorners CornerPair::*side) {
     cv::Mat picture(calibration.image_size, CV_8UC3, cv::Scalar::all(255));
     cv::rectangle(picture, {0, 0}, {picture.cols - 1, picture.rows - 1}, {0, 0, 0}, 2);
     for (const CornerPair& pair : calibration.pairs)
-      for (const cv::Point2f& corner : pair.*eye)
+      for (const cv::Point2f& corner : pair.*side)
         cv::circle(picture, corner, std::max(2, picture.cols / 400), {180, 60, 0}, cv::FILLED,
                    cv::LINE_AA);
     return picture;
@@ -78,24 +78,25 @@ cv::Mat DrawCoverage(const StereoCalibration& calibration) {
 
 double Degrees(double rad) { return rad * 180 / M_PI; }
 
-std::string FormatEye(const char* name, const Eye& eye, const EyePrecision& precision) {
+std::string FormatCamera(const char* name, const SingleCamera& side,
+                         const IntrinsicsPrecision& precision) {
   const auto& [skew_px, skew_sigma_px, fx_sigma_px, fy_sigma_px, cx_sigma_px, cy_sigma_px] =
       precision;
   std::string rows;
-  for (const auto& [key, value, sigma] : {std::tuple("fx", eye.matrix(0, 0), fx_sigma_px),
-                                          {"fy", eye.matrix(1, 1), fy_sigma_px},
-                                          {"cx", eye.matrix(0, 2), cx_sigma_px},
-                                          {"cy", eye.matrix(1, 2), cy_sigma_px},
+  for (const auto& [key, value, sigma] : {std::tuple("fx", side.matrix(0, 0), fx_sigma_px),
+                                          {"fy", side.matrix(1, 1), fy_sigma_px},
+                                          {"cx", side.matrix(0, 2), cx_sigma_px},
+                                          {"cy", side.matrix(1, 2), cy_sigma_px},
                                           {"skew", skew_px, skew_sigma_px}})
     rows += Format("| %s | %s | %.3f | %.3f |\n", name, key, value, sigma);
   return rows;
 }
 
-std::string FormatDistortion(const char* name, const Eye& eye) {
+std::string FormatDistortion(const char* name, const SingleCamera& side) {
   static const char* const kNames[] = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
   std::string line = std::string("* ") + name + ":";
-  for (int i = 0; i < static_cast<int>(eye.distortion.total()); ++i)
-    line += Format(" %s = %.5f", kNames[i], eye.distortion.at<double>(i));
+  for (int i = 0; i < static_cast<int>(side.distortion.total()); ++i)
+    line += Format(" %s = %.5f", kNames[i], side.distortion.at<double>(i));
   return line + "\n";
 }
 
@@ -105,21 +106,21 @@ std::string FormatRig(const StereoCalibration& calibration, const Rectification&
   const StereoCamera camera = rectification.Camera(calibration.image_size);
   return Format(
       "\n## Rig\n\n"
-      "* baseline %.5f m; the right eye is at (%.5f, %.5f, %.5f) m of the left eye\n"
-      "* turn of the right eye about x, y, z: %.3f, %.3f, %.3f deg\n"
-      "* rectified camera: f = %.3f px, c = (%.3f, %.3f) px, P[3] of the right eye = %.4f\n",
+      "* baseline %.5f m; the right camera is at (%.5f, %.5f, %.5f) m of the left camera\n"
+      "* turn of the right camera about x, y, z: %.3f, %.3f, %.3f deg\n"
+      "* rectified camera: f = %.3f px, c = (%.3f, %.3f) px, P[3] of the right camera = %.4f\n",
       calibration.BaselineM(), right_in_left.x(), right_in_left.y(), right_in_left.z(),
       Degrees(turn.x()), Degrees(turn.y()), Degrees(turn.z()), camera.fx, camera.cx, camera.cy,
       rectification.right.projection(0, 3));
 }
 
-/// Share of the cells of an eye's image, 10 x 8, in which a corner was seen: distortion is known
+/// Share of the cells of a camera's image, 10 x 8, in which a corner was seen: distortion is known
 /// only there.
-double MeasureCoverage(const StereoCalibration& calibration, BoardCorners CornerPair::*eye) {
+double MeasureCoverage(const StereoCalibration& calibration, BoardCorners CornerPair::*side) {
   const cv::Size size = calibration.image_size;
   cv::Mat1b is_seen(8, 10, uint8_t{0});
   for (const CornerPair& pair : calibration.pairs)
-    for (const cv::Point2f& corner : pair.*eye) {
+    for (const cv::Point2f& corner : pair.*side) {
       const int column = static_cast<int>((corner.x + 0.5F) * is_seen.cols / size.width);
       const int row = static_cast<int>((corner.y + 0.5F) * is_seen.rows / size.height);
       is_seen(std::clamp(row, 0, is_seen.rows - 1), std::clamp(column, 0, is_seen.cols - 1)) = 1;
@@ -129,9 +130,9 @@ double MeasureCoverage(const StereoCalibration& calibration, BoardCorners Corner
 
 std::string FormatCoverage(const StereoCalibration& calibration) {
   std::string text = "\n## Coverage\n\n";
-  for (const auto& [name, eye] :
+  for (const auto& [name, side] :
        {std::pair("left", &CornerPair::left), {"right", &CornerPair::right}}) {
-    const double share = MeasureCoverage(calibration, eye);
+    const double share = MeasureCoverage(calibration, side);
     text += Format("* %s: %.0f %% of the image's cells", name, 100 * share);
     if (share < kGoodCoverage)
       text += " (little: distortion is known only there; show the board near the edges too)";
@@ -182,12 +183,12 @@ std::string FormatReport(const StereoCalibration& calibration, const Rectificati
              "left out.\n\n"
              "* stereo rms %.4f px\n"
              "* rows after rectification: |dv| median %.4f px, 95 %% below %.4f px\n"
-             "\n## Eyes\n\n| eye | value | px | sigma px |\n|---|---|---|---|\n",
+             "\n## Cameras\n\n| camera | value | px | sigma px |\n|---|---|---|---|\n",
              board.columns, board.rows, board.square_m, calibration.image_size.width,
              calibration.image_size.height, calibration.pairs.size(), calibration.left_out.size(),
              calibration.stereo_rms_px, Quantile(rows, 0.5), Quantile(rows, 0.95)) +
-         FormatEye("left", calibration.left, calibration.left_precision) +
-         FormatEye("right", calibration.right, calibration.right_precision) +
+         FormatCamera("left", calibration.left, calibration.left_precision) +
+         FormatCamera("right", calibration.right, calibration.right_precision) +
          "\nSkew is estimated beside the model (one Gauss-Newton step from the optimum); the files "
          "hold the model without skew. Distortion:\n\n" +
          FormatDistortion("left", calibration.left) + FormatDistortion("right", calibration.right) +

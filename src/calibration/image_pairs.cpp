@@ -19,10 +19,10 @@ bool IsImage(const fs::path& path) {
   return extensions.count(boost::to_lower_copy(path.extension().string())) > 0;
 }
 
-/// The stem without a leading `eye` and what joins it: "left_07" -> "07".
-std::string NameWithoutEye(const fs::path& path, const std::string& eye) {
+/// The stem without a leading `camera` and what joins it: "left_07" -> "07".
+std::string NameWithoutSide(const fs::path& path, const std::string& side) {
   std::string name = path.stem().string();
-  if (boost::istarts_with(name, eye)) name.erase(0, eye.size());
+  if (boost::istarts_with(name, side)) name.erase(0, side.size());
   const size_t start = name.find_first_not_of("_-. ");
   return start == std::string::npos ? "" : name.substr(start);
 }
@@ -55,14 +55,14 @@ void Add(Files& files, const std::string& name, const fs::path& path) {
                       "' have the same name");
 }
 
-/// Image files of one eye by name; all in `folder` where it is the eye's own.
-Files FindFiles(const fs::path& folder, const std::string& eye, bool is_own_folder) {
+/// Image files of one camera by name; all in `folder` where it is the camera's own.
+Files FindFiles(const fs::path& folder, const std::string& side, bool is_own_folder) {
   Files files(&ComesBefore);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (!entry.is_regular_file() || !IsImage(path)) continue;
-    if (is_own_folder || boost::istarts_with(path.filename().string(), eye))
-      Add(files, NameWithoutEye(path, eye), path);
+    if (is_own_folder || boost::istarts_with(path.filename().string(), side))
+      Add(files, NameWithoutSide(path, side), path);
   }
   return files;
 }

@@ -24,18 +24,19 @@ BoardPose Invert(const BoardPose& b_from_a) {
   return {-b_from_a.rotation, -(rotation.t() * b_from_a.translation_m)};
 }
 
-double ProjectionRms(const Eye& eye, const BoardPose& pose, const BoardCorners& corners,
+double ProjectionRms(const SingleCamera& camera, const BoardPose& pose, const BoardCorners& corners,
                      const std::vector<cv::Point3f>& board_corners) {
   std::vector<cv::Point2f> projected;
-  cv::projectPoints(board_corners, pose.rotation, pose.translation_m, eye.matrix, eye.distortion,
-                    projected);
+  cv::projectPoints(board_corners, pose.rotation, pose.translation_m, camera.matrix,
+                    camera.distortion, projected);
   const double rms = cv::norm(projected, corners, cv::NORM_L2) / std::sqrt(double(corners.size()));
   return std::isfinite(rms) ? rms : std::numeric_limits<double>::max();
 }
 
 }  // namespace
 
-std::vector<double> MeasureConsistency(const EyeCalibration& left, const EyeCalibration& right,
+std::vector<double> MeasureConsistency(const SingleCalibration& left,
+                                       const SingleCalibration& right,
                                        const std::vector<CornerPair>& pairs,
                                        const Chessboard& board) {
   const std::vector<cv::Point3f> board_corners = board.Corners();
@@ -46,7 +47,7 @@ std::vector<double> MeasureConsistency(const EyeCalibration& left, const EyeCali
         Compose(right.poses[candidate], Invert(left.poses[candidate]));
     std::vector<double> errors;
     for (size_t i = 0; i < pairs.size(); ++i)
-      errors.push_back(ProjectionRms(right.eye, Compose(right_from_left, left.poses[i]),
+      errors.push_back(ProjectionRms(right.camera, Compose(right_from_left, left.poses[i]),
                                      pairs[i].right, board_corners));
     const double median = Median(errors);
     if (median < best_median) {

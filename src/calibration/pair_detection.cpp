@@ -68,7 +68,7 @@ void CheckBoardSize(const std::vector<ImagePair>& files, const Chessboard& board
   const std::optional<cv::Size> seen = GuessCommonSize(files);
   if (static_cast<int>(num_found) < min_pairs) {
     std::string message = Format(
-        "too few views: a board of %s inner corners is wholly seen by both eyes in %zu of %zu "
+        "too few views: a board of %s inner corners is wholly seen by both cameras in %zu of %zu "
         "pairs, at least %d are needed",
         asked.c_str(), num_found, files.size(), min_pairs);
     const bool differs = seen && cv::Size(std::max(board.columns, board.rows),

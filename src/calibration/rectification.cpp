@@ -24,10 +24,10 @@ void PrintMatrix(std::ostream& out, const char* key, const Matrix& matrix) {
   out << "]\n";
 }
 
-std::vector<cv::Point2f> RectifyCorners(const BoardCorners& corners, const Eye& eye,
-                                        const RectifiedEye& rectified) {
+std::vector<cv::Point2f> RectifyCorners(const BoardCorners& corners, const SingleCamera& camera,
+                                        const RectifiedCamera& rectified) {
   std::vector<cv::Point2f> moved;
-  cv::undistortPoints(corners, moved, eye.matrix, eye.distortion, rectified.rotation,
+  cv::undistortPoints(corners, moved, camera.matrix, camera.distortion, rectified.rotation,
                       rectified.projection,
                       {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-8});
   return moved;
@@ -69,26 +69,27 @@ std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
   return residuals;
 }
 
-cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const RectifiedEye& rectified) {
+cv::Mat RectifyImage(const cv::Mat& image, const SingleCamera& camera,
+                     const RectifiedCamera& rectified) {
   cv::Mat map_x, map_y, moved;
-  cv::initUndistortRectifyMap(eye.matrix, eye.distortion, rectified.rotation, rectified.projection,
-                              image.size(), CV_16SC2, map_x, map_y);
+  cv::initUndistortRectifyMap(camera.matrix, camera.distortion, rectified.rotation,
+                              rectified.projection, image.size(), CV_16SC2, map_x, map_y);
   cv::remap(image, moved, map_x, map_y, cv::INTER_LINEAR);
   return moved;
 }
 
-std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size, const Eye& eye,
-                             const RectifiedEye& rectified) {
-  const bool is_rational = eye.distortion.total() > 5;
+std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size,
+                             const SingleCamera& camera, const RectifiedCamera& rectified) {
+  const bool is_rational = camera.distortion.total() > 5;
   std::ostringstream out;
   out << std::setprecision(std::numeric_limits<double>::max_digits10);
   out << "image_width: " << image_size.width << "\nimage_height: " << image_size.height
       << "\ncamera_name: " << camera_name << "\n";
-  PrintMatrix(out, "camera_matrix", eye.matrix);
+  PrintMatrix(out, "camera_matrix", camera.matrix);
   out << "distortion_model: "
       << ToString(is_rational ? DistortionModel::kRationalPolynomial : DistortionModel::kPlumbBob)
       << "\n";
-  PrintMatrix(out, "distortion_coefficients", eye.distortion);
+  PrintMatrix(out, "distortion_coefficients", camera.distortion);
   PrintMatrix(out, "rectification_matrix", rectified.rotation);
   PrintMatrix(out, "projection_matrix", rectified.projection);
   return out.str();

@@ -17,17 +17,17 @@ constexpr double kOutlierFactor = 3, kOutlierFloor_px = 0.1;
 constexpr double kMinTilt_deg = 5;       ///< between the board's planes of two views
 constexpr double kMaxFocalSigma = 0.01;  ///< of fx, as a share of it
 /// Consistency of a pair measured with single poses is noisier than its final error: only what
-/// stands out grossly goes before both eyes are adjusted together.
+/// stands out grossly goes before both cameras are adjusted together.
 constexpr double kGrossFactor = 5, kGrossFloorPx = 2;
-/// Above this the eyes have no common relative pose; a good rig is at a few px.
+/// Above this the cameras have no common relative pose; a good rig is at a few px.
 constexpr double kNoCommonPosePx = 15;
 
 constexpr auto kLeft = &CornerPair::left, kRight = &CornerPair::right;
 
 std::vector<BoardCorners> Views(const std::vector<CornerPair>& pairs,
-                                BoardCorners CornerPair::*eye) {
+                                BoardCorners CornerPair::*camera) {
   std::vector<BoardCorners> views;
-  for (const CornerPair& pair : pairs) views.push_back(pair.*eye);
+  for (const CornerPair& pair : pairs) views.push_back(pair.*camera);
   return views;
 }
 
@@ -81,43 +81,46 @@ class PairSelection {
   std::vector<LeftOutPair> left_out_;
 };
 
-struct BothEyes {
-  EyeCalibration left, right;
+struct BothCameras {
+  SingleCalibration left, right;
 };
 
-/// Each eye for itself, without the views that it finds bad.
-BothEyes CalibrateEyes(PairSelection& selection, const Chessboard& board, cv::Size image_size,
-                       DistortionModel model) {
+/// Each camera for itself, without the views that it finds bad.
+BothCameras CalibrateCameras(PairSelection& selection, const Chessboard& board, cv::Size image_size,
+                             DistortionModel model) {
   while (true) {
-    BothEyes eyes{CalibrateEye(Views(selection.Pairs(), kLeft), board, image_size, model),
-                  CalibrateEye(Views(selection.Pairs(), kRight), board, image_size, model)};
-    if (selection.LeaveOut(eyes.left.view_rms_px, kOutlierFactor, kOutlierFloor_px,
-                           "left corners do not fit the left eye"))
+    BothCameras cameras{
+        CalibrateCamera(Views(selection.Pairs(), kLeft), board, image_size, model),
+        CalibrateCamera(Views(selection.Pairs(), kRight), board, image_size, model)};
+    if (selection.LeaveOut(cameras.left.view_rms_px, kOutlierFactor, kOutlierFloor_px,
+                           "left corners do not fit the left camera"))
       continue;
-    if (selection.LeaveOut(eyes.right.view_rms_px, kOutlierFactor, kOutlierFloor_px,
-                           "right corners do not fit the right eye"))
+    if (selection.LeaveOut(cameras.right.view_rms_px, kOutlierFactor, kOutlierFloor_px,
+                           "right corners do not fit the right camera"))
       continue;
-    return eyes;
+    return cameras;
   }
 }
 
-void CheckViews(const char* eye, const EyeCalibration& calibration, const EyePrecision& precision) {
+void CheckViews(const char* camera, const SingleCalibration& calibration,
+                const IntrinsicsPrecision& precision) {
   const double tilt_deg = LargestTilt(calibration.poses) * 180 / M_PI;
   const std::string advice = "; tilt the board by 20 to 45 degrees about both its axes";
   if (tilt_deg < kMinTilt_deg)
-    throw CalibrationError("all views of the " + std::string(eye) +
-                           " eye are parallel: the board's planes differ by " +
+    throw CalibrationError("all views of the " + std::string(camera) +
+                           " camera are parallel: the board's planes differ by " +
                            Format("%.1f degrees at most", tilt_deg) + advice);
-  const double fx = calibration.eye.matrix(0, 0);
+  const double fx = calibration.camera.matrix(0, 0);
   if (!(precision.fx_sigma_px <= kMaxFocalSigma * fx))
     throw CalibrationError(
-        "the views do not determine the focal length of the " + std::string(eye) +
-        Format(" eye, fx = %.1f +- %.1f px (views nearly parallel)", fx, precision.fx_sigma_px) +
+        "the views do not determine the focal length of the " + std::string(camera) +
+        Format(" camera, fx = %.1f +- %.1f px (views nearly parallel)", fx, precision.fx_sigma_px) +
         advice);
 }
 
-/// Throws where no relative pose suits most pairs, naming a mirrored eye where that is the cause.
-void CheckCommonPose(const BothEyes& eyes, const std::vector<double>& consistency,
+/// Throws where no relative pose suits most pairs, naming a mirrored camera where that is the
+/// cause.
+void CheckCommonPose(const BothCameras& cameras, const std::vector<double>& consistency,
                      const std::vector<CornerPair>& pairs, const Chessboard& board,
                      cv::Size image_size, const StereoCalibrationOptions& options) {
   const double error = Median(consistency);
@@ -126,26 +129,26 @@ void CheckCommonPose(const BothEyes& eyes, const std::vector<double>& consistenc
   for (CornerPair& pair : mirrored)
     pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, board.Size(), image_size.width),
                             board.Size());
-  const EyeCalibration right =
-      CalibrateEye(Views(mirrored, kRight), board, image_size, options.model);
-  const double mirrored_error = Median(MeasureConsistency(eyes.left, right, mirrored, board));
+  const SingleCalibration right =
+      CalibrateCamera(Views(mirrored, kRight), board, image_size, options.model);
+  const double mirrored_error = Median(MeasureConsistency(cameras.left, right, mirrored, board));
   if (mirrored_error < error / 4)
     throw CalibrationError(
-        "one eye is mirrored: with the right images mirrored the pairs agree "
+        "one camera is mirrored: with the right images mirrored the pairs agree "
         "(" +
         Format("%.1f px instead of %.1f px)", mirrored_error, error));
-  throw CalibrationError("the eyes do not agree: the best relative pose leaves " +
+  throw CalibrationError("the cameras do not agree: the best relative pose leaves " +
                          Format("%.1f px (median of the pairs)", error) +
                          "; are the pairs taken at the same moments, and is the board the same?");
 }
 
-/// Both eyes together by OpenCV, from each eye's own calibration.
-StereoCalibration AdjustTogether(const BothEyes& eyes, const std::vector<CornerPair>& pairs,
+/// Both cameras together by OpenCV, from each camera's own calibration.
+StereoCalibration AdjustTogether(const BothCameras& cameras, const std::vector<CornerPair>& pairs,
                                  const Chessboard& board, cv::Size image_size) {
   StereoCalibration calibration;
   calibration.image_size = image_size;
-  calibration.left = {eyes.left.eye.matrix, eyes.left.eye.distortion.clone()};
-  calibration.right = {eyes.right.eye.matrix, eyes.right.eye.distortion.clone()};
+  calibration.left = {cameras.left.camera.matrix, cameras.left.camera.distortion.clone()};
+  calibration.right = {cameras.right.camera.matrix, cameras.right.camera.distortion.clone()};
   const std::vector<std::vector<cv::Point3f>> board_corners(pairs.size(), board.Corners());
   const bool is_rational = calibration.left.distortion.total() > 5;
   cv::Mat rotation = cv::Mat::eye(3, 3, CV_64F), translation = cv::Mat::zeros(3, 1, CV_64F);
@@ -166,7 +169,7 @@ StereoCalibration AdjustTogether(const BothEyes& eyes, const std::vector<CornerP
   return calibration;
 }
 
-std::vector<double> WorseEye(const StereoCalibration& calibration) {
+std::vector<double> WorseCamera(const StereoCalibration& calibration) {
   std::vector<double> errors;
   for (size_t i = 0; i < calibration.left_px.size(); ++i)
     errors.push_back(std::max(calibration.left_px[i], calibration.right_px[i]));
@@ -176,14 +179,14 @@ std::vector<double> WorseEye(const StereoCalibration& calibration) {
 void CheckRig(const Rigid3& right_from_left) {
   const Eigen::Vector3d right_in_left = right_from_left.Inverse().translation;
   const std::string where =
-      Format("the right eye is at x = %.4f, y = %.4f", right_in_left.x(), right_in_left.y()) +
-      Format(", z = %.4f of the left eye", right_in_left.z());
+      Format("the right camera is at x = %.4f, y = %.4f", right_in_left.x(), right_in_left.y()) +
+      Format(", z = %.4f of the left camera", right_in_left.z());
   const double sideways = std::abs(right_in_left.x());
   if (sideways < std::abs(right_in_left.y()) || sideways < std::abs(right_in_left.z()))
-    throw CalibrationError("the eyes are not side by side: " + where);
+    throw CalibrationError("the cameras are not side by side: " + where);
   if (right_in_left.x() < 0)
-    throw CalibrationError("left and right are swapped (or both eyes mirrored or upside down): " +
-                           where);
+    throw CalibrationError(
+        "left and right are swapped (or both cameras mirrored or upside down): " + where);
 }
 
 }  // namespace
@@ -197,30 +200,31 @@ StereoCalibration CalibrateStereo(std::vector<CornerPair> pairs, const Chessboar
   board.Check();
   options.Check();
   PairSelection selection(std::move(pairs), options);
-  BothEyes eyes = CalibrateEyes(selection, board, image_size, options.model);
-  CheckViews("left", eyes.left,
-             EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board));
-  CheckViews("right", eyes.right,
-             EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board));
+  BothCameras cameras = CalibrateCameras(selection, board, image_size, options.model);
+  CheckViews("left", cameras.left,
+             EvaluatePrecision(cameras.left, Views(selection.Pairs(), kLeft), board));
+  CheckViews("right", cameras.right,
+             EvaluatePrecision(cameras.right, Views(selection.Pairs(), kRight), board));
   std::vector<double> consistency =
-      MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
-  CheckCommonPose(eyes, consistency, selection.Pairs(), board, image_size, options);
+      MeasureConsistency(cameras.left, cameras.right, selection.Pairs(), board);
+  CheckCommonPose(cameras, consistency, selection.Pairs(), board, image_size, options);
   while (selection.LeaveOut(consistency, kGrossFactor, kGrossFloorPx,
-                            "the eyes disagree (board moved between the exposures?)")) {
-    eyes = CalibrateEyes(selection, board, image_size, options.model);
-    consistency = MeasureConsistency(eyes.left, eyes.right, selection.Pairs(), board);
+                            "the cameras disagree (board moved between the exposures?)")) {
+    cameras = CalibrateCameras(selection, board, image_size, options.model);
+    consistency = MeasureConsistency(cameras.left, cameras.right, selection.Pairs(), board);
   }
-  StereoCalibration calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
-  while (selection.LeaveOut(WorseEye(calibration), kOutlierFactor, kOutlierFloor_px,
-                            "does not fit both eyes together")) {
-    eyes = CalibrateEyes(selection, board, image_size, options.model);
-    calibration = AdjustTogether(eyes, selection.Pairs(), board, image_size);
+  StereoCalibration calibration = AdjustTogether(cameras, selection.Pairs(), board, image_size);
+  while (selection.LeaveOut(WorseCamera(calibration), kOutlierFactor, kOutlierFloor_px,
+                            "does not fit both cameras together")) {
+    cameras = CalibrateCameras(selection, board, image_size, options.model);
+    calibration = AdjustTogether(cameras, selection.Pairs(), board, image_size);
   }
   CheckRig(calibration.right_from_left);
-  calibration.left_precision = EvaluatePrecision(eyes.left, Views(selection.Pairs(), kLeft), board);
+  calibration.left_precision =
+      EvaluatePrecision(cameras.left, Views(selection.Pairs(), kLeft), board);
   calibration.right_precision =
-      EvaluatePrecision(eyes.right, Views(selection.Pairs(), kRight), board);
-  calibration.tilt_rad = LargestTilt(eyes.left.poses);
+      EvaluatePrecision(cameras.right, Views(selection.Pairs(), kRight), board);
+  calibration.tilt_rad = LargestTilt(cameras.left.poses);
   calibration.pairs = selection.Pairs();
   calibration.left_out = selection.TakeLeftOut();
   return calibration;

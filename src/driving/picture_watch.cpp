@@ -54,7 +54,7 @@ bool PictureWatch::IsSteady() const {
 std::vector<CheckLine> PictureWatch::Check(double now_s) const {
   if (pictures_.empty()) {
     const std::string none = "the odometry tells of no picture";
-    return {{"camera", {}, none}, {"exposure", {}, none}, {"both_eyes", {}, none}};
+    return {{"camera", {}, none}, {"exposure", {}, none}, {"both_cameras", {}, none}};
   }
   const Picture& last = pictures_.back();
   const double age_s = now_s - last.taken_s;
@@ -67,7 +67,7 @@ std::vector<CheckLine> PictureWatch::Check(double now_s) const {
       {"exposure", has_settled_,
        Format("%s, mean grey %.0f", has_settled_ ? "has settled" : "has not settled",
               last.grey_mean)},
-      {"both_eyes",
+      {"both_cameras",
        last.num_stereo_points * kMinStereoShare >= last.num_features && last.num_stereo_points > 0,
        Format("%zu of %zu keypoints are seen by both", last.num_stereo_points, last.num_features)}};
 }

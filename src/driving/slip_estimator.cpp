@@ -15,8 +15,8 @@ constexpr double kMaxTurnSlipRatio = 0.7;  ///< as max_slip_ratio, of the turn
 /// Over a longer way of level ground the tracks slip less: sight that still tells another length
 /// is of a wrong baseline, or of something else than the ground.
 constexpr double kLevelWindow_m = 5;
-/// Where the tracks go straight, sight that tells a way aside is of eyes that look elsewhere than
-/// the head says.
+/// Where the tracks go straight, sight that tells a way aside is of cameras that look elsewhere
+/// than the head says.
 constexpr double kStraightWindow_m = 1;
 constexpr double kLevel_deg = 5;  ///< ground that tilts the rover more is not level
 

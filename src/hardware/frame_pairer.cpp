@@ -6,20 +6,20 @@
 namespace arfm_vo {
 namespace {
 
-/// Frames of one eye that wait for the other; more mean that the other is silent.
+/// Frames of one camera that wait for the other; more mean that the other is silent.
 constexpr size_t kMaxWaiting = 8;
 
 }  // namespace
 
-void FramePairer::DropOldest(int eye) {
-  waiting_[eye].pop_front();
-  ++num_unpaired_[eye];
+void FramePairer::DropOldest(int side) {
+  waiting_[side].pop_front();
+  ++num_unpaired_[side];
 }
 
 void FramePairer::Clear() {
-  for (int eye : {0, 1}) {
-    while (!waiting_[eye].empty()) DropOldest(eye);
-    last_stamp_s_[eye].reset();
+  for (int side : {0, 1}) {
+    while (!waiting_[side].empty()) DropOldest(side);
+    last_stamp_s_[side].reset();
   }
 }
 
@@ -28,25 +28,25 @@ double FramePairer::rejected_skew_s() const {
   return before_s != 0 && std::abs(before_s) < std::abs(last_s) ? before_s : last_s;
 }
 
-/// Whether the frame's moment can be told from that of the eye's frame before it; where not, that
-/// one does not wait any longer either.
-bool FramePairer::HasOwnMoment(int eye, double stamp_s) {
-  const std::optional<double> before_s = std::exchange(last_stamp_s_[eye], stamp_s);
+/// Whether the frame's moment can be told from that of the camera's frame before it; where not,
+/// that one does not wait any longer either.
+bool FramePairer::HasOwnMoment(int side, double stamp_s) {
+  const std::optional<double> before_s = std::exchange(last_stamp_s_[side], stamp_s);
   if (!before_s) return false;
   if (stamp_s - *before_s > 2 * max_skew_s_) return true;
   ++num_ambiguous_;
-  ++num_unpaired_[eye];
-  std::deque<VideoFrame>& own = waiting_[eye];
+  ++num_unpaired_[side];
+  std::deque<VideoFrame>& own = waiting_[side];
   if (!own.empty() && own.back().stamp_s == *before_s) {
     own.pop_back();
-    ++num_unpaired_[eye];
+    ++num_unpaired_[side];
     ++num_ambiguous_;
   }
   return false;
 }
 
-std::optional<FramePair> FramePairer::Add(StereoEye eye, VideoFrame frame) {
-  const int index = Index(eye);
+std::optional<FramePair> FramePairer::Add(StereoSide side, VideoFrame frame) {
+  const int index = Index(side);
   if (last_stamp_s_[index] && frame.stamp_s <= *last_stamp_s_[index]) Clear();
   if (!HasOwnMoment(index, frame.stamp_s)) return std::nullopt;
   waiting_[index].push_back(std::move(frame));

@@ -52,13 +52,13 @@ StereoCameraDevice::StereoCameraDevice(const StereoCameraOptions& options,
   status_.problem = "not opened yet";
 }
 
-std::string StereoCameraDevice::Name(size_t eye) const {
+std::string StereoCameraDevice::Name(size_t side) const {
   if (options_.IsSideBySide()) return "camera";
-  return eye == 0 ? "left eye" : "right eye";
+  return side == 0 ? "left camera" : "right camera";
 }
 
 std::optional<FramePair> StereoCameraDevice::Step(double timeout_s) {
-  if (eyes_.empty()) {
+  if (cameras_.empty()) {
     const double now_s = environment_.now_s();
     if (!backoff_.IsDue(now_s)) {
       environment_.wait({}, std::min(timeout_s, backoff_.next_s() - now_s));
@@ -67,7 +67,7 @@ std::optional<FramePair> StereoCameraDevice::Step(double timeout_s) {
   }
   std::optional<FramePair> pair;
   try {
-    if (eyes_.empty()) Open();
+    if (cameras_.empty()) Open();
     pair = Capture(timeout_s);
     CheckSilence();
     CopyExposure();
@@ -81,15 +81,15 @@ std::optional<FramePair> StereoCameraDevice::Step(double timeout_s) {
 void StereoCameraDevice::Open() {
   VideoOptions video = options_.video;
   if (options_.IsSideBySide()) video.width *= 2;
-  std::vector<Eye> eyes;
-  eyes.push_back({environment_.open(options_.left_device, video), 0});
+  std::vector<Camera> cameras;
+  cameras.push_back({environment_.open(options_.left_device, video), 0});
   if (!options_.IsSideBySide())
-    eyes.push_back({environment_.open(options_.right_device, video), 0});
-  eyes_ = std::move(eyes);
+    cameras.push_back({environment_.open(options_.right_device, video), 0});
+  cameras_ = std::move(cameras);
   status_.warning.clear();
-  for (size_t i = 0; i < eyes_.size(); ++i) {
-    eyes_[i].last_frame_s = environment_.now_s();
-    const std::string warning = eyes_[i].device->warning();
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    cameras_[i].last_frame_s = environment_.now_s();
+    const std::string warning = cameras_[i].device->warning();
     if (!warning.empty())
       status_.warning += (status_.warning.empty() ? "" : "; ") + Name(i) + ": " + warning;
   }
@@ -101,7 +101,7 @@ void StereoCameraDevice::Open() {
 void StereoCameraDevice::Close(const std::string& problem) {
   UpdateCounts();
   closed_ = {0, status_.num_dropped, status_.num_corrupted, status_.num_stamped_late};
-  eyes_.clear();
+  cameras_.clear();
   pairer_.Clear();
   ready_.clear();
   rate_.Clear();
@@ -114,15 +114,15 @@ void StereoCameraDevice::Close(const std::string& problem) {
 
 void StereoCameraDevice::ReadDevices(double timeout_s) {
   std::vector<int> descriptors;
-  for (const Eye& eye : eyes_) descriptors.push_back(eye.device->FileDescriptor());
+  for (const Camera& side : cameras_) descriptors.push_back(side.device->FileDescriptor());
   const double start_s = environment_.now_s();
   environment_.wait(descriptors, timeout_s);
   bool has_frame = false;
-  for (size_t i = 0; i < eyes_.size(); ++i) {
-    while (auto frame = eyes_[i].device->Read()) {
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    while (auto frame = cameras_[i].device->Read()) {
       has_frame = true;
-      eyes_[i].last_frame_s = environment_.now_s();
-      if (auto pair = Take(i == 0 ? StereoEye::kLeft : StereoEye::kRight, std::move(*frame)))
+      cameras_[i].last_frame_s = environment_.now_s();
+      if (auto pair = Take(i == 0 ? StereoSide::kLeft : StereoSide::kRight, std::move(*frame)))
         ready_.push_back(std::move(*pair));
     }
   }
@@ -146,11 +146,11 @@ std::optional<FramePair> StereoCameraDevice::Capture(double timeout_s) {
   return pair;
 }
 
-std::optional<FramePair> StereoCameraDevice::Take(StereoEye eye, VideoFrame frame) {
+std::optional<FramePair> StereoCameraDevice::Take(StereoSide side, VideoFrame frame) {
   if (!options_.IsSideBySide()) {
     // Frames that were stamped at their arrival can have waited for long: their partner is unsure.
     if (frame.is_stamped_late) return std::nullopt;
-    return pairer_.Add(eye, std::move(frame));
+    return pairer_.Add(side, std::move(frame));
   }
   const int width = frame.grey.cols / 2;
   return FramePair{{frame.grey.colRange(0, width).clone(), frame.stamp_s},
@@ -158,8 +158,8 @@ std::optional<FramePair> StereoCameraDevice::Take(StereoEye eye, VideoFrame fram
 }
 
 void StereoCameraDevice::CheckSilence() {
-  for (size_t i = 0; i < eyes_.size(); ++i)
-    if (environment_.now_s() - eyes_[i].last_frame_s > options_.frame_timeout_s)
+  for (size_t i = 0; i < cameras_.size(); ++i)
+    if (environment_.now_s() - cameras_[i].last_frame_s > options_.frame_timeout_s)
       ThrowSystemError(Name(i) + " gives no frames", ETIMEDOUT);
 }
 
@@ -167,16 +167,16 @@ void StereoCameraDevice::CopyExposure() {
   const double now_s = environment_.now_s();
   if (now_s - exposure_copied_s_ < kExposureCopy_s) return;
   exposure_copied_s_ = now_s;
-  status_.exposure = eyes_[0].device->ReadExposure();
+  status_.exposure = cameras_[0].device->ReadExposure();
   const bool is_automatic = options_.video.exposure_s == 0;
-  if (is_automatic && status_.exposure && eyes_.size() == 2)
-    eyes_[1].device->SetExposure(*status_.exposure);
+  if (is_automatic && status_.exposure && cameras_.size() == 2)
+    cameras_[1].device->SetExposure(*status_.exposure);
 }
 
 void StereoCameraDevice::UpdateCounts() {
   VideoCounts counts = closed_;
-  for (const Eye& eye : eyes_) {
-    const VideoCounts own = eye.device->counts();
+  for (const Camera& side : cameras_) {
+    const VideoCounts own = side.device->counts();
     counts.num_dropped += own.num_dropped;
     counts.num_corrupted += own.num_corrupted;
     counts.num_stamped_late += own.num_stamped_late;
@@ -184,8 +184,8 @@ void StereoCameraDevice::UpdateCounts() {
   status_.num_dropped = counts.num_dropped;
   status_.num_corrupted = counts.num_corrupted;
   status_.num_stamped_late = counts.num_stamped_late;
-  status_.num_unpaired_left = pairer_.num_unpaired(StereoEye::kLeft);
-  status_.num_unpaired_right = pairer_.num_unpaired(StereoEye::kRight);
+  status_.num_unpaired_left = pairer_.num_unpaired(StereoSide::kLeft);
+  status_.num_unpaired_right = pairer_.num_unpaired(StereoSide::kRight);
   status_.num_ambiguous = pairer_.num_ambiguous();
   status_.rejected_skew_s = pairer_.rejected_skew_s();
   status_.rate_hz = rate_.Rate(environment_.now_s());

@@ -60,9 +60,9 @@ LandmarkAligner::LandmarkAligner(const StereoCamera& camera, const LandmarkAlign
 
 std::optional<cv::Matx22f> LandmarkAligner::FindWarp(const Landmark& landmark,
                                                      const Keyframe& reference,
-                                                     const Rigid3& eye_from_world) const {
+                                                     const Rigid3& camera_from_world) const {
   const auto warp =
-      SourceFromTarget(camera_, landmark, reference.camera_from_world, eye_from_world);
+      SourceFromTarget(camera_, landmark, reference.camera_from_world, camera_from_world);
   if (!warp) return std::nullopt;
   const double shrinkage = std::sqrt(cv::determinant(*warp));
   if (shrinkage * options_.max_magnification < 1 || shrinkage > options_.max_magnification) {

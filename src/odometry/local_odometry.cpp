@@ -48,7 +48,7 @@ OdometryUpdate LocalOdometry::Implementation::Process(
   OdometryUpdate update;
   update.stamp_s = frame.stamp_s();
   skew_.Advance(frame.stamp_s(), predicted);
-  tracker_.SetMotionBetweenEyes(skew_.later_from_now());
+  tracker_.SetMotionBetweenImages(skew_.later_from_now());
   verdict_.Advance(frame.stamp_s());
   const auto level = frame.IsRepeated() ? std::nullopt : LevelOfPatches(predicted);
   if (!level) frame.Whole();  // while the map is still adjusted

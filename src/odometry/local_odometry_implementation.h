@@ -65,7 +65,7 @@ class LocalOdometry::Implementation {
   LandmarkObservations contradicting_;  ///< of this frame, with its pose
   PathCovariance covariance_;
   RightTurns turns_;
-  EyeSkewEstimator skew_;
+  StereoSkewEstimator skew_;
   /// Of the last keyframe, finished before the next frame: a result does not depend on how fast
   /// threads run. The map stays as it is meanwhile.
   WindowAdjustment adjustment_;

@@ -43,7 +43,7 @@ StereoFrame StereoFrontend::Complete(StereoFrame frame, const StereoImages& imag
   if (!frame.right_is_repeated) {
     frame.points = reconstructor_.Reconstruct(frame.features, right_features, images);
     frame.row_agreement = reconstructor_.row_agreement();
-    frame.eyes_are_swapped = reconstructor_.eyes_are_swapped();
+    frame.images_are_swapped = reconstructor_.images_are_swapped();
   }
   if (stage_ms != nullptr) {
     stage_ms->emplace_back("features", features_ms);

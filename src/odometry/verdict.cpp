@@ -80,7 +80,7 @@ Reason Verdict::FaultOfLeft(const StereoFrame& frame) const {
 
 Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
   if (frame.right_is_repeated) return Reason::kRightRepeated;
-  if (frame.eyes_are_swapped) return Reason::kSwapped;
+  if (frame.images_are_swapped) return Reason::kSwapped;
   if (frame.num_right_keypoints < kBlindShare * frame.features.size()) return Reason::kRightBlind;
   if (right_belongs_.Probability() < 0.5) return Reason::kRightOff;
   return Reason::kNone;

@@ -20,7 +20,7 @@ constexpr double kSigmaFloorPx = 0.07;
 constexpr double kSigmaInflation = 2;
 
 /// Where a smaller share of the left keypoints is matched it is worth a look: 0.17..0.44 where the
-/// eyes are swapped, 0.47 and more where they are in place, in the recordings of docs/stress.md.
+/// cameras are swapped, 0.47 and more where they are in place, in the recordings of docs/stress.md.
 constexpr double kMatchedShare = 0.5;
 /// In exchange there are so many times more where they are swapped: 1.35 and more times, 0.22..0.73
 /// where they are in place.
@@ -174,7 +174,7 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
           "stereo reconstruction: the images' size is not the camera's");
   const double max_ratio = RatioThreshold(ComputeGreyStatistics(images.left));
   const Matches matches = MatchKeypoints(left, right, max_ratio);
-  eyes_are_swapped_ = FitBetterInExchange(left, right, matches.size(), max_ratio);
+  images_are_swapped_ = FitBetterInExchange(left, right, matches.size(), max_ratio);
   Sightings sightings;
   if (options_.refine_subpixel) {
     std::vector<std::optional<cv::Point2f>> guesses(left.size());

@@ -68,13 +68,13 @@ Rigid3 DrawPose(const DistortedCamera& camera, const BoardPattern& pattern, doub
   return {rotation, Eigen::Vector3d(z * Eigen::Vector3d(ray.x(), ray.y(), 1) - rotation * middle)};
 }
 
-std::string FormatEye(const std::string& eye, const DistortedCamera& camera) {
+std::string FormatCamera(const std::string& side, const DistortedCamera& camera) {
   std::string lines;
   const auto& [fx, fy, cx, cy, k1, k2, p1, p2, k3, width, height] = camera;
   const double values[] = {fx, fy, cx, cy, k1, k2, p1, p2, k3};
   const char* const kKeys[] = {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
   for (size_t i = 0; i < std::size(values); ++i)
-    lines += std::string(kKeys[i]) + "_" + eye + ": " + FormatNumber(values[i]) + "\n";
+    lines += std::string(kKeys[i]) + "_" + side + ": " + FormatNumber(values[i]) + "\n";
   return lines;
 }
 
@@ -196,7 +196,7 @@ std::vector<Rigid3> DrawBoardPoses(const BoardRig& rig, const BoardPattern& patt
     }
   }
   Require(static_cast<int>(poses.size()) == num_poses,
-          "board: too few poses show the whole board to both eyes");
+          "board: too few poses show the whole board to both cameras");
   return poses;
 }
 
@@ -205,8 +205,8 @@ std::string FormatTruth(const BoardRig& rig, const BoardPattern& pattern) {
   const Eigen::Vector3d& translation = rig.right_from_left.translation;
   std::string lines =
       "columns: " + std::to_string(pattern.columns) + "\nrows: " + std::to_string(pattern.rows) +
-      "\nsquare_m: " + FormatNumber(pattern.square_m) + "\n" + FormatEye("left", rig.left) +
-      FormatEye("right", rig.right) + "baseline_m: " + FormatNumber(rig.BaselineM()) + "\n";
+      "\nsquare_m: " + FormatNumber(pattern.square_m) + "\n" + FormatCamera("left", rig.left) +
+      FormatCamera("right", rig.right) + "baseline_m: " + FormatNumber(rig.BaselineM()) + "\n";
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
     lines += "right_from_left_rotation_" + axis + ": " + FormatNumber(rotation[i]) + "\n";

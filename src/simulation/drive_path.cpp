@@ -97,21 +97,20 @@ PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape) {
   return [&terrain, shape](const RoverPose& pose) { return PlaceRover(terrain, pose, shape); };
 }
 
-double SlopeOf(const Rigid3& world_from_base) {
-  return TiltOf(world_from_base) * 180 / M_PI;
-}
+double SlopeOf(const Rigid3& world_from_base) { return TiltOf(world_from_base) * 180 / M_PI; }
 
-Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad, double tilt_rad) {
+Rigid3 BaseFromLeftCamera(const RoverShape& shape, double pan_rad, double tilt_rad) {
   const double tilt = shape.camera_tilt_deg * M_PI / 180 + tilt_rad;
-  Eigen::Matrix3d tilted_from_eye;  // the eye's axes in x ahead, y left, z up, before pan and tilt
-  tilted_from_eye << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const Eigen::Quaterniond head_from_eye = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
-                                           Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
-                                           Eigen::Quaterniond(tilted_from_eye);
-  const Eigen::Vector3d eye_in_head = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
-                                      Eigen::Vector3d(0, shape.camera_left_m, 0);
-  return {head_from_eye.normalized(),
-          Eigen::Vector3d(shape.camera_forward_m, 0, shape.camera_height_m) + eye_in_head};
+  Eigen::Matrix3d
+      tilted_from_camera;  // the camera's axes in x ahead, y left, z up, before pan and tilt
+  tilted_from_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const Eigen::Quaterniond head_from_camera = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
+                                              Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
+                                              Eigen::Quaterniond(tilted_from_camera);
+  const Eigen::Vector3d camera_in_head = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
+                                         Eigen::Vector3d(0, shape.camera_left_m, 0);
+  return {head_from_camera.normalized(),
+          Eigen::Vector3d(shape.camera_forward_m, 0, shape.camera_height_m) + camera_in_head};
 }
 
 }  // namespace arfm_vo

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSide_px = 800, kCaption_px = 84;
 constexpr double kMargin_m = 2.5;
-constexpr double kHeight_m = 300;  ///< of the eye: so high that the ground looks flat from there
+constexpr double kHeight_m = 300;  ///< of the camera: so high that the ground looks flat from there
 const cv::Scalar kTruthColor(60, 200, 60), kSightColor(40, 60, 230), kGoalColor(0, 215, 255),
     kInk(20, 20, 20), kPaper(245, 245, 245), kGround(0.72, 0.86, 1);
 
@@ -31,12 +31,12 @@ class Canvas {
     const double focal_px = px_per_m_ * kHeight_m, middle_px = (kSide_px - 1) / 2.0;
     camera_ = {focal_px, focal_px, middle_px, middle_px, 1, kSide_px, kSide_px};
     const Eigen::Vector2d middle = box.center();
-    const double eye_m = terrain.Height(middle.x(), middle.y()) + kHeight_m;
-    const Rigid3 world_from_eye(Eigen::Quaterniond(0, 1, 0, 0),  // down, the y axis up
-                                Eigen::Vector3d(middle.x(), middle.y(), eye_m));
-    eye_from_world_ = world_from_eye.Inverse();
+    const double camera_m = terrain.Height(middle.x(), middle.y()) + kHeight_m;
+    const Rigid3 world_from_camera(Eigen::Quaterniond(0, 1, 0, 0),  // down, the y axis up
+                                   Eigen::Vector3d(middle.x(), middle.y(), camera_m));
+    camera_from_world_ = world_from_camera.Inverse();
     cv::Mat ground;
-    cv::cvtColor(TerrainRenderer(terrain, {}).Render(camera_, world_from_eye, 0), ground,
+    cv::cvtColor(TerrainRenderer(terrain, {}).Render(camera_, world_from_camera, 0), ground,
                  cv::COLOR_GRAY2BGR);
     cv::multiply(ground, kGround, ground);
     cv::copyMakeBorder(ground, picture_, 0, kCaption_px, 0, 0, cv::BORDER_CONSTANT, kPaper);
@@ -73,7 +73,7 @@ class Canvas {
   cv::Point Pixel(const RoverPose& in_map) const {
     const RoverPose place = ToWorld(in_map);
     const Eigen::Vector3d on_ground(place.x_m, place.y_m, terrain_.Height(place.x_m, place.y_m));
-    const Eigen::Vector2d pixel = camera_.Project(eye_from_world_ * on_ground);
+    const Eigen::Vector2d pixel = camera_.Project(camera_from_world_ * on_ground);
     return {cvRound(pixel.x()), cvRound(pixel.y())};
   }
 
@@ -81,7 +81,7 @@ class Canvas {
   RoverPose start_;
   double px_per_m_ = 1;
   StereoCamera camera_;
-  Rigid3 eye_from_world_;
+  Rigid3 camera_from_world_;
   cv::Mat picture_;
 };
 

@@ -73,8 +73,8 @@ Scene::Scene(const SceneOptions& options) : options_(options) {
 
 Rigid3 Scene::BaseFromLeft(double stamp_s) const {
   const double angle = 2 * M_PI * stamp_s / Stamp(std::max(1, options_.num_pairs - 1));
-  return BaseFromLeftEye(shape_, options_.sweep_pan_deg / 2 * kDegree * std::sin(angle),
-                         options_.sweep_tilt_deg / 2 * kDegree * std::sin(2 * angle));
+  return BaseFromLeftCamera(shape_, options_.sweep_pan_deg / 2 * kDegree * std::sin(angle),
+                            options_.sweep_tilt_deg / 2 * kDegree * std::sin(2 * angle));
 }
 
 void Scene::ChooseCamera() {
@@ -153,8 +153,8 @@ std::vector<Solid> Scene::Bodies(int pair) const {
   const double share = static_cast<double>(pair) / std::max(1, num_pairs() - 1);
   const double half_view = 2.8 * camera_.width / (2 * camera_.fx);
   const Rigid3& world_from_left = world_from_left_.at(pair);
-  const Eigen::Vector3d in_eye((2 * share - 1) * 1.5 * half_view, 0.3, 2.8);
-  Solid box = MakeBox(world_from_left * Rigid3(Eigen::Quaterniond::Identity(), in_eye),
+  const Eigen::Vector3d in_camera((2 * share - 1) * 1.5 * half_view, 0.3, 2.8);
+  Solid box = MakeBox(world_from_left * Rigid3(Eigen::Quaterniond::Identity(), in_camera),
                       {0.45 * half_view, 1.3, 0.3});
   box.texture_offset_m = {17, 23};
   box.albedo = 0.5;
@@ -165,7 +165,7 @@ Rigid3 Scene::WorldFromRight(int pair) const {
   const Eigen::Vector3d rotation(options_.right_x_mrad, options_.right_y_mrad,
                                  options_.right_z_mrad);
   const Rigid3 nominal_from_right(ExpSO3(-1e-3 * rotation), Eigen::Vector3d::Zero());
-  return RightEyePose(camera_, WorldFromLeft(pair)) * nominal_from_right;
+  return RightCameraPose(camera_, WorldFromLeft(pair)) * nominal_from_right;
 }
 
 StereoImages Scene::RenderPair(int pair) const {

@@ -177,7 +177,7 @@ void RenderOptions::Check() const {
   sensor.Check();
 }
 
-Rigid3 RightEyePose(const StereoCamera& camera, const Rigid3& world_from_left) {
+Rigid3 RightCameraPose(const StereoCamera& camera, const Rigid3& world_from_left) {
   return world_from_left *
          Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(camera.baseline_m, 0, 0));
 }
@@ -224,7 +224,7 @@ StereoImages TerrainRenderer::RenderPair(const StereoCamera& camera, const Rigid
   StereoImages images;
   images.stamp_s = stamp_s;
   images.left = Render(camera, world_from_left, 2 * pair_id, bodies);
-  images.right = Render(camera, RightEyePose(camera, world_from_left), 2 * pair_id + 1, bodies);
+  images.right = Render(camera, RightCameraPose(camera, world_from_left), 2 * pair_id + 1, bodies);
   return images;
 }
 

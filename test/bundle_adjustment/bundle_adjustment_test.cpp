@@ -173,7 +173,7 @@ TEST(BundleAdjustment, PointCovarianceIsThatOfStereoForAPointSeenOnce) {
   problem.camera = kBundleCamera;
   problem.camera_from_world.resize(1);
   problem.pose_is_fixed = {1};
-  problem.points = {{0.27, 0, 10}};  // half way between the eyes
+  problem.points = {{0.27, 0, 10}};  // half way between the cameras
   BundleObservation observation{
       {ProjectStereo4(kBundleCamera, {}, problem.points[0]).cast<float>(), true, 0.5}, 0, 0};
   problem.observations = {observation};
@@ -232,7 +232,7 @@ TEST(BundleAdjustment, LeavesPointsAndPosesThatNothingPlaces) {
   CorridorScene scene = MakeCorridor({});
   BundleProblem& problem = scene.problem;
   problem.points[5] = {0, 0, -50};                           // behind the camera
-  const int once = static_cast<int>(problem.points.size());  // seen by the left eye alone
+  const int once = static_cast<int>(problem.points.size());  // seen by the left camera alone
   problem.points.emplace_back(1, 0, 12);
   problem.observations.push_back({{{600, 200, 0, 0}, false, 0.5}, 3, once});
   problem.camera_from_world.emplace_back();  // nothing ties it to a fixed one

@@ -132,14 +132,14 @@ TEST(Calibration, RecoversTheTruthFromThePapersBoard) {
   }
   const StereoCalibration calibration = CalibrateStereo(pairs, board, rig.left.size);
   EXPECT_EQ(static_cast<int>(calibration.pairs.size()), count);
-  for (const auto& [eye, truth] :
+  for (const auto& [side, truth] :
        {std::pair(calibration.left, rig.left), {calibration.right, rig.right}}) {
-    EXPECT_NEAR(eye.matrix(0, 0), truth.matrix(0, 0), 0.001 * truth.matrix(0, 0));
-    EXPECT_NEAR(eye.matrix(0, 2), truth.matrix(0, 2), 1);
-    EXPECT_NEAR(eye.matrix(1, 2), truth.matrix(1, 2), 1);
+    EXPECT_NEAR(side.matrix(0, 0), truth.matrix(0, 0), 0.001 * truth.matrix(0, 0));
+    EXPECT_NEAR(side.matrix(0, 2), truth.matrix(0, 2), 1);
+    EXPECT_NEAR(side.matrix(1, 2), truth.matrix(1, 2), 1);
     std::printf("fx %+.4f %%, cx %+.3f px, cy %+.3f px\n",
-                (eye.matrix(0, 0) / truth.matrix(0, 0) - 1) * 100,
-                eye.matrix(0, 2) - truth.matrix(0, 2), eye.matrix(1, 2) - truth.matrix(1, 2));
+                (side.matrix(0, 0) / truth.matrix(0, 0) - 1) * 100,
+                side.matrix(0, 2) - truth.matrix(0, 2), side.matrix(1, 2) - truth.matrix(1, 2));
   }
   const double baseline = rig.right_from_left.translation.norm();
   EXPECT_NEAR(calibration.BaselineM(), baseline, 0.001 * baseline);

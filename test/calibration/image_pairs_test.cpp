@@ -26,7 +26,7 @@ class ImagePairs : public FolderTest {
   }
 };
 
-TEST_F(ImagePairs, FilesOfOneFolderPairByWhatFollowsTheEye) {
+TEST_F(ImagePairs, FilesOfOneFolderPairByWhatFollowsTheCamera) {
   for (const char* name : {"left10.jpg", "right10.jpg", "left2.jpg", "right2.jpg", "left_info.yml"})
     Touch(name);
   const auto pairs = FindImagePairs(folder_);

@@ -36,7 +36,7 @@ inline TrueRig MakeRig(double scale = 1) {
 }
 
 /// Random poses of a board that fills a good part of both images and is tilted up to
-/// `max_tilt_rad`, wholly in sight of both eyes.
+/// `max_tilt_rad`, wholly in sight of both cameras.
 inline std::vector<Rigid3> RandomBoardPoses(const TrueRig& rig, const Chessboard& board, int count,
                                             double max_tilt_rad, RandomEngine& engine) {
   const auto uniform = [&](double low, double high) {

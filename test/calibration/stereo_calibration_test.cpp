@@ -101,7 +101,7 @@ TEST(StereoCalibration, SkewIsReported) {
   EXPECT_NEAR(calibration.right_precision.skew_px, 0, 0.15);
 }
 
-TEST(StereoCalibration, EyesOfDifferentFocalLength) {
+TEST(StereoCalibration, CamerasOfDifferentFocalLength) {
   TrueRig rig = MakeRig(0.5);
   rig.right.matrix(0, 0) = rig.right.matrix(1, 1) = 600;
   SyntheticPairs synthetic(4, rig);
@@ -122,20 +122,20 @@ TEST(StereoCalibration, ABoardThatMovedBetweenTheExposuresIsLeftOut) {
   const auto calibration = Calibrate(pairs, synthetic.rig);
   ASSERT_EQ(calibration.left_out.size(), 2U);
   EXPECT_EQ(calibration.left_out[0].name, "8");
-  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("eyes disagree"));
+  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("cameras disagree"));
   EXPECT_EQ(calibration.left_out[1].name, "3");
   EXPECT_EQ(calibration.pairs.size(), 12U);
   EXPECT_NEAR(calibration.BaselineM(), 0.24, 0.0005);
 }
 
-TEST(StereoCalibration, CornersThatDoNotFitTheirEyeAreLeftOut) {
+TEST(StereoCalibration, CornersThatDoNotFitTheirCameraAreLeftOut) {
   SyntheticPairs synthetic(6);
   auto pairs = synthetic.See(synthetic.Poses(12), 0.1);
   pairs[5].left = synthetic.Disturb(pairs[5].left, 1);
   const auto calibration = Calibrate(pairs, synthetic.rig);
   ASSERT_EQ(calibration.left_out.size(), 1U);
   EXPECT_EQ(calibration.left_out[0].name, "5");
-  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("left eye"));
+  EXPECT_THAT(calibration.left_out[0].reason, HasSubstr("left camera"));
 }
 
 TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
@@ -150,20 +150,20 @@ TEST(StereoCalibration, TooFewViewsAreRefusedWithTheReasons) {
   EXPECT_THAT(MessageOf({}, synthetic.rig), HasSubstr("too few views"));
 }
 
-TEST(StereoCalibration, PairsThatAreNotOfTwoEyesAtOneMomentAreRefused) {
+TEST(StereoCalibration, PairsThatAreNotOfTwoCamerasAtOneMomentAreRefused) {
   const std::pair<const char*, std::function<void(std::vector<CornerPair>&)>> rows[] = {
       {"swapped",
        [](auto& pairs) {
          for (CornerPair& pair : pairs) std::swap(pair.left, pair.right);
        }},
-      {"one eye is mirrored",
+      {"one camera is mirrored",
        [](auto& pairs) {
          const int width = MakeRig(0.5).left.size.width;
          for (CornerPair& pair : pairs)
            pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, kBoard.Size(), width),
                                    kBoard.Size());
        }},
-      {"eyes do not agree", [](auto& pairs) {
+      {"cameras do not agree", [](auto& pairs) {
          for (size_t i = 0; i + 1 < pairs.size(); ++i)
            std::swap(pairs[i].right, pairs[i + 1].right);
        }}};
@@ -187,7 +187,7 @@ TEST(StereoCalibration, ParallelViewsAreRefused) {
   EXPECT_THAT(MessageOf(synthetic.See(slanted, 0.1), synthetic.rig), HasSubstr("parallel"));
 }
 
-TEST(StereoCalibration, EyesAboveEachOtherAreRefused) {
+TEST(StereoCalibration, CamerasAboveEachOtherAreRefused) {
   TrueRig rig = MakeRig(0.5);
   rig.right_from_left.translation = {0.01, -0.2, 0};
   SyntheticPairs synthetic(12, rig);

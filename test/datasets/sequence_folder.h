@@ -20,7 +20,8 @@ class SequenceFolder {
             ("arfm_vo_" + std::string(test->test_suite_name()) + "_" + test->name());
     std::filesystem::remove_all(root_);
     path_ = root_ / name;
-    for (const char* eye : {"image_0", "image_1"}) std::filesystem::create_directories(path_ / eye);
+    for (const char* side : {"image_0", "image_1"})
+      std::filesystem::create_directories(path_ / side);
     std::string poses;
     for (int i = 0; i < num_pairs; ++i) {
       WriteImage(Left(i), 10 * i);

@@ -67,7 +67,8 @@ TEST(PictureWatch, TheCheckSaysWhatIsKnown) {
   EXPECT_EQ(watch.Check(2)[0].ToString(), "yes camera: 10.0 pictures a second");
   EXPECT_EQ(watch.Check(4)[0].ToString(), "no camera: the last picture is 2.0 s old");
   EXPECT_EQ(watch.Check(2)[1].ToString(), "yes exposure: has settled, mean grey 100");
-  EXPECT_EQ(watch.Check(2)[2].ToString(), "yes both_eyes: 300 of 400 keypoints are seen by both");
+  EXPECT_EQ(watch.Check(2)[2].ToString(),
+            "yes both_cameras: 300 of 400 keypoints are seen by both");
   watch.Observe({2.1, 50, 400, 30});
   EXPECT_FALSE(*watch.Check(2.1)[2].is_well);
   watch.Observe({9, 50, 0, 0});

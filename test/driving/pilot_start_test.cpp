@@ -77,7 +77,7 @@ TEST_F(PilotTest, TheCheckTellsEachWatch) {
             "yes chassis: answers\n"
             "yes clock: goes on evenly\nnot known camera: the odometry tells of no picture\n"
             "not known exposure: the odometry tells of no picture\n"
-            "not known both_eyes: the odometry tells of no picture\n");
+            "not known both_cameras: the odometry tells of no picture\n");
   Run(2);
   pilot_.ObserveClockSet(now_s_, -30);
   pilot_.SetEmergencyStop("/button", true);

@@ -128,7 +128,7 @@ TEST_F(PilotTest, StopLookGoHoldsVelocityCommandsToo) {
     pilot_.SetVelocity(now_s_, {0.1, 0});
     way_m += kTick_s * Run(kTick_s).chassis_motion.forward_mps;
   }
-  EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the eyes have seen nothing since";
+  EXPECT_NEAR(way_m, StopLookGoOptions().step_m, 0.03) << "the cameras have seen nothing since";
 }
 
 TEST_F(PilotTest, StopLookGoLooksAfterAStart) {

@@ -107,8 +107,8 @@ TEST(SlipEstimator, OnASlopeAndFiveMetresAfterItTheTracksMaySlipMore) {
 
 Rigid3 RotatedBy(const Eigen::Quaterniond& rotation) { return {rotation, Eigen::Vector3d::Zero()}; }
 
-/// Tracks that go `track_m` in an arc of 1 / `per_m`, seen by eyes that look `aside_deg` aside of
-/// where the head says.
+/// Tracks that go `track_m` in an arc of 1 / `per_m`, seen by cameras that look `aside_deg` aside
+/// of where the head says.
 SlipEstimator SeenAside(double aside_deg, double track_m, double per_m = 0,
                         const Eigen::Quaterniond& ground = Eigen::Quaterniond::Identity()) {
   SlipEstimator slip({}, kKinematics);

@@ -110,7 +110,7 @@ def bus_faults():
         Fault("tracks run away at 0.2 m/s", changed(tell_speed(200)),  # chassis_guard's clock is not simulated: it may be first
               "tracks run faster than commanded or software emergency stop is set", heal, 0.2),
         Fault("left track is jammed", held(4), "a track is jammed", heal, 2),
-        Fault("rover slides: the eyes go on, both tracks are told to stand", held(8),
+        Fault("rover slides: the cameras go on, both tracks are told to stand", held(8),
               "rover moves otherwise than its tracks or pose contradicts the tracks or a track is jammed", heal, 2),
         Fault("rover creeps at rest", creep, "rover moves without a command", heal, 2),
         Fault("feedback repeats itself", changed(Repeat), "feedback of the chassis is frozen", heal, 1.1),

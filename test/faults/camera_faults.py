@@ -53,7 +53,7 @@ def restart_camera(duration_s, change=lambda: unchanged):
 
 
 def look_aside(campaign, aside_rad):
-    """The eyes look aside of where the head tells, as on a belt that has slipped; the odometry begins anew."""
+    """The cameras look aside of where the head tells, as on a belt that has slipped; the odometry begins anew."""
     joint = '<joint name="pan" type="revolute">'
     description = re.sub(joint + "(<origin.*?/>)?", joint + '<origin rpy="0 0 %g"/>' % aside_rad, rospy.get_param("robot_description"))
     rospy.set_param("robot_description", description)
@@ -105,7 +105,7 @@ def is_true(campaign):
     return not campaign.rover.sight.is_wrong(told[-1], told[0])
 
 
-def names_the_right_eye(campaign):
+def names_the_right_camera(campaign):
     return is_true(campaign) and any("right" in text for text in campaign.rover.odometry_texts)
 
 
@@ -115,8 +115,8 @@ def camera_faults():
         Fault("camera is frozen: the same pictures with new stamps", lambda c: setattr(c.camera, "change", freeze(c.camera.last)), stale, mend, 1),
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5, may_go_on=True),
-        Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_eye),
-        Fault("eyes are swapped", changed(swap), contradiction + " or " + stale, mend, 1.5, max_wrong_way_m=0.12,  # until a wrong one is stale
+        Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_camera),
+        Fault("cameras are swapped", changed(swap), contradiction + " or " + stale, mend, 1.5, max_wrong_way_m=0.12,  # until a wrong one is stale
               is_well=lambda c: is_true(c) or c.rover.status.reason == contradiction),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
         Fault("camera's node is stopped (SIGSTOP) for 2 s: its pairs wait", stop_camera_for(2), stale, mend, 1.5, may_go_on=True),
@@ -124,7 +124,7 @@ def camera_faults():
               may_go_on=True),
         Fault("camera is switched on anew after 2 s: its exposure settles in 3 s", restart_camera(2, Settling),
               "camera's exposure has not settled", mend, 1.5, may_go_on=True),
-        Fault("head's belt has slipped: the eyes look 15 degrees aside", drive_aside, "too much slip",
+        Fault("head's belt has slipped: the cameras look 15 degrees aside", drive_aside, "too much slip",
               lambda c: look_aside(c, 0), 13, ends_node=True, max_wrong_way_m=1),
         Fault("camera is away at rest: the start-up check says so, and nothing starts", stop_without_camera, "stopped by hand",
               lambda c: (c.camera.advertise(), mend(c)), is_well=lambda c: "\nno camera" in c.rover.call("chassis_node/start").message),

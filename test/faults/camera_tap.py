@@ -1,4 +1,4 @@
-"""The wire between the simulated camera (/stereo) and the odometry (/eyes), and what may happen to pairs on it."""
+"""The wire between the simulated camera (/stereo) and the odometry (/cameras), and what may happen to pairs on it."""
 import copy
 import threading
 
@@ -30,7 +30,7 @@ class CameraTap:
     def advertise(self):
         with self.lock:
             for topic, kind in KINDS:
-                self.publishers[topic] = rospy.Publisher("/eyes/" + topic, kind, queue_size=10)
+                self.publishers[topic] = rospy.Publisher("/cameras/" + topic, kind, queue_size=10)
 
     def unadvertise(self):
         """As where the camera's node has ended."""

@@ -34,7 +34,7 @@ class Launch:
         port = find_free_port()
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         arguments = ["rviz:=false", "operator:=true", "real_time:=true", "max_wait_s:=0", "width:=320", "height:=240",
-                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "eyes:=/eyes", "guard:=true"]
+                     "port:=%d" % chassis_port, "chassis_port:=%d" % driver_port, "cameras:=/cameras", "guard:=true"]
         self.process = subprocess.Popen(["roslaunch", "-p", str(port), "arfm_vo", "simulation.launch"] + arguments,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         fcntl.fcntl(self.process.stdout, F_SETPIPE_SZ, 4096)
@@ -212,4 +212,4 @@ def program_of(node):
 
 def start_again(node):
     """The node with the parameters that it had."""
-    return subprocess.Popen([program_of(node), "__name:=" + node, "stereo:=/eyes"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return subprocess.Popen([program_of(node), "__name:=" + node, "stereo:=/cameras"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

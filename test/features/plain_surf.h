@@ -84,13 +84,12 @@ inline ScaleSpace ComputeScaleSpace(const IntegralImage& integral,
 }
 
 inline std::vector<ScaleSpaceMaximum> FindMaxima(const ScaleSpace& space, const cv::Size& image,
-                                                 const SurfDetectorOptions& options,
-                                                 double threshold) {
+                                                 const SurfDetectorOptions& options) {
   std::vector<ScaleSpaceMaximum> maxima;
   for (int octave = 0; octave < options.octaves; ++octave) {
     for (int layer = 1; layer + 1 < options.layers; ++layer) {
       FindMaxima(&space.layers[octave][layer - 1], octave, layer, space.Step(octave), image,
-                 static_cast<float>(threshold), maxima);
+                 static_cast<float>(options.hessian_threshold), maxima);
     }
   }
   return maxima;
@@ -161,15 +160,6 @@ inline void ComputeDescriptor(const IntegralImage& integral, const Keypoint& key
   }
 }
 
-/// Scales a descriptor to unit length; leaves one of zeros.
-inline void NormaliseDescriptor(float* descriptor) {
-  float square = 0;
-  for (int i = 0; i < kDescriptorLength; ++i) square += descriptor[i] * descriptor[i];
-  if (square <= 0) return;
-  const float inverse_length = 1 / std::sqrt(square);
-  for (int i = 0; i < kDescriptorLength; ++i) descriptor[i] *= inverse_length;
-}
-
 /// What Surf(options).Extract(grey) must give.
 inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) {
   cv::Mat smooth = grey;
@@ -177,14 +167,11 @@ inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) 
     cv::GaussianBlur(grey, smooth, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
   const IntegralImage integral(smooth);
   const ScaleSpace space = ComputeScaleSpace(integral, options.detector);
-  const auto find = [&](double threshold) {
-    return FindMaxima(space, grey.size(), options.detector, threshold);
-  };
-  const size_t target = options.detector.target_keypoints;
-  auto maxima = find(options.detector.hessian_threshold);
-  if (maxima.size() < target) {
-    maxima = find(SurfDetectorOptions::kNoise);
-    KeepStrongest(target, maxima);
+  SurfDetectorOptions detector = options.detector;
+  auto maxima = FindMaxima(space, grey.size(), detector);
+  if (static_cast<int>(maxima.size()) < detector.target_keypoints) {
+    detector.hessian_threshold = SurfDetectorOptions::kNoise;
+    KeepStrongest(detector.target_keypoints, maxima = FindMaxima(space, grey.size(), detector));
   }
   Features features;
   features.keypoints = SelectKeypoints(integral, space, maxima, options.detector);
@@ -192,10 +179,10 @@ inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) 
   const RegionWindow window = MakeRegionWindow(options.descriptor);
   for (int i = 0; i < features.size(); ++i) {
     Keypoint& keypoint = features.keypoints[i];
-    float* descriptor = features.descriptors.ptr<float>(i);
+    cv::Mat descriptor = features.descriptors.row(i);
     keypoint.angle = options.descriptor.upright ? 0 : ComputeOrientation(integral, keypoint);
-    ComputeDescriptor(integral, keypoint, window, descriptor);
-    NormaliseDescriptor(descriptor);
+    ComputeDescriptor(integral, keypoint, window, descriptor.ptr<float>());
+    cv::normalize(descriptor, descriptor);
   }
   return features;
 }

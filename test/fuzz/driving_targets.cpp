@@ -14,8 +14,8 @@ constexpr double kTick_s = 0.02;
 constexpr double kNever_s = -std::numeric_limits<double>::infinity();
 constexpr double kMaxFromFuture_s = 0.2;  ///< what is told to be of a later time is not believed
 
-/// A rover on ground without slip, whose chassis, eyes and operator are well unless the bytes say
-/// otherwise. The pilot's options are the defaults.
+/// A rover on ground without slip, whose chassis, cameras and operator are well unless the bytes
+/// say otherwise. The pilot's options are the defaults.
 class FuzzedDrive {
  public:
   explicit FuzzedDrive(ByteSource& bytes) : bytes_(bytes) {}

@@ -10,7 +10,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr StereoEye kEyes[] = {StereoEye::kLeft, StereoEye::kRight};
+constexpr StereoSide kSides[] = {StereoSide::kLeft, StereoSide::kRight};
 
 /// A frame that shows the number of its moment.
 VideoFrame MakeFrame(int number, double stamp_s) {
@@ -20,8 +20,8 @@ int NumberOf(const VideoFrame& frame) { return frame.grey.at<int>(0, 0); }
 
 /// Adds frames of one moment; whether they gave a pair.
 bool AddBoth(FramePairer& pairer, double left_s, double right_s) {
-  pairer.Add(StereoEye::kLeft, MakeFrame(0, left_s));
-  return pairer.Add(StereoEye::kRight, MakeFrame(0, right_s)).has_value();
+  pairer.Add(StereoSide::kLeft, MakeFrame(0, left_s));
+  return pairer.Add(StereoSide::kRight, MakeFrame(0, right_s)).has_value();
 }
 
 TEST(FramePairer, PairsFramesWithinTheSkew) {
@@ -41,7 +41,7 @@ TEST(FramePairer, TheSkewItTellsIsThatToTheNearerNeighbour) {
     AddBoth(pairer, 0.1 * i, 0.1 * i + 0.012);
     if (i < 2) continue;
     EXPECT_NEAR(pairer.rejected_skew_s(), 0.012, 1e-9);
-    pairer.Add(StereoEye::kLeft, MakeFrame(i, 0.1 * i + 0.05));
+    pairer.Add(StereoSide::kLeft, MakeFrame(i, 0.1 * i + 0.05));
     EXPECT_NEAR(pairer.rejected_skew_s(), 0.012, 1e-9);
   }
 }
@@ -49,7 +49,7 @@ TEST(FramePairer, TheSkewItTellsIsThatToTheNearerNeighbour) {
 TEST(FramePairer, AFirstFrameIsNotUsedAsItsNeighbourIsNotKnown) {
   FramePairer pairer(0.004);
   EXPECT_FALSE(AddBoth(pairer, 1, 1));
-  EXPECT_EQ(pairer.num_unpaired(StereoEye::kLeft), 0);
+  EXPECT_EQ(pairer.num_unpaired(StereoSide::kLeft), 0);
   EXPECT_TRUE(AddBoth(pairer, 2, 2));
   pairer.Clear();
   EXPECT_FALSE(AddBoth(pairer, 3, 3));
@@ -58,23 +58,23 @@ TEST(FramePairer, AFirstFrameIsNotUsedAsItsNeighbourIsNotKnown) {
 TEST(FramePairer, FramesThatCouldShareAPartnerGetNone) {
   FramePairer pairer(0.004);
   AddBoth(pairer, 0, 0);
-  pairer.Add(StereoEye::kLeft, MakeFrame(1, 0.1));
-  pairer.Add(StereoEye::kLeft, MakeFrame(2, 0.107));
-  EXPECT_FALSE(pairer.Add(StereoEye::kRight, MakeFrame(1, 0.1035)));
+  pairer.Add(StereoSide::kLeft, MakeFrame(1, 0.1));
+  pairer.Add(StereoSide::kLeft, MakeFrame(2, 0.107));
+  EXPECT_FALSE(pairer.Add(StereoSide::kRight, MakeFrame(1, 0.1035)));
   EXPECT_EQ(pairer.num_ambiguous(), 2);
   EXPECT_TRUE(AddBoth(pairer, 0.2, 0.2));
-  EXPECT_EQ(pairer.num_unpaired(StereoEye::kLeft), 2);
-  EXPECT_EQ(pairer.num_unpaired(StereoEye::kRight), 1);
+  EXPECT_EQ(pairer.num_unpaired(StereoSide::kLeft), 2);
+  EXPECT_EQ(pairer.num_unpaired(StereoSide::kRight), 1);
 }
 
 TEST(FramePairer, AStampThatGoesBackForgetsWhatWaits) {
   FramePairer pairer(0.004);
   AddBoth(pairer, 10, 10);
-  pairer.Add(StereoEye::kLeft, MakeFrame(1, 10.1));
-  pairer.Add(StereoEye::kLeft, MakeFrame(2, 5));
-  EXPECT_FALSE(pairer.Add(StereoEye::kRight, MakeFrame(1, 10.1)));
-  EXPECT_FALSE(AddBoth(pairer, 5.1, 5.1));  // the right eye goes back as well
-  EXPECT_FALSE(AddBoth(pairer, 5.2, 5.2));  // the left eye's first since then
+  pairer.Add(StereoSide::kLeft, MakeFrame(1, 10.1));
+  pairer.Add(StereoSide::kLeft, MakeFrame(2, 5));
+  EXPECT_FALSE(pairer.Add(StereoSide::kRight, MakeFrame(1, 10.1)));
+  EXPECT_FALSE(AddBoth(pairer, 5.1, 5.1));  // the right camera goes back as well
+  EXPECT_FALSE(AddBoth(pairer, 5.2, 5.2));  // the left camera's first since then
   EXPECT_TRUE(AddBoth(pairer, 5.3, 5.3));
 }
 
@@ -84,7 +84,7 @@ TEST(FramePairer, FasterThanAskedAndOutOfStepGivesNoPairRatherThanAWrongOne) {
   EXPECT_GT(pairer.num_ambiguous(), 190);
 }
 
-/// The frames of both eyes, each moment at its time, stamped wrongly by as much as may be.
+/// The frames of both cameras, each moment at its time, stamped wrongly by as much as may be.
 struct JitteredFrames {
   double period_s, max_skew_s, drop_share;
   std::deque<VideoFrame> frames[2];
@@ -93,30 +93,30 @@ struct JitteredFrames {
     period_s = 0.005 + RandomUnit(engine);
     max_skew_s = (0.02 + 0.23 * RandomUnit(engine)) * period_s;
     drop_share = 0.5 * RandomUnit(engine);
-    // At most this much off, the real skew of an eye included.
+    // At most this much off, the real skew of a camera included.
     const double most_s = 0.4999 * (period_s - max_skew_s) * jitter_share;
     const double offset_s = most_s * RandomUnit(engine);
     for (int number = 0; number < 400; ++number)
-      for (const int eye : {0, 1}) {
+      for (const int side : {0, 1}) {
         if (RandomUnit(engine) < drop_share) continue;
         // At the ends of the range as often as within it.
         const double at = 2 * RandomUnit(engine) - 1;
-        const double error =
-            std::clamp(2 * at, -1.0, 1.0) * (most_s - offset_s) + (eye == 1 ? offset_s : -offset_s);
-        frames[eye].push_back(MakeFrame(number, 1000 + number * period_s + error));
+        const double error = std::clamp(2 * at, -1.0, 1.0) * (most_s - offset_s) +
+                             (side == 1 ? offset_s : -offset_s);
+        frames[side].push_back(MakeFrame(number, 1000 + number * period_s + error));
       }
   }
 
   /// Pairs that can be told: both there, near enough, and with a neighbour that is far enough.
   std::set<int> Possible() const {
     std::set<int> clear[2];
-    for (const int eye : {0, 1})
-      for (size_t i = 1; i < frames[eye].size(); ++i) {
-        const auto stamp_s = [&](size_t k) { return frames[eye][k].stamp_s; };
+    for (const int side : {0, 1})
+      for (size_t i = 1; i < frames[side].size(); ++i) {
+        const auto stamp_s = [&](size_t k) { return frames[side][k].stamp_s; };
         const bool is_clear =
             stamp_s(i) - stamp_s(i - 1) > 2 * max_skew_s &&
-            (i + 1 == frames[eye].size() || stamp_s(i + 1) - stamp_s(i) > 2 * max_skew_s);
-        if (is_clear) clear[eye].insert(NumberOf(frames[eye][i]));
+            (i + 1 == frames[side].size() || stamp_s(i + 1) - stamp_s(i) > 2 * max_skew_s);
+        if (is_clear) clear[side].insert(NumberOf(frames[side][i]));
       }
     std::set<int> possible;
     for (const VideoFrame& left : frames[0])
@@ -134,19 +134,19 @@ struct PairingResult {
   int num_wrong = 0;
 };
 
-/// Gives the frames to a pairer in bursts: one eye can be up to 3 moments ahead of the other.
+/// Gives the frames to a pairer in bursts: one camera can be up to 3 moments ahead of the other.
 PairingResult PairInBursts(JitteredFrames source, RandomEngine& engine) {
   FramePairer pairer(source.max_skew_s);
   PairingResult result;
   while (!source.frames[0].empty() || !source.frames[1].empty()) {
-    int eye = RandomBelow(2, engine);
+    int side = RandomBelow(2, engine);
     const auto next = [&](int e) {
       return source.frames[e].empty() ? 1 << 30 : NumberOf(source.frames[e].front());
     };
-    if (next(eye) > next(1 - eye) + 3) eye = 1 - eye;
-    VideoFrame frame = source.frames[eye].front();
-    source.frames[eye].pop_front();
-    const auto pair = pairer.Add(kEyes[eye], std::move(frame));
+    if (next(side) > next(1 - side) + 3) side = 1 - side;
+    VideoFrame frame = source.frames[side].front();
+    source.frames[side].pop_front();
+    const auto pair = pairer.Add(kSides[side], std::move(frame));
     if (!pair) continue;
     result.num_wrong += NumberOf(pair->left) != NumberOf(pair->right);
     result.paired.insert(NumberOf(pair->left));
@@ -175,8 +175,8 @@ TEST(FramePairer, NoJitterThatItsPromiseAllowsGivesAWrongPair) {
 TEST(FramePairer, BeyondItsPromiseTheStampsThemselvesAreWrong) {
   FramePairer pairer(0.025);
   AddBoth(pairer, 0, 0);
-  pairer.Add(StereoEye::kLeft, MakeFrame(1, 0.138));  // 38 ms late, and its partner is lost
-  const auto pair = pairer.Add(StereoEye::kRight, MakeFrame(2, 0.162));  // 38 ms early
+  pairer.Add(StereoSide::kLeft, MakeFrame(1, 0.138));  // 38 ms late, and its partner is lost
+  const auto pair = pairer.Add(StereoSide::kRight, MakeFrame(2, 0.162));  // 38 ms early
   ASSERT_TRUE(pair);
   EXPECT_NE(NumberOf(pair->left), NumberOf(pair->right));
 }

@@ -49,7 +49,7 @@ class NumberedCameras {
     thread_.join();
   }
 
-  const ShownMoments& shown(int eye) const { return shown_[eye]; }
+  const ShownMoments& shown(int side) const { return shown_[side]; }
 
   std::atomic<bool> is_right_silent{false};
   std::atomic<int> drop_right_every{0}, drop_left_every{0};
@@ -67,15 +67,15 @@ class NumberedCameras {
     }
   }
   /// The number stands at both ends of the picture: one that is half another's is known by that.
-  void Show(int eye, int number) {
+  void Show(int side, int number) {
     cv::Mat picture(kHeight, kWidth, CV_8UC1, cv::Scalar(number % 200));
     const auto* bytes = reinterpret_cast<const uint8_t*>(&number);
     std::copy_n(bytes, sizeof(number), picture.data);
     std::copy_n(bytes, sizeof(number), picture.data + picture.total() - sizeof(number));
     const double from_s = MonotonicNow();
-    shown_[eye].Add(number, from_s, from_s + 3600);
-    writers_[eye].Write(picture);
-    shown_[eye].Add(number, from_s, MonotonicNow());
+    shown_[side].Add(number, from_s, from_s + 3600);
+    writers_[side].Write(picture);
+    shown_[side].Add(number, from_s, MonotonicNow());
   }
   static bool IsDropped(int number, int every) { return every > 0 && number % every == 0; }
   static void SleepUntil(double time_s) {

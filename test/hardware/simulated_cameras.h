@@ -11,13 +11,13 @@
 
 namespace arfm_vo {
 
-/// What one simulated eye does wrong.
-struct EyeFaults {
+/// What one simulated camera does wrong.
+struct CameraFaults {
   std::atomic<bool> is_unplugged = false;  ///< by a test, while a node reads
   bool is_silent = false, fails_to_read = false;
   double drop_share = 0, corrupt_share = 0, late_stamp_share = 0;
   double jitter_s = 0;  ///< of stamps, uniform
-  double phase_s = 0;   ///< later than the left eye's clock
+  double phase_s = 0;   ///< later than the left camera's clock
 };
 
 /// Two simulated cameras and their clock. Frame n is exposed at n / rate, shows n in its first four
@@ -26,7 +26,7 @@ struct SimulatedCameras {
   static constexpr double kArrival_s = 0.02;
   double now_s = 100;
   double rate_hz = 10;
-  EyeFaults faults[2];
+  CameraFaults faults[2];
   int num_opened = 0, num_waits = 0;
   std::optional<Exposure> exposure[2];
   RandomEngine engine{1};
@@ -43,15 +43,15 @@ inline int ReadNumber(const VideoFrame& frame) {
   return number;
 }
 
-class SimulatedEye : public VideoDevice {
+class SimulatedSide : public VideoDevice {
  public:
-  SimulatedEye(SimulatedCameras& world, int eye, int width)
-      : world_(world), eye_(eye), width_(width), next_(Newest() + 1) {
+  SimulatedSide(SimulatedCameras& world, int side, int width)
+      : world_(world), side_(side), width_(width), next_(Newest() + 1) {
     Check();
     ++world.num_opened;
   }
 
-  int FileDescriptor() const override { return eye_; }
+  int FileDescriptor() const override { return side_; }
 
   std::optional<VideoFrame> Read() override {
     Check();
@@ -75,11 +75,11 @@ class SimulatedEye : public VideoDevice {
 
   VideoCounts counts() const override { return counts_; }
   std::string warning() const override { return ""; }
-  std::optional<Exposure> ReadExposure() const override { return world_.exposure[eye_]; }
-  void SetExposure(const Exposure& exposure) override { world_.exposure[eye_] = exposure; }
+  std::optional<Exposure> ReadExposure() const override { return world_.exposure[side_]; }
+  void SetExposure(const Exposure& exposure) override { world_.exposure[side_] = exposure; }
 
  private:
-  const EyeFaults& Faults() const { return world_.faults[eye_]; }
+  const CameraFaults& Faults() const { return world_.faults[side_]; }
   void Check() const {
     if (Faults().is_unplugged) throw std::system_error(ENODEV, std::generic_category(), "device");
   }
@@ -89,7 +89,7 @@ class SimulatedEye : public VideoDevice {
         std::floor((world_.now_s - SimulatedCameras::kArrival_s) * world_.rate_hz + 1e-9));
   }
   VideoFrame MakeFrame(int number) {
-    VideoFrame frame{cv::Mat(4, width_, CV_8UC1, cv::Scalar(eye_)),
+    VideoFrame frame{cv::Mat(4, width_, CV_8UC1, cv::Scalar(side_)),
                      number / world_.rate_hz + Faults().phase_s +
                          Faults().jitter_s * (RandomUnit(world_.engine) - 0.5),
                      Chance(Faults().late_stamp_share)};
@@ -100,14 +100,14 @@ class SimulatedEye : public VideoDevice {
   }
 
   SimulatedCameras& world_;
-  const int eye_, width_;
+  const int side_, width_;
   int next_;
   VideoCounts counts_;
 };
 
 inline VideoEnvironment SimulatedCameras::Environment() {
   return {[this](const std::string& path, const VideoOptions& options) {
-            return std::make_unique<SimulatedEye>(*this, path == "right" ? 1 : 0, options.width);
+            return std::make_unique<SimulatedSide>(*this, path == "right" ? 1 : 0, options.width);
           },
           [this] { return now_s; },
           [this](const std::vector<int>& descriptors, double timeout_s) {

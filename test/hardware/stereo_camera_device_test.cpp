@@ -38,7 +38,7 @@ class StereoCameraTest : public testing::Test {
   double last_stamp_s_ = 0;
 };
 
-TEST_F(StereoCameraTest, PairsAllFramesOfHealthyEyes) {
+TEST_F(StereoCameraTest, PairsAllFramesOfHealthyCameras) {
   world_.faults[1].phase_s = 0.001;
   const int num_pairs = Run(10);
   EXPECT_NEAR(num_pairs, 100, 1);
@@ -59,7 +59,7 @@ TEST_F(StereoCameraTest, CountsTheLonelyFramesOfDroppedPartners) {
   EXPECT_EQ(status.num_unpaired_right, 0);
 }
 
-TEST_F(StereoCameraTest, EyesOutOfStepGiveNoPairAndSayByHowMuch) {
+TEST_F(StereoCameraTest, CamerasOutOfStepGiveNoPairAndSayByHowMuch) {
   world_.faults[1].phase_s = 0.012;
   EXPECT_EQ(Run(5), 0);
   EXPECT_NEAR(camera_.status().rejected_skew_s, 0.012, 1e-9);
@@ -73,7 +73,7 @@ TEST_F(StereoCameraTest, FramesStampedAtArrivalAreNotPaired) {
   EXPECT_EQ(Run(5), 0);
 }
 
-TEST_F(StereoCameraTest, RecoversFromAnUnpluggedEye) {
+TEST_F(StereoCameraTest, RecoversFromAnUnpluggedCamera) {
   Run(2);
   world_.faults[1].is_unplugged = true;
   EXPECT_EQ(Run(30), 0);
@@ -85,11 +85,11 @@ TEST_F(StereoCameraTest, RecoversFromAnUnpluggedEye) {
   EXPECT_EQ(camera_.status().num_opened, 2);
 }
 
-TEST_F(StereoCameraTest, RecoversFromASilentEyeByOpeningItAnew) {
+TEST_F(StereoCameraTest, RecoversFromASilentCameraByOpeningItAnew) {
   Run(2);
   world_.faults[0].is_silent = true;
   Run(1.5);
-  EXPECT_THAT(camera_.status().problem, testing::HasSubstr("left eye gives no frames"));
+  EXPECT_THAT(camera_.status().problem, testing::HasSubstr("left camera gives no frames"));
   world_.faults[0].is_silent = false;
   EXPECT_GT(Run(5), 20);
   EXPECT_EQ(camera_.status().problem, "");
@@ -113,7 +113,7 @@ TEST_F(StereoCameraTest, NoWrongPairUnderRandomFaults) {
   RandomEngine engine(9);
   int num_pairs = 0;
   for (int spell = 0; spell < 400; ++spell) {
-    for (EyeFaults& faults : world_.faults) {
+    for (CameraFaults& faults : world_.faults) {
       faults.drop_share = RandomBelow(3, engine) == 0 ? RandomUnit(engine) : 0;
       faults.corrupt_share = RandomBelow(3, engine) == 0 ? RandomUnit(engine) : 0;
       faults.late_stamp_share = RandomBelow(4, engine) == 0 ? 0.3 : 0;
@@ -129,7 +129,7 @@ TEST_F(StereoCameraTest, NoWrongPairUnderRandomFaults) {
   EXPECT_GT(camera_.status().num_opened, 50);
 }
 
-TEST_F(StereoCameraTest, TheLeftEyesAutomaticExposureGoesToTheRight) {
+TEST_F(StereoCameraTest, TheLeftCamerasAutomaticExposureGoesToTheRight) {
   world_.exposure[0] = Exposure{0.004, 12};
   Run(2);
   ASSERT_TRUE(world_.exposure[1]);

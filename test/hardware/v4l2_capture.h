@@ -35,7 +35,7 @@ inline StereoCameraOptions LoopbackOptions() {
   return options;
 }
 
-/// Both halves of a picture of vivid's test generator as the two eyes.
+/// Both halves of a picture of vivid's test generator as the two cameras.
 inline StereoCameraOptions VividOptions() {
   StereoCameraOptions options;
   options.left_device = kVivid;
@@ -80,9 +80,9 @@ struct Capture {
     num_foreign += IsForeign(pair->left, 0) || IsForeign(pair->right, 1);
   }
   /// Whether the picture, or a part of it, is not the one that was shown at its stamp.
-  bool IsForeign(const VideoFrame& frame, int eye) const {
+  bool IsForeign(const VideoFrame& frame, int side) const {
     const int number = ReadNumber(frame);
-    return number != ReadLastNumber(frame) || !cameras->shown(eye).Covers(number, frame.stamp_s);
+    return number != ReadLastNumber(frame) || !cameras->shown(side).Covers(number, frame.stamp_s);
   }
 
   StereoCameraDevice camera;

@@ -97,12 +97,12 @@ TEST_F(V4l2FaultTest, EveryInjectedFaultEndsInRecovery) {
   }
 }
 
-TEST_F(V4l2FaultTest, AnEyeThatFallsSilentOrLateIsSurvivedWithoutAWrongPair) {
+TEST_F(V4l2FaultTest, AnCameraThatFallsSilentOrLateIsSurvivedWithoutAWrongPair) {
   NumberedCameras cameras(kLeft, kRight);
   const Fault faults[] = {
-      {"right eye silent", [&] { cameras.is_right_silent = true; },
+      {"right camera silent", [&] { cameras.is_right_silent = true; },
        &StereoCameraStatus::num_failures, 1, 2, [&] { cameras.is_right_silent = false; }},
-      {"right eye 25 ms late", [&] { cameras.right_late_s = 0.025; },
+      {"right camera 25 ms late", [&] { cameras.right_late_s = 0.025; },
        &StereoCameraStatus::num_unpaired_left, 1, 2, [&] { cameras.right_late_s = 0; }},
   };
   std::printf("%s", kFaultTable);

@@ -21,7 +21,7 @@ cv::Mat MakeTexture() {
   return smooth;
 }
 
-/// What the right eye sees where disparity = kDisparity + gradient . (pixel - kCentre).
+/// What the right camera sees where disparity = kDisparity + gradient . (pixel - kCentre).
 cv::Mat MakeRight(const cv::Mat& left, const cv::Vec2f& gradient) {
   cv::Mat map_x(left.size(), CV_32F), map_y(left.size(), CV_32F);
   for (int y = 0; y < left.rows; ++y) {

@@ -26,10 +26,10 @@ BODY_FROM_CAM1 = [[0.0125552670891, -0.999755099723, 0.0182237714554, -0.0198435
 
 
 class EurocTest(LaunchCase):
-    def write_sensor(self, name, body_from_eye, intrinsics, distortion, resolution):
+    def write_sensor(self, name, body_from_camera, intrinsics, distortion, resolution):
         with open(os.path.join(self.folder, name), "w") as file:
             yaml.safe_dump({"sensor_type": "camera", "camera_model": "pinhole", "rate_hz": 20, "resolution": resolution,
-                            "T_BS": {"rows": 4, "cols": 4, "data": np.ravel(body_from_eye).tolist()},
+                            "T_BS": {"rows": 4, "cols": 4, "data": np.ravel(body_from_camera).tolist()},
                             "intrinsics": intrinsics, "distortion_model": "radial-tangential",
                             "distortion_coefficients": distortion}, file)
         return os.path.join(self.folder, name)
@@ -56,7 +56,7 @@ class EurocTest(LaunchCase):
                                  [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05], resolution)
         right = self.write_sensor("cam1.yaml", BODY_FROM_CAM1, [457.587, 456.134, 379.999, 255.238],
                                   [-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05], resolution)
-        infos = euroc_camera_info.make_infos(euroc_camera_info.Eye(left), euroc_camera_info.Eye(right))
+        infos = euroc_camera_info.make_infos(euroc_camera_info.Camera(left), euroc_camera_info.Camera(right))
         # LEFT.R, RIGHT.R and bf / fx of ORB-SLAM2's EuRoC.yaml, by OpenCV.
         np.testing.assert_allclose(infos[0].R[:3], [0.999966347530033, -0.001422739138722922, 0.008079580483432283], atol=1e-9)
         np.testing.assert_allclose(infos[1].R[:3], [0.9999633526194376, -0.003625811871560086, 0.007755443660172947], atol=1e-9)

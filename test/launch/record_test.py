@@ -24,26 +24,26 @@ from std_msgs.msg import Bool  # noqa: E402
 EVERY_NTH = 5
 PATIENCE_S = 60
 EARLIER = "drive_2000-01-01-00-00-00_0.bag"
-EYES = ("left", "right")
+SIDES = ("left", "right")
 
 
 class Camera:
     """Pairs at 20 Hz, of which the right image is missing now and then."""
 
     def __init__(self, width, height):
-        self.kinds = [(eye, name, kind) for eye in EYES for name, kind in (("image_raw", Image), ("camera_info", CameraInfo))]
-        self.publishers = {(eye, name): rospy.Publisher("/stereo/%s/%s" % (eye, name), kind, queue_size=10)
-                           for eye, name, kind in self.kinds}
+        self.kinds = [(camera, name, kind) for camera in SIDES for name, kind in (("image_raw", Image), ("camera_info", CameraInfo))]
+        self.publishers = {(camera, name): rospy.Publisher("/stereo/%s/%s" % (camera, name), kind, queue_size=10)
+                           for camera, name, kind in self.kinds}
         self.image = Image(width=width, height=height, step=width, encoding="mono8", data=os.urandom(width * height))
 
     def publish(self, index):
         stamp = rospy.Time(1000 + index // 20, index % 20 * 50000000)
-        for eye, name, kind in self.kinds:
-            is_missing = eye == "right" and name == "image_raw" and (index < 3 or index % 7 == 0)
+        for camera, name, kind in self.kinds:
+            is_missing = camera == "right" and name == "image_raw" and (index < 3 or index % 7 == 0)
             message = self.image if kind is Image else CameraInfo(width=self.image.width, height=self.image.height)
             message.header.stamp = stamp
             if not is_missing:
-                self.publishers[eye, name].publish(message)
+                self.publishers[camera, name].publish(message)
         time.sleep(0.05)
 
     def is_listened_to(self):
@@ -82,19 +82,19 @@ def check_contents(folder):
     record(folder, Camera(64, 48), 120)
     bags = bags_in(folder)
     assert len(bags) == 1 and bags[0].suffix == ".bag", bags
-    stamps, topics = {eye: [] for eye in EYES}, set()
+    stamps, topics = {camera: [] for camera in SIDES}, set()
     is_start_told = False
     with rosbag.Bag(str(bags[0])) as bag:
         for topic, message, _ in bag.read_messages():
             topics.add(topic)
             is_start_told |= topic == "/rosout_agg" and message.msg.startswith("start called by /somebody")
-            for eye in EYES:
-                if topic == "/black_box/%s/image_raw" % eye:
-                    stamps[eye].append(message.header.stamp)
+            for camera in SIDES:
+                if topic == "/black_box/%s/image_raw" % camera:
+                    stamps[camera].append(message.header.stamp)
     assert stamps["left"] == stamps["right"], "pairs are torn: %s" % stamps
     assert 10 <= len(stamps["left"]) <= 120 // EVERY_NTH, stamps["left"]
     assert is_start_told and "/emergency_stop" in topics, topics
-    assert {"/black_box/%s/camera_info" % eye for eye in EYES} <= topics, topics
+    assert {"/black_box/%s/camera_info" % camera for camera in SIDES} <= topics, topics
 
 
 def check_ring(folder):

@@ -19,7 +19,7 @@ class RefusalsTest(LaunchCase):
         self.assertNotEqual(code, 0)
         self.assertIn(self.folder + "/none", console)
 
-    def test_a_bag_with_one_eye_is_refused_with_what_it_has(self):
+    def test_a_bag_with_one_camera_is_refused_with_what_it_has(self):
         self.write_bag("left.bag", lambda topic, message: (topic, message) if "/right/image" not in topic else None)
         console = self.refuse("bag:=left.bag")
         self.assertIn("has no topic /stereo/right/image_rect", console)

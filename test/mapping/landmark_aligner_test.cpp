@@ -54,7 +54,7 @@ TEST_F(LandmarkAlignerTest, MeasuresThePlaceInBothImagesToAFractionOfAPixel) {
   EXPECT_GE(num_accurate, 0.9 * num_aligned);
 }
 
-TEST_F(LandmarkAlignerTest, TheRightEyeMayBeBlind) {
+TEST_F(LandmarkAlignerTest, TheRightCameraMayBeBlind) {
   StereoImages images = wall_.Render(1, Rigid3());
   images.right = wall_.RenderDark(1).right;
   int num_aligned = 0;

@@ -60,7 +60,7 @@ FOLDERS = {"src/driving": BASIC, "src/pose": ("pose",), "src/tracking": ("tracki
            "src/odometry": ("odometry", "simulated_run"),
            "src/ros": ("ros", "live_poses", "ba_node", "kitti_player", "odometry_chain_nodes")}
 # The same of those sources that another node's test runs.
-FILES = {"chassis_": ("ros", "chassis_node"), "camera_eye|camera_node": ("ros", "stereo_camera"),
+FILES = {"chassis_": ("ros", "chassis_node"), "published_camera|camera_node": ("ros", "stereo_camera"),
          "pan_tilt_node": ("ros", "pan_tilt"), "drive_panel": ("ros", "drive_panel"),
          "simulator_node|transforms": ("ros", "simulated_graph")}
 

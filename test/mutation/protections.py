@@ -131,7 +131,7 @@ TABLE = (
          "if (signal != SIGHUP) ::signal(signal, [](int) { ros::requestShutdown(); });"),)),
     ("src/ros/rover/pan_tilt_node.cpp", ("pan_tilt",), (
         ("the head does not home while the rover drives", 'Require(!drive_.IsDriving(), "the rover drives: stop it first");', ""),)),
-    ("src/ros/rover/camera_eye.cpp", ("stereo_camera",), (
+    ("src/ros/rover/published_camera.cpp", ("stereo_camera",), (
         ("no calibration is set while the rover drives", "drive_.IsDriving()", "false"),)),
     ("src/driving/picture_watch.cpp", BASIC, (
         ("an exposure has settled when its grey goes on evenly", "has_settled_ || IsSteady()", "true"),)),

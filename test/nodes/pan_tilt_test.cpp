@@ -96,7 +96,7 @@ TEST_F(PanTiltNodeTest, TheDescriptionPlacesTheCameraAsTheSimulatorDoes) {
     WaitUntil([&] { return buffer.canTransform("base_link", "left_camera_optical", now); }, "tf");
     const Rigid3 seen = FromMessage(
         buffer.lookupTransform("base_link", "left_camera_optical", now).transform, "tf");
-    const Rigid3 expected = BaseFromLeftEye({}, pan_rad, -tilt_rad);
+    const Rigid3 expected = BaseFromLeftCamera({}, pan_rad, -tilt_rad);
     EXPECT_LT((seen.translation - expected.translation).norm(), 1e-3);
     EXPECT_LT((seen.Inverse() * expected).Angle(), 2 * kCount_rad);
   }

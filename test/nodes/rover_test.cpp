@@ -129,7 +129,7 @@ TEST_F(RoverTest, AllNodesAreUpAndTheirTopicsConnected) {
 }
 
 TEST_F(RoverTest, DiagnosticsSayWhatIsMissing) {
-  diagnoses_.Await("stereo_camera_node: camera", DiagnosticStatus::ERROR, "/dev/no_left_eye");
+  diagnoses_.Await("stereo_camera_node: camera", DiagnosticStatus::ERROR, "/dev/no_left_camera");
   diagnoses_.Await("stereo_camera_node: calibration", DiagnosticStatus::WARN, "calibrat");
   diagnoses_.Await("arfm_node", DiagnosticStatus::WARN, "no pairs");
   diagnoses_.Await("pose_node: odometry", DiagnosticStatus::WARN, "no pairs");

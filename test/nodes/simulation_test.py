@@ -38,17 +38,17 @@ def way_between(a, b):
 
 
 class Head:
-    """The pan-tilt unit, and where the eye truly is."""
+    """The pan-tilt unit, and where the camera truly is."""
 
     def __init__(self):
         self.is_settled = False
         self.angles = {}
-        self.eye = None
+        self.camera = None
         self.commands = rospy.Publisher("/head/cmd", JointState, queue_size=1, latch=True)
         self.subscribers = [
             rospy.Subscriber("/head/settled", Bool, lambda message: setattr(self, "is_settled", message.data)),
             rospy.Subscriber("/joint_states", JointState, lambda message: self.angles.update(zip(message.name, message.position))),
-            rospy.Subscriber("/stereo/ground_truth", PoseStamped, lambda message: setattr(self, "eye", message.pose))]
+            rospy.Subscriber("/stereo/ground_truth", PoseStamped, lambda message: setattr(self, "camera", message.pose))]
 
     def send(self, pan_rad, tilt_rad):
         self.commands.publish(JointState(name=["pan", "tilt"], position=[pan_rad, tilt_rad]))
@@ -63,7 +63,7 @@ class SimulationTest(unittest.TestCase):
         self.poses = []
         self.odometry = rospy.Subscriber("odom", Odometry, self.take_odometry)
         self.head = Head()
-        self.wait(lambda: self.head.is_settled and self.head.eye, "the head and the first pair")
+        self.wait(lambda: self.head.is_settled and self.head.camera, "the head and the first pair")
         self.head.send(0, 0)
         self.wait(lambda: self.head.is_at(0, 0), "the head ahead")
 
@@ -87,17 +87,17 @@ class SimulationTest(unittest.TestCase):
 
     def test_panning_the_head_leaves_the_parked_base_where_it_is(self):
         self.go_on(3)
-        first, eye = self.poses[-1], self.head.eye
+        first, camera = self.poses[-1], self.head.camera
         del self.poses[:-1]
         self.head.send(0.5, -0.1)
         self.wait(lambda: self.head.is_at(0.5, -0.1), "the head to the left")
         self.go_on(3)
         # The pictures are taken where the head looks: else the base would seem to turn.
-        self.assertAlmostEqual(turn_between(eye.orientation, self.head.eye.orientation), 0.51, delta=0.02)
+        self.assertAlmostEqual(turn_between(camera.orientation, self.head.camera.orientation), 0.51, delta=0.02)
         self.head.send(0, 0)
         self.wait(lambda: self.head.is_at(0, 0), "the head ahead")
         self.go_on(3)
-        self.assertLess(turn_between(eye.orientation, self.head.eye.orientation), 0.01)
+        self.assertLess(turn_between(camera.orientation, self.head.camera.orientation), 0.01)
         self.assertGreater(len(self.poses), 10)
         ways = [way_between(first.position, pose.position) for pose in self.poses]
         turns = [turn_between(first.orientation, pose.orientation) for pose in self.poses]

@@ -68,9 +68,9 @@ class StereoCameraNodeTest : public testing::Test {
     node_ = std::make_unique<StereoCameraNode>(
         ros::NodeHandle("/stereo"), ros::NodeHandle("/stereo/camera"), InRealTime(world_));
   }
-  /// What set_camera_info of an eye answers.
-  static std::string Set(const std::string& eye, const sensor_msgs::CameraInfo& info) {
-    const std::string name = "/stereo/" + eye + "/set_camera_info";
+  /// What set_camera_info of a camera answers.
+  static std::string Set(const std::string& side, const sensor_msgs::CameraInfo& info) {
+    const std::string name = "/stereo/" + side + "/set_camera_info";
     sensor_msgs::SetCameraInfo call;
     call.request.camera_info = info;
     // The service is of this process: somebody must spin while it is called.
@@ -96,7 +96,7 @@ class StereoCameraNodeTest : public testing::Test {
   Diagnoses diagnoses_;
 };
 
-TEST_F(StereoCameraNodeTest, BothEyesOfAPairHaveOneStampOfRosTime) {
+TEST_F(StereoCameraNodeTest, BothCamerasOfAPairHaveOneStampOfRosTime) {
   const ros::Time start = ros::Time::now();
   WaitUntil([&] { return left_.size() >= 5 && right_.size() >= 5 && right_info_.size() >= 5; },
             "pairs");
@@ -105,7 +105,7 @@ TEST_F(StereoCameraNodeTest, BothEyesOfAPairHaveOneStampOfRosTime) {
     EXPECT_EQ(right.header.frame_id, "left_camera_optical");
     EXPECT_GT(right.header.stamp, start - ros::Duration(1));
     EXPECT_LT(right.header.stamp, ros::Time::now());
-    // The pictures show the number of their moment: the same in both eyes of one stamp.
+    // The pictures show the number of their moment: the same in both cameras of one stamp.
     for (const auto& left : left_.all())
       EXPECT_EQ(left.header.stamp == right.header.stamp,
                 std::equal(left.data.begin(), left.data.begin() + 4, right.data.begin()));
@@ -143,7 +143,7 @@ TEST_F(StereoCameraNodeTest, SetCameraInfoIsPublishedAndStoredForTheNextStart) {
   WaitUntil([&] { return right_info_.size() > 0; }, "camera_info");
   EXPECT_EQ(right_info_.last().K[0], 0);
   EXPECT_EQ(Set("left", Calibration(false)), "");
-  diagnoses_.Await(": calibration", DiagnosticStatus::WARN, "right eye is not calibrated");
+  diagnoses_.Await(": calibration", DiagnosticStatus::WARN, "right camera is not calibrated");
   EXPECT_EQ(Set("right", Calibration(true)), "");
   AwaitBaseline(-60);
   diagnoses_.Await(": calibration", DiagnosticStatus::OK, "calibrated");
@@ -166,7 +166,7 @@ TEST_F(StereoCameraNodeTest, ACalibrationForAnotherSizeIsAnErrorAndNotPublished)
   EXPECT_EQ(right_info_.last().width, 8u);
 }
 
-TEST_F(StereoCameraNodeTest, AnUnpluggedEyeIsAnErrorAndSurvived) {
+TEST_F(StereoCameraNodeTest, AnUnpluggedCameraIsAnErrorAndSurvived) {
   diagnoses_.Await(": camera", DiagnosticStatus::OK, "pairs come");
   Inbox<rosgraph_msgs::Log> console("/rosout");
   WaitUntil([&] { return console.has_publisher(); }, "the console");

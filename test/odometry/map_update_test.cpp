@@ -44,7 +44,7 @@ TEST_F(MapUpdateTest, TheNewestKeyframeThatBothKnowStaysAndTheRestMovesAgainstIt
 }
 
 /// They are of another correction: their right pixels do not place what they saw.
-TEST_F(MapUpdateTest, KeyframesBeforeThoseThatItMovesKeepTheirLeftEyeAlone) {
+TEST_F(MapUpdateTest, KeyframesBeforeThoseThatItMovesKeepTheirLeftCameraAlone) {
   MapUpdate update;
   update.keyframes = {{1, Rigid3()}};
   ApplyMapUpdate(update, map_);

@@ -166,7 +166,7 @@ TEST_F(VerdictTest, PicturesThatAreNotToBeUsedAreNamed) {
   Look();
   EXPECT_EQ(verdict_.right_fault(), Reason::kRightBlind);
   frame_.num_right_keypoints = 300;
-  frame_.eyes_are_swapped = true;
+  frame_.images_are_swapped = true;
   Look(0.1);
   EXPECT_EQ(verdict_.right_fault(), Reason::kSwapped);
   frame_.left_is_repeated = true;
@@ -179,7 +179,7 @@ TEST_F(VerdictTest, SwappedIsTheLeftImageThatIsSeenFromTheRightCamera) {
   PredictedPose predicted{Rigid3()};
   predicted.sigma_shift_m = 0.01;
   predicted.sigma_turn_rad = 0.01;
-  frame_.eyes_are_swapped = true;
+  frame_.images_are_swapped = true;
   for (const bool is_swapped : {false, true}) {
     Look();
     tracked_.pose.camera_from_world.translation.x() = is_swapped ? -kBaseline_m : 0;

@@ -188,7 +188,7 @@ TEST(PoseEstimator, AGoodPredictionFindsWhatSamplesCannot) {
 TEST(PoseEstimator, KeepsPointsOfWideSpreadThatMovedAsTheirCovarianceSays) {
   RandomEngine engine(6);
   auto observations = MakeObservations({}, 100, 0.5, engine);
-  for (int i = 0; i < 50; ++i) {  // 10 % of depth along the ray of an eye 3 m to the left
+  for (int i = 0; i < 50; ++i) {  // 10 % of depth along the ray of a camera 3 m to the left
     const Eigen::Vector3d ray = observations[i].x_in_world + Eigen::Vector3d(3, 0, 0);
     observations[i].x_covariance = 0.01 * ray * ray.transpose();
     observations[i].x_in_world += 0.1 * RandomNormal(engine) * ray;

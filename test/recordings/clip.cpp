@@ -155,8 +155,8 @@ ClipPlan DrawClipPlan(const std::vector<Clip>& clips, int max_pairs, Draw& draw)
       std::min(draw.Integer(max_pairs * 2 / 3, max_pairs), 1 + (all - 1) / plan.stride);
   plan.first = draw.Integer(0, all - 1 - (plan.num_pairs - 1) * plan.stride);
   plan.is_backward = draw.Chance(0.4);
-  plan.transform.swap = draw.OneOf<EyeSwap>(
-      {EyeSwap::kNone, EyeSwap::kNone, EyeSwap::kNone, EyeSwap::kMirrored, EyeSwap::kTurned});
+  plan.transform.swap = draw.OneOf<ImageSwap>({ImageSwap::kNone, ImageSwap::kNone, ImageSwap::kNone,
+                                               ImageSwap::kMirrored, ImageSwap::kTurned});
   const double crop = draw.Between(0, 0.2), aside = draw.Between(0, 1);
   const double scale = draw.Between(0.5, 1);
   if (draw.Chance(0.25)) {  // at most a fifth of the width and a tenth of the height

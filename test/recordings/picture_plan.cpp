@@ -163,7 +163,7 @@ PairChange MakeFault(const FaultPlan& plan, const StereoCamera& camera) {
   if (plan.kind == "right_black") change = Blacken(kRight, {});
   if (plan.kind == "right_frozen") change = Freeze(kRight, {});
   if (plan.kind == "object") change = Appear(plan.object);
-  if (plan.kind == "blur_one") change = OnEye(plan.is_left ? kLeft : kRight, Blur(plan.blur_px));
+  if (plan.kind == "blur_one") change = OnSide(plan.is_left ? kLeft : kRight, Blur(plan.blur_px));
   if (plan.kind == "cover") change = Cover(plan);
   if (plan.kind == "dots") change = ProjectDots(plan);
   const bool turns = plan.kind == "knock" || plan.kind.find("_step") != std::string::npos ||

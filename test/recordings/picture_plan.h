@@ -29,12 +29,12 @@ struct FaultPlan {
   int ramp_pairs = 1;                              ///< within which the right camera turns so
   ObjectOptions object;
   int blur_px = 0;
-  bool is_left = false;  ///< the eye that is blurred
+  bool is_left = false;  ///< the camera that is blurred
   double share = 0;      ///< of the picture that is covered
   int num_dots = 0;
   int seed = 0;
 
-  /// Whether the right eye shows nothing of use while the fault lasts.
+  /// Whether the right camera shows nothing of use while the fault lasts.
   bool IsRightUseless() const { return kind == "right_black" || kind == "right_frozen"; }
   /// Whether the fault is something in the picture, before what else is seen there.
   bool HidesView() const { return kind == "object" || kind == "cover" || kind == "dots"; }

@@ -26,14 +26,14 @@ Eigen::Vector3d Follow(const ViewTransform& transform, const Eigen::Vector3d& pi
               .cwiseProduct(
                   Eigen::Vector3d(new_width / width, new_height / height, new_width / width)) -
           half;
-  if (transform.swap == EyeSwap::kNone) return moved;
-  const double v = transform.swap == EyeSwap::kTurned ? new_height - 1 - moved.y() : moved.y();
+  if (transform.swap == ImageSwap::kNone) return moved;
+  const double v = transform.swap == ImageSwap::kTurned ? new_height - 1 - moved.y() : moved.y();
   return {new_width - 1 - moved.z(), v, new_width - 1 - moved.x()};
 }
 
 std::vector<ViewTransform> AllTransforms() {
   std::vector<ViewTransform> all;
-  for (const EyeSwap swap : {EyeSwap::kNone, EyeSwap::kMirrored, EyeSwap::kTurned}) {
+  for (const ImageSwap swap : {ImageSwap::kNone, ImageSwap::kMirrored, ImageSwap::kTurned}) {
     all.push_back({0, 0, 0, 0, 1, swap});
     all.push_back({11, 7, 21, 3, 1, swap});
     all.push_back({0, 0, 0, 0, 0.73, swap});
@@ -86,7 +86,7 @@ TEST(ViewTransform, PicturesAreChangedAsPixelsAre) {
 
 TEST(ViewTransform, TwiceMirroredIsTheSame) {
   const Rigid3 pose(ExpSO3({0.1, -0.4, 0.2}), Eigen::Vector3d(0.7, -0.3, 1.9));
-  for (const EyeSwap swap : {EyeSwap::kMirrored, EyeSwap::kTurned}) {
+  for (const ImageSwap swap : {ImageSwap::kMirrored, ImageSwap::kTurned}) {
     const ViewTransform transform{0, 0, 0, 0, 1, swap};
     const Rigid3 same = transform.Apply(transform.Apply(pose, 0.2), 0.2);
     EXPECT_LT((same.Inverse() * pose).translation.norm(), 1e-12);

@@ -40,7 +40,7 @@ RenderedDrive::RenderedDrive(const DrivePlan& plan, int num_threads) : plan_(pla
 
 void RenderedDrive::PlaceCamera(const PlanarPath& path) {
   Draw draw(static_cast<uint32_t>(plan_.seed) + 3);
-  const Rigid3 base_from_left = BaseFromLeftEye(plan_.shape);
+  const Rigid3 base_from_left = BaseFromLeftCamera(plan_.shape);
   for (const RoverPose& pose : path) {
     const Eigen::Vector3d turn(draw.Gaussian(), draw.Gaussian(), draw.Gaussian());
     const Eigen::Vector3d shift(0, draw.Gaussian(), 0);
@@ -58,50 +58,51 @@ TruePair RenderedDrive::Take(int pair) const {
       world_from_left * Eigen::Vector3d(plan_.camera.baseline_m / 2, -plan_.camera.baseline_m, 0);
   taken.images.left = See(world_from_left, lamp, 2 * pair, &taken.depth_m);
   taken.images.right =
-      See(RightEyePose(plan_.camera, world_from_left), lamp, 2 * pair + 1, nullptr);
+      See(RightCameraPose(plan_.camera, world_from_left), lamp, 2 * pair + 1, nullptr);
   return taken;
 }
 
-cv::Mat RenderedDrive::See(const Rigid3& world_from_eye, const Eigen::Vector3d& lamp,
+cv::Mat RenderedDrive::See(const Rigid3& world_from_camera, const Eigen::Vector3d& lamp,
                            uint32_t image_id, cv::Mat* depth_m) const {
-  RenderedView view = renderer_->Trace(plan_.camera, world_from_eye, buildings_);
-  if (surroundings_.has_lamp) LightByLamp(world_from_eye, lamp, view);
-  if (surroundings_.tile_m > 0) LayTiles(world_from_eye, view);
+  RenderedView view = renderer_->Trace(plan_.camera, world_from_camera, buildings_);
+  if (surroundings_.has_lamp) LightByLamp(world_from_camera, lamp, view);
+  if (surroundings_.tile_m > 0) LayTiles(world_from_camera, view);
   if (depth_m != nullptr) *depth_m = view.depth;
   return ExposeImage(view.radiance, sensor_, image_id);
 }
 
 template <class Change>
-void RenderedDrive::ForEachPoint(const Rigid3& world_from_eye, RenderedView& view,
+void RenderedDrive::ForEachPoint(const Rigid3& world_from_camera, RenderedView& view,
                                  const Change& change) const {
   const StereoCamera& camera = plan_.camera;
   for (int v = 0; v < view.radiance.rows; ++v) {
     for (int u = 0; u < view.radiance.cols; ++u) {
       const double z = std::min(1e5, static_cast<double>(view.depth.at<float>(v, u)));
-      const Eigen::Vector3d x_in_eye(z * (u - camera.cx) / camera.fx,
-                                     z * (v - camera.cy) / camera.fy, z);
-      change(world_from_eye * x_in_eye, z, view.radiance.at<float>(v, u));
+      const Eigen::Vector3d x_in_camera(z * (u - camera.cx) / camera.fx,
+                                        z * (v - camera.cy) / camera.fy, z);
+      change(world_from_camera * x_in_camera, z, view.radiance.at<float>(v, u));
     }
   }
 }
 
-void RenderedDrive::LightByLamp(const Rigid3& world_from_eye, const Eigen::Vector3d& lamp,
+void RenderedDrive::LightByLamp(const Rigid3& world_from_camera, const Eigen::Vector3d& lamp,
                                 RenderedView& view) const {
   const double reach_m = kLampReach * plan_.shape.camera_height_m;
-  ForEachPoint(world_from_eye, view, [&](const Eigen::Vector3d& point, double, float& radiance) {
+  ForEachPoint(world_from_camera, view, [&](const Eigen::Vector3d& point, double, float& radiance) {
     const double light = reach_m * reach_m / (point - lamp).squaredNorm();
     radiance *= static_cast<float>(std::min(kMaxLight, kNightSkylight + light));
   });
 }
 
-void RenderedDrive::LayTiles(const Rigid3& world_from_eye, RenderedView& view) const {
-  ForEachPoint(world_from_eye, view, [&](const Eigen::Vector3d& point, double z, float& radiance) {
-    const Eigen::Vector3d away = point - world_from_eye.translation;
-    const double slant = std::max(0.02, std::abs(away.z()) / away.norm());
-    radiance *=
-        static_cast<float>(Tiles(point.x(), point.y(), surroundings_.tile_m,
-                                 surroundings_.tile_contrast, z / (plan_.camera.fx * slant)));
-  });
+void RenderedDrive::LayTiles(const Rigid3& world_from_camera, RenderedView& view) const {
+  ForEachPoint(
+      world_from_camera, view, [&](const Eigen::Vector3d& point, double z, float& radiance) {
+        const Eigen::Vector3d away = point - world_from_camera.translation;
+        const double slant = std::max(0.02, std::abs(away.z()) / away.norm());
+        radiance *=
+            static_cast<float>(Tiles(point.x(), point.y(), surroundings_.tile_m,
+                                     surroundings_.tile_contrast, z / (plan_.camera.fx * slant)));
+      });
 }
 
 }  // namespace arfm_vo

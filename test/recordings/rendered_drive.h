@@ -34,13 +34,14 @@ class RenderedDrive : public PairSource {
   TruePair Take(int pair) const override;
 
  private:
-  cv::Mat See(const Rigid3& world_from_eye, const Eigen::Vector3d& lamp, uint32_t image_id,
+  cv::Mat See(const Rigid3& world_from_camera, const Eigen::Vector3d& lamp, uint32_t image_id,
               cv::Mat* depth_m) const;
   template <class Change>
-  void ForEachPoint(const Rigid3& world_from_eye, RenderedView& view, const Change& change) const;
-  void LightByLamp(const Rigid3& world_from_eye, const Eigen::Vector3d& lamp,
+  void ForEachPoint(const Rigid3& world_from_camera, RenderedView& view,
+                    const Change& change) const;
+  void LightByLamp(const Rigid3& world_from_camera, const Eigen::Vector3d& lamp,
                    RenderedView& view) const;
-  void LayTiles(const Rigid3& world_from_eye, RenderedView& view) const;
+  void LayTiles(const Rigid3& world_from_camera, RenderedView& view) const;
   void PlaceCamera(const PlanarPath& path);
 
   DrivePlan plan_;

@@ -8,9 +8,9 @@ namespace arfm_vo {
 namespace {
 
 /// The axes of the camera that `swap` leaves: a reflection for kMirrored.
-Eigen::Vector3d Axes(EyeSwap swap) {
-  if (swap == EyeSwap::kMirrored) return {-1, 1, 1};
-  if (swap == EyeSwap::kTurned) return {-1, -1, 1};
+Eigen::Vector3d Axes(ImageSwap swap) {
+  if (swap == ImageSwap::kMirrored) return {-1, 1, 1};
+  if (swap == ImageSwap::kTurned) return {-1, -1, 1};
   return {1, 1, 1};
 }
 
@@ -34,8 +34,8 @@ StereoCamera ViewTransform::Apply(const StereoCamera& camera) const {
   view.fy *= scale_v;
   view.cx = (view.cx + 0.5) * scale_u - 0.5;  // the outer border of the picture stays
   view.cy = (view.cy + 0.5) * scale_v - 0.5;
-  if (swap != EyeSwap::kNone) view.cx = view.width - 1 - view.cx;
-  if (swap == EyeSwap::kTurned) view.cy = view.height - 1 - view.cy;
+  if (swap != ImageSwap::kNone) view.cx = view.width - 1 - view.cx;
+  if (swap == ImageSwap::kTurned) view.cy = view.height - 1 - view.cy;
   return view;
 }
 
@@ -46,31 +46,32 @@ StereoImages ViewTransform::Apply(const StereoImages& images, const StereoCamera
   const auto change = [&](const cv::Mat& image) {
     cv::Mat changed = image(kept).clone();
     if (size != changed.size()) cv::resize(changed, changed, size, 0, 0, cv::INTER_AREA);
-    if (swap == EyeSwap::kMirrored) cv::flip(changed, changed, 1);
-    if (swap == EyeSwap::kTurned) cv::flip(changed, changed, -1);
+    if (swap == ImageSwap::kMirrored) cv::flip(changed, changed, 1);
+    if (swap == ImageSwap::kTurned) cv::flip(changed, changed, -1);
     return changed;
   };
   StereoImages view{images.stamp_s, change(images.left), change(images.right)};
-  if (swap != EyeSwap::kNone) std::swap(view.left, view.right);
+  if (swap != ImageSwap::kNone) std::swap(view.left, view.right);
   return view;
 }
 
 Eigen::Vector3d ViewTransform::ApplyToPoint(const Eigen::Vector3d& x_in_left,
                                             double baseline_m) const {
-  const double shift = swap == EyeSwap::kNone ? 0 : baseline_m;  // the right eye becomes the left
+  const double shift =
+      swap == ImageSwap::kNone ? 0 : baseline_m;  // the right camera becomes the left
   return Axes(swap).cwiseProduct(x_in_left - Eigen::Vector3d(shift, 0, 0));
 }
 
 Rigid3 ViewTransform::Apply(const Rigid3& world_from_left, double baseline_m) const {
   // With A the axes and b the shift, x' = A (x - b): R' = A R A, t' = A (R b + t - b).
   const Eigen::Matrix3d axes = Axes(swap).asDiagonal();
-  const Eigen::Vector3d shift(swap == EyeSwap::kNone ? 0 : baseline_m, 0, 0);
+  const Eigen::Vector3d shift(swap == ImageSwap::kNone ? 0 : baseline_m, 0, 0);
   return {Eigen::Matrix3d(axes * world_from_left.RotationMatrix() * axes),
           Eigen::Vector3d(axes * (world_from_left * shift - shift))};
 }
 
-std::string ToString(EyeSwap swap) {
-  return swap == EyeSwap::kMirrored ? "mirrored" : swap == EyeSwap::kTurned ? "turned" : "none";
+std::string ToString(ImageSwap swap) {
+  return swap == ImageSwap::kMirrored ? "mirrored" : swap == ImageSwap::kTurned ? "turned" : "none";
 }
 
 std::string ViewTransform::CutName() const {

@@ -8,17 +8,17 @@
 
 namespace arfm_vo {
 
-/// How the eyes change places: not at all; each picture flipped left to right and given to the
-/// other eye, as a world seen in a mirror; each turned by 180 degrees and given to the other eye,
-/// as a camera mounted upside down.
-enum class EyeSwap { kNone, kMirrored, kTurned };
+/// How the cameras change places: not at all; each picture flipped left to right and given to the
+/// other camera, as a world seen in a mirror; each turned by 180 degrees and given to the other
+/// camera, as a camera mounted upside down.
+enum class ImageSwap { kNone, kMirrored, kTurned };
 
 /// Another rectified stereo camera that would have taken the same pictures: cropped first, then
-/// scaled, then with its eyes swapped. Camera, pictures and poses are taken over alike.
+/// scaled, then with its cameras swapped. Camera, pictures and poses are taken over alike.
 struct ViewTransform {
   int crop_left = 0, crop_top = 0, crop_right = 0, crop_bottom = 0;  ///< px cut off
   double scale = 1;                                                  ///< in (0, 1]; by area
-  EyeSwap swap = EyeSwap::kNone;
+  ImageSwap swap = ImageSwap::kNone;
 
   StereoCamera Apply(const StereoCamera& camera) const;
   /// `camera` as it was before.
@@ -31,6 +31,6 @@ struct ViewTransform {
   std::string CutName() const;
 };
 
-std::string ToString(EyeSwap swap);
+std::string ToString(ImageSwap swap);
 
 }  // namespace arfm_vo

@@ -33,7 +33,7 @@ class LastingRover {
   using Plan = std::function<Route(const std::vector<RoverPose>& path, const RoverPose& rover)>;
   std::string Drive(const Plan& plan) {
     ChassisDriver driver(PilotOptions(), bus_.OpenEnd());
-    OdometryChain chain(StereoRigOptions().Camera(), BaseFromLeftEye({}));
+    OdometryChain chain(StereoRigOptions().Camera(), BaseFromLeftCamera({}));
     const bool has_map = !file_.empty();
     chain.map().Keep(has_map ? ParseMap(file_, "map") : KnownMap(), kMaxPoints);
     const double begin_s = Now(), limit_s = begin_s + kMaxSeconds;
@@ -79,10 +79,10 @@ class LastingRover {
   double Now() const { return 0.01 * static_cast<double>(num_steps_); }
 
   void Look(OdometryChain& chain, Pilot& pilot) {
-    const Rigid3 eye = chassis_.plant().WorldFromBase() * BaseFromLeftEye({});
+    const Rigid3 camera = chassis_.plant().WorldFromBase() * BaseFromLeftCamera({});
     const int pair = static_cast<int>(num_steps_ / kStepsAPair);
     const SessionUpdate update =
-        chain.Process(renderer_.RenderPair(StereoRigOptions().Camera(), eye, pair, Now()));
+        chain.Process(renderer_.RenderPair(StereoRigOptions().Camera(), camera, pair, Now()));
     pilot.ObserveEpoch(update.epoch, Now());
     const Matrix6& covariance = update.covariance;
     pilot.ObserveUncertainty(Now(), {Now(), std::sqrt(covariance.topLeftCorner<2, 2>().trace()),

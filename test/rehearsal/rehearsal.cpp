@@ -147,12 +147,12 @@ class Stage {
   long pair_period_ms_, now_ms_ = 0;
 };
 
-template <class Eyes>
-RehearsedDrive DriveBy(const GoalScene& scene, const RehearsalOptions& options, Eyes& eyes) {
+template <class Sight>
+RehearsedDrive DriveBy(const GoalScene& scene, const RehearsalOptions& options, Sight& sight) {
   options.Check();
   return Stage(scene, options,
                [&](double now_s, const Rigid3& world_from_base) {
-                 return eyes.Look(now_s, world_from_base);
+                 return sight.Look(now_s, world_from_base);
                })
       .Run();
 }

@@ -17,7 +17,7 @@ SimulatedSight::SimulatedSight(const SimulatedSightOptions& options,
                                const Terrain& terrain)
     : options_(options),
       camera_(options.rig.Camera()),
-      base_from_camera_(BaseFromLeftEye(shape)),
+      base_from_camera_(BaseFromLeftCamera(shape)),
       renderer_(terrain, options.render),
       odometry_(camera_, odometry) {
   options_.Check();

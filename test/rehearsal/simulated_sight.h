@@ -23,7 +23,7 @@ struct SimulatedSightOptions {
   ARFM_FIELDS(rig, pair_period_s, latency_s, render)
 };
 
-/// What the rover's eyes tell it at one time.
+/// What the rover's cameras tell it at one time.
 struct Glimpse {
   double taken_s = 0, told_s = 0;       ///< when the pair was taken, and when its pose is known
   std::optional<Rigid3> map_from_base;  ///< nothing where the odometry is lost

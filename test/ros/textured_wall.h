@@ -29,8 +29,8 @@ class TexturedWall {
   StereoImages Render(double stamp_s, const Rigid3& camera_from_world) const {
     const Rigid3 right_from_left(Eigen::Quaterniond::Identity(),
                                  Eigen::Vector3d(-camera_.baseline_m, 0, 0));
-    StereoImages images{stamp_s, RenderEye(camera_from_world),
-                        RenderEye(right_from_left * camera_from_world)};
+    StereoImages images{stamp_s, RenderSide(camera_from_world),
+                        RenderSide(right_from_left * camera_from_world)};
     AddNoise(stamp_s, images);
     return images;
   }
@@ -48,7 +48,7 @@ class TexturedWall {
   }
 
  private:
-  cv::Mat RenderEye(const Rigid3& camera_from_world) const {
+  cv::Mat RenderSide(const Rigid3& camera_from_world) const {
     constexpr double kDistance_m = 6, kTexelsPerMetre = 100;
     // The homography from the wall's (x, y) to pixels, after that from texels to (x, y).
     Eigen::Matrix3d intrinsics;

@@ -35,24 +35,24 @@ TEST(SamplePath, RefusesAPathThatGoesNowhere) {
   EXPECT_THROW(SamplePath({}, {{1, 0}}, 0, 0.1, 3), std::invalid_argument);
 }
 
-TEST(BaseFromLeftEye, LooksAheadAndDown) {
+TEST(BaseFromLeftCamera, LooksAheadAndDown) {
   RoverShape shape;
   shape.camera_tilt_deg = 30;
-  const Rigid3 base_from_eye = BaseFromLeftEye(shape);
-  const Eigen::Vector3d axis = base_from_eye.rotation * Eigen::Vector3d::UnitZ();
+  const Rigid3 base_from_camera = BaseFromLeftCamera(shape);
+  const Eigen::Vector3d axis = base_from_camera.rotation * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR((axis - Eigen::Vector3d(std::cos(M_PI / 6), 0, -0.5)).norm(), 0, 1e-12);
-  const Eigen::Vector3d right = base_from_eye.rotation * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d right = base_from_camera.rotation * Eigen::Vector3d::UnitX();
   EXPECT_NEAR((right - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-12);
-  EXPECT_NEAR((base_from_eye.translation - Eigen::Vector3d(0.2, 0.1, 1)).norm(), 0, 1e-12);
+  EXPECT_NEAR((base_from_camera.translation - Eigen::Vector3d(0.2, 0.1, 1)).norm(), 0, 1e-12);
 }
 
-TEST(BaseFromLeftEye, PanTurnsTheHeadToTheLeft) {
+TEST(BaseFromLeftCamera, PanTurnsTheHeadToTheLeft) {
   RoverShape shape;
   shape.camera_tilt_deg = 0;
-  const Rigid3 base_from_eye = BaseFromLeftEye(shape, M_PI / 2);
-  const Eigen::Vector3d axis = base_from_eye.rotation * Eigen::Vector3d::UnitZ();
+  const Rigid3 base_from_camera = BaseFromLeftCamera(shape, M_PI / 2);
+  const Eigen::Vector3d axis = base_from_camera.rotation * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR((axis - Eigen::Vector3d::UnitY()).norm(), 0, 1e-12);
-  EXPECT_NEAR((base_from_eye.translation - Eigen::Vector3d(0.1, 0, 1)).norm(), 0, 1e-12);
+  EXPECT_NEAR((base_from_camera.translation - Eigen::Vector3d(0.1, 0, 1)).norm(), 0, 1e-12);
 }
 
 TEST(PlaceRover, LevelGroundGivesALevelRover) {

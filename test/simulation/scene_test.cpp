@@ -19,8 +19,8 @@ TEST(Scene, SlopesReachButDoNotPassWhatARoverClimbs) {
   double steepest = 0, length = 0;
   for (int i = 0; i < scene.num_pairs(); ++i) {
     const Eigen::Vector3d up =
-        scene.WorldFromLeft(i) * (BaseFromLeftEye({}).Inverse() * Eigen::Vector3d(0, 0, 1)) -
-        scene.WorldFromLeft(i) * (BaseFromLeftEye({}).Inverse() * Eigen::Vector3d(0, 0, 0));
+        scene.WorldFromLeft(i) * (BaseFromLeftCamera({}).Inverse() * Eigen::Vector3d(0, 0, 1)) -
+        scene.WorldFromLeft(i) * (BaseFromLeftCamera({}).Inverse() * Eigen::Vector3d(0, 0, 0));
     steepest = std::max(steepest, std::acos(up.z()) * 180 / M_PI);
     if (i > 0) {
       const double step =

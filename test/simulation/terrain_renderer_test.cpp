@@ -33,7 +33,7 @@ Rigid3 LookAhead(const Terrain& terrain, double x, double y, double tilt_deg, do
   shape.camera_tilt_deg = tilt_deg;
   shape.camera_forward_m = shape.camera_left_m = 0;
   return Rigid3(Eigen::Quaterniond::Identity(), {x, y, terrain.Height(x, y)}) *
-         BaseFromLeftEye(shape) *
+         BaseFromLeftCamera(shape) *
          Rigid3(Eigen::Quaterniond(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ())),
                 Eigen::Vector3d::Zero());
 }
@@ -137,7 +137,7 @@ struct Residual {
   int num_pixels;
 };
 
-Residual CompareEyes(const RenderedView& left, const RenderedView& right) {
+Residual CompareCameras(const RenderedView& left, const RenderedView& right) {
   cv::Mat map_u(left.depth.size(), CV_32F), map_v(left.depth.size(), CV_32F);
   cv::Mat seen(left.depth.size(), CV_8U, cv::Scalar(0));
   const auto bends = [](const cv::Mat& depth, int u, int v) {
@@ -175,15 +175,15 @@ Residual CompareEyes(const RenderedView& left, const RenderedView& right) {
   return residual;
 }
 
-TEST(TerrainRenderer, EyesAgreeToAHundredthOfAPixel) {
+TEST(TerrainRenderer, CamerasAgreeToAHundredthOfAPixel) {
   const Terrain terrain(SmallPictureOptions());
   const TerrainRenderer renderer(terrain, {});
   double disparity = 0, row = 0;
   for (int k = 0; k < 4; ++k) {
     const Rigid3 pose = LookAhead(terrain, -6 + 2 * k, k - 2, 17, 0.1 * (k - 2));
     const RenderedView left = renderer.Trace(kCamera, pose);
-    const RenderedView right = renderer.Trace(kCamera, RightEyePose(kCamera, pose));
-    const Residual residual = CompareEyes(left, right);
+    const RenderedView right = renderer.Trace(kCamera, RightCameraPose(kCamera, pose));
+    const Residual residual = CompareCameras(left, right);
     EXPECT_GT(residual.num_pixels, 3000) << k;
     EXPECT_LT(residual.grey, 0.03) << k;
     EXPECT_NEAR(residual.disparity_px, 0, 0.03) << k;

@@ -30,8 +30,8 @@ std::vector<Disturbance> MakeDisturbances() {
       {"right-frozen", Freeze(kRight, kOn)},
       {"right-late", DelayRight(1)},
       {"frozen-20-pairs", Both(Freeze(kLeft, For(20)), Freeze(kRight, For(20)))},
-      {"eyes-swapped", SwapEyes(kAlways)},
-      {"eyes-swapped-10-pairs", SwapEyes(For(10))},
+      {"cameras-swapped", SwapImages(kAlways)},
+      {"cameras-swapped-10-pairs", SwapImages(For(10))},
   };
 }
 
@@ -39,7 +39,7 @@ std::vector<Disturbance> MakeMoreDisturbances() {
   return {
       {"noise-5", OnEachImage(AddNoiseOf(5))},
       {"noise-30", OnEachImage(AddNoiseOf(30))},
-      {"right-noise-30", OnEye(kRight, AddNoiseOf(30))},
+      {"right-noise-30", OnSide(kRight, AddNoiseOf(30))},
       {"blur-5", OnEachImage(Blur(5))},
       {"blur-21", OnEachImage(Blur(21))},
       {"blur-sideways-15", OnEachImage(SmearSideways(15))},
@@ -49,7 +49,7 @@ std::vector<Disturbance> MakeMoreDisturbances() {
       {"dark-0.25", OnEachImage(Multiply(0.25))},
       {"bright-3", OnEachImage(Multiply(3))},
       {"dusk", DriftExposure(0.1, 60)},
-      {"right-dark-0.5", OnEye(kRight, Multiply(0.5))},
+      {"right-dark-0.5", OnSide(kRight, Multiply(0.5))},
       {"dead-rows-5", OnEachImage(KillRows(0.05))},
       {"dead-columns-5", OnEachImage(KillColumns(0.05))},
       {"missing-every-3rd", Miss(3)},
@@ -77,8 +77,8 @@ std::vector<Disturbance> MakeMoreDisturbances() {
       {"glare-0.5", OnEachImage(DrawGlare(0.5))},
       {"contrast-0.3", OnEachImage(Flatten(0.3))},
       {"contrast-0.1", OnEachImage(Flatten(0.1))},
-      {"left-dirt-20", OnEye(kLeft, Dirty(0.2, 1))},
-      {"dirt-30", Both(OnEye(kLeft, Dirty(0.3, 1)), OnEye(kRight, Dirty(0.3, 2)))},
+      {"left-dirt-20", OnSide(kLeft, Dirty(0.2, 1))},
+      {"dirt-30", Both(OnSide(kLeft, Dirty(0.3, 1)), OnSide(kRight, Dirty(0.3, 2)))},
       {"drift-pitch", TurnRight({0.002, 0, 0}, {0, 60})},
       {"drift-yaw", TurnRight({0, 0.002, 0}, {0, 60})},
       {"drift-roll", TurnRight({0, 0, 0.005}, {0, 60})},

@@ -11,11 +11,11 @@
 namespace arfm_vo {
 
 PairChange OnEachImage(const ImageChange& change) {
-  return Both(OnEye(&StereoImages::left, change), OnEye(&StereoImages::right, change));
+  return Both(OnSide(&StereoImages::left, change), OnSide(&StereoImages::right, change));
 }
 
-PairChange OnEye(cv::Mat StereoImages::*eye, const ImageChange& change) {
-  return [=](int, StereoImages& images) { change(images.*eye); };
+PairChange OnSide(cv::Mat StereoImages::*side, const ImageChange& change) {
+  return [=](int, StereoImages& images) { change(images.*side); };
 }
 
 PairChange Both(const PairChange& a, const PairChange& b) {

@@ -11,7 +11,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr double kCell = 25;              ///< m
-constexpr int kMaxTriesPerLandmark = 50;  ///< to place one that both eyes see
+constexpr int kMaxTriesPerLandmark = 50;  ///< to place one that both cameras see
 
 int CellOf(double x) { return static_cast<int>(std::floor(x / kCell)); }
 

@@ -80,21 +80,21 @@ PairChange Show(const ObjectOptions& options) {
   };
 }
 
-PairChange Freeze(cv::Mat StereoImages::*eye, const PairRange& pairs) {
+PairChange Freeze(cv::Mat StereoImages::*side, const PairRange& pairs) {
   auto still = std::make_shared<cv::Mat>();
   return [=](int index, StereoImages& images) {
-    if (index == pairs.first) *still = (images.*eye).clone();
-    if (index > pairs.first && pairs.Has(index)) images.*eye = still->clone();
+    if (index == pairs.first) *still = (images.*side).clone();
+    if (index > pairs.first && pairs.Has(index)) images.*side = still->clone();
   };
 }
 
-PairChange Blacken(cv::Mat StereoImages::*eye, const PairRange& pairs) {
+PairChange Blacken(cv::Mat StereoImages::*side, const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
-    if (pairs.Has(index)) (images.*eye).setTo(0);
+    if (pairs.Has(index)) (images.*side).setTo(0);
   };
 }
 
-PairChange SwapEyes(const PairRange& pairs) {
+PairChange SwapImages(const PairRange& pairs) {
   return [=](int index, StereoImages& images) {
     if (pairs.Has(index)) std::swap(images.left, images.right);
   };

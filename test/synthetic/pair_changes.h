@@ -14,7 +14,7 @@ struct PairRange {
 
 using ImageChange = std::function<void(cv::Mat&)>;
 PairChange OnEachImage(const ImageChange& change);
-PairChange OnEye(cv::Mat StereoImages::*eye, const ImageChange& change);
+PairChange OnSide(cv::Mat StereoImages::*side, const ImageChange& change);
 PairChange Both(const PairChange& a, const PairChange& b);
 
 // Of an image.
@@ -31,9 +31,9 @@ ImageChange DrawGlare(double radius);       ///< of the picture's height: white 
 ImageChange DrawRain(int num_streaks);      ///< others in each image
 
 // Of the pairs.
-PairChange Freeze(cv::Mat StereoImages::*eye, const PairRange& pairs);
-PairChange Blacken(cv::Mat StereoImages::*eye, const PairRange& pairs);
-PairChange SwapEyes(const PairRange& pairs);
+PairChange Freeze(cv::Mat StereoImages::*side, const PairRange& pairs);
+PairChange Blacken(cv::Mat StereoImages::*side, const PairRange& pairs);
+PairChange SwapImages(const PairRange& pairs);
 PairChange DelayRight(int num_pairs);
 PairChange ShiftRows(int rows, const PairRange& pairs);  ///< of the right image, down
 PairChange AlternateExposure(double even, double odd);

@@ -27,7 +27,7 @@ struct SimulatedRun {
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;  ///< of `online`, as OdometryUpdate has it
   int num_untracked = 0, num_lost = 0;                   ///< of them without any pose
   int num_keyframes = 0, num_loops = 0;
-  std::optional<EyeSkew> skew;          ///< as the last frame had it
+  std::optional<StereoSkew> skew;       ///< as the last frame had it
   CorrectionBelief learnt;              ///< at the end
   uint32_t epoch = 0;                   ///< of the last frame; the first is 1
   std::vector<double> frame_ms;         ///< of each

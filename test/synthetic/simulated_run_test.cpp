@@ -44,7 +44,7 @@ TEST(SimulatedRun, NoFrameIsLostAndTheDriftIsSmallWithNoiseAndOutliers) {
   EXPECT_LT(run.OnlineError().brief.translation_percent, 0.5);
 }
 
-TEST(SimulatedRun, ASkewBetweenTheEyesIsFoundAndMadeUpFor) {
+TEST(SimulatedRun, ASkewBetweenTheCamerasIsFoundAndMadeUpFor) {
   SimulatedRunOptions options;
   EXPECT_FALSE(RunSimulated(kCamera, BentPath(40), options, OnlineOnly()).skew);
   for (const double skew_s : {0.004, -0.01}) {
@@ -59,11 +59,11 @@ TEST(SimulatedRun, ASkewBetweenTheEyesIsFoundAndMadeUpFor) {
 }
 
 TEST(SimulatedRun, WhereAllIsFarTheHeadingIsKnownAndThePlaceIsSaidNotToBe) {
-  StereoCamera close_eyes = kCamera;
-  close_eyes.baseline_m = 0.005;  // depths of 4..100 m are then 0.9..0.04 px
+  StereoCamera near_cameras = kCamera;
+  near_cameras.baseline_m = 0.005;  // depths of 4..100 m are then 0.9..0.04 px
   SimulatedRunOptions options;
   options.simulator.noise_px = 0.3;
-  const SimulatedRun run = RunSimulated(close_eyes, BentPath(40), options, OnlineOnly());
+  const SimulatedRun run = RunSimulated(near_cameras, BentPath(40), options, OnlineOnly());
   EXPECT_EQ(run.num_lost, 0);
   const Rigid3 error = run.online.back().Inverse() * run.truth.back();
   EXPECT_LT(LogSO3(error.rotation).norm(), 0.002);

@@ -87,7 +87,7 @@ struct BundleResult {
 /// Moves the free poses, the points and the stereo correction's coefficients k to the least of
 ///   sum_i rho(|r_i|^2) + sum_c e_c^T Omega_c e_c + |k|^2 / sigma^2
 /// with r the reprojection errors (ReprojectionTerm), e the errors of the constraints with
-/// information Omega. Points that cannot be placed (seen once and by the left eye alone) take no
+/// information Omega. Points that cannot be placed (seen once and by the left camera alone) take no
 /// part. Repeatable to the last bit.
 /// Throws std::invalid_argument for wrong options and by BundleProblem::Check.
 BundleResult AdjustBundle(BundleProblem problem, const BundleOptions& options,

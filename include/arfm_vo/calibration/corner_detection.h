@@ -38,7 +38,8 @@ void RefineCorners(const cv::Mat& grey, cv::Size size, BoardCorners& corners);
 
 /// `right` in the order in which it names the same physical corners as `left`. A board that looks
 /// the same after a half turn (a quarter turn where it is square) has no order of its own; the one
-/// that turns the grid least from eye to eye is taken: eyes are less than 90 (45) degrees apart.
+/// that turns the grid least from camera to camera is taken: cameras are less than 90 (45) degrees
+/// apart.
 BoardCorners AlignOrder(const BoardCorners& left, const BoardCorners& right, cv::Size size);
 
 /// As a mirror (u -> width - 1 - u) would show the corners, in the order of BoardCorners.

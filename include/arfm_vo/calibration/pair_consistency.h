@@ -2,15 +2,17 @@
 
 #include <vector>
 
-#include "arfm_vo/calibration/eye.h"
+#include "arfm_vo/calibration/single_camera.h"
 #include "arfm_vo/calibration/stereo_calibration.h"
 
 namespace arfm_vo {
 
-/// For each pair how far, in px rms, the right corners lie from where the left eye's board pose and
-/// the one relative pose that suits most pairs put them. Shows boards that moved between the eyes'
-/// exposures, pairs of different moments and mirrored eyes, all of which each eye alone finds good.
-std::vector<double> MeasureConsistency(const EyeCalibration& left, const EyeCalibration& right,
+/// For each pair how far, in px rms, the right corners lie from where the left camera's board pose
+/// and the one relative pose that suits most pairs put them. Shows boards that moved between the
+/// cameras' exposures, pairs of different moments and mirrored cameras, all of which each camera
+/// alone finds good.
+std::vector<double> MeasureConsistency(const SingleCalibration& left,
+                                       const SingleCalibration& right,
                                        const std::vector<CornerPair>& pairs,
                                        const Chessboard& board);
 

@@ -9,7 +9,7 @@ namespace arfm_vo {
 
 struct DetectedPairs {
   cv::Size image_size;
-  std::vector<CornerPair> pairs;      ///< in which both eyes see the whole board
+  std::vector<CornerPair> pairs;      ///< in which both cameras see the whole board
   std::vector<LeftOutPair> left_out;  ///< the others
 };
 

@@ -10,15 +10,15 @@
 
 namespace arfm_vo {
 
-/// How an eye is turned, as camera_info has it.
-struct RectifiedEye {
-  cv::Matx33d rotation;    ///< R, rectified from eye
-  cv::Matx34d projection;  ///< P, of the right eye [0, 3] = -fx * baseline, px m
+/// How a camera is turned, as camera_info has it.
+struct RectifiedCamera {
+  cv::Matx33d rotation;    ///< R, rectified from camera
+  cv::Matx34d projection;  ///< P, of the right camera [0, 3] = -fx * baseline, px m
 };
 
-/// Turns both eyes so that rows agree.
+/// Turns both cameras so that rows agree.
 struct Rectification {
-  RectifiedEye left, right;
+  RectifiedCamera left, right;
 
   StereoCamera Camera(cv::Size image_size) const;
 };
@@ -30,12 +30,13 @@ Rectification Rectify(const StereoCalibration& calibration, double alpha = 0);
 std::vector<double> MeasureRowResiduals(const StereoCalibration& calibration,
                                         const Rectification& rectification);
 
-/// A rectified image of the eye, bilinear.
-cv::Mat RectifyImage(const cv::Mat& image, const Eye& eye, const RectifiedEye& rectified);
+/// A rectified image of the camera, bilinear.
+cv::Mat RectifyImage(const cv::Mat& image, const SingleCamera& camera,
+                     const RectifiedCamera& rectified);
 
-/// One eye's calibration as the YAML text that camera_calibration_parsers reads.
-std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size, const Eye& eye,
-                             const RectifiedEye& rectified);
+/// One camera's calibration as the YAML text that camera_calibration_parsers reads.
+std::string FormatCameraInfo(const std::string& camera_name, cv::Size image_size,
+                             const SingleCamera& camera, const RectifiedCamera& rectified);
 
 /// Writes left.yaml and right.yaml to `folder`; std::system_error naming the file that fails.
 void WriteCameraInfos(const std::filesystem::path& folder, const StereoCalibration& calibration,

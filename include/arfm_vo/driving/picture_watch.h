@@ -16,7 +16,7 @@ struct Picture {
 };
 
 /// Judges the camera by its pictures: whether they come, whether its automatic exposure has settled
-/// since it was switched on, and whether both eyes see.
+/// since it was switched on, and whether both cameras see.
 class PictureWatch {
  public:
   /// A camera that gave no picture for longer than `max_age_s` was switched on anew.
@@ -27,7 +27,7 @@ class PictureWatch {
   /// True too where nobody tells of pictures. Once settled it stays so: when the rover drives, what
   /// it sees changes the grey as well.
   bool HasSettled() const { return pictures_.empty() || has_settled_; }
-  /// Camera, exposure and both eyes.
+  /// Camera, exposure and both cameras.
   std::vector<CheckLine> Check(double now_s) const;
 
  private:

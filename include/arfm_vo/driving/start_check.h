@@ -7,8 +7,8 @@ namespace arfm_vo {
 
 /// What is looked at before a rover is started.
 inline constexpr const char* kCheckItems[] = {
-    "emergency_stop", "operator", "chassis",   "brake",       "battery", "clock",
-    "camera",         "exposure", "both_eyes", "calibration", "head"};
+    "emergency_stop", "operator", "chassis",      "brake",       "battery", "clock",
+    "camera",         "exposure", "both_cameras", "calibration", "head"};
 
 /// The answer for one of them.
 struct CheckLine {

@@ -5,9 +5,9 @@
 
 namespace arfm_vo {
 
-/// A rectified stereo pair of pinhole cameras (eq 1) with the same intrinsics; the right eye sits
-/// `baseline_m` along +x of the left one. Camera frame: x right, y down, z forward; pixel (0, 0) is
-/// the centre of the top left pixel.
+/// A rectified stereo pair of pinhole cameras (eq 1) with the same intrinsics; the right camera
+/// sits `baseline_m` along +x of the left one. Camera frame: x right, y down, z forward; pixel (0,
+/// 0) is the centre of the top left pixel.
 struct StereoCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
   double baseline_m = 0;

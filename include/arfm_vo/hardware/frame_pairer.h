@@ -7,7 +7,7 @@
 
 namespace arfm_vo {
 
-enum class StereoEye { kLeft, kRight };
+enum class StereoSide { kLeft, kRight };
 
 struct FramePair {
   VideoFrame left, right;
@@ -15,33 +15,34 @@ struct FramePair {
   double SkewS() const { return right.stamp_s - left.stamp_s; }
 };
 
-/// Puts together the frames that both eyes took at one time, by their stamps: two frames that are
-/// at most `max_skew_s` apart. With T the true time between frames, no pair is wrong while each
-/// stamp is off by less than (T - max_skew_s) / 2, the eyes' real skew included: frames of
-/// different moments then are further apart. Frames of one eye that follow each other within 2
+/// Puts together the frames that both cameras took at one time, by their stamps: two frames that
+/// are at most `max_skew_s` apart. With T the true time between frames, no pair is wrong while each
+/// stamp is off by less than (T - max_skew_s) / 2, the cameras' real skew included: frames of
+/// different moments then are further apart. Frames of one camera that follow each other within 2
 /// max_skew_s, so that they could share a partner, show that this does not hold: they are ambiguous
-/// and get none. An eye's first frame, of which that is not known, is not used. Each eye's frames
-/// must come in the order of their stamps; one that goes back in time forgets those that wait.
+/// and get none. A camera's first frame, of which that is not known, is not used. Each camera's
+/// frames must come in the order of their stamps; one that goes back in time forgets those that
+/// wait.
 class FramePairer {
  public:
   explicit FramePairer(double max_skew_s) : max_skew_s_(max_skew_s) {}
 
   /// The pair that this frame completes, if it does. Its older, lonely frames are counted.
-  std::optional<FramePair> Add(StereoEye eye, VideoFrame frame);
+  std::optional<FramePair> Add(StereoSide side, VideoFrame frame);
   /// Forgets the frames that wait, as after a device was opened anew.
   void Clear();
 
-  int num_unpaired(StereoEye eye) const { return num_unpaired_[Index(eye)]; }
-  /// Of both eyes' unpaired frames, those that came too close after one of the same eye.
+  int num_unpaired(StereoSide side) const { return num_unpaired_[Index(side)]; }
+  /// Of both cameras' unpaired frames, those that came too close after one of the same camera.
   int num_ambiguous() const { return num_ambiguous_; }
   /// right stamp - left stamp of frames that were too far apart: of the last two (a frame has a
   /// neighbour before and one after it) the smaller; 0 before any.
   double rejected_skew_s() const;
 
  private:
-  static int Index(StereoEye eye) { return eye == StereoEye::kLeft ? 0 : 1; }
-  void DropOldest(int eye);
-  bool HasOwnMoment(int eye, double stamp_s);
+  static int Index(StereoSide side) { return side == StereoSide::kLeft ? 0 : 1; }
+  void DropOldest(int side);
+  bool HasOwnMoment(int side, double stamp_s);
   std::optional<FramePair> TakePair();
 
   const double max_skew_s_;

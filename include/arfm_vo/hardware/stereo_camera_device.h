@@ -19,7 +19,7 @@ struct StereoCameraOptions {
   std::string right_device = "/dev/video1";  ///< empty: left_device shows both side by side
   VideoOptions video;
   double max_skew_s = 0.004;   ///< between the stamps of a pair: see FramePairer
-  double frame_timeout_s = 1;  ///< an eye that is silent for longer is opened anew
+  double frame_timeout_s = 1;  ///< a camera that is silent for longer is opened anew
   BackoffOptions reopen;
 
   bool IsSideBySide() const { return right_device.empty(); }
@@ -37,10 +37,10 @@ struct StereoCameraStatus {
   double max_skew_s = 0;       ///< largest absolute one so far
   double rejected_skew_s = 0;  ///< of the last frames that were too far apart to be a pair
   int num_pairs = 0, num_unpaired_left = 0, num_unpaired_right = 0;
-  int num_ambiguous = 0;  ///< of the unpaired: too close after another frame of the same eye
+  int num_ambiguous = 0;  ///< of the unpaired: too close after another frame of the same camera
   int num_dropped = 0, num_corrupted = 0, num_stamped_late = 0;
   int num_failures = 0, num_opened = 0;
-  std::optional<Exposure> exposure;  ///< of the left eye
+  std::optional<Exposure> exposure;  ///< of the left camera
 };
 
 /// What the camera needs of the machine.
@@ -55,8 +55,8 @@ struct VideoEnvironment {
   static VideoEnvironment Kernel();
 };
 
-/// Two eyes as one camera: pairs frames, and where a device fails or falls silent closes both and
-/// opens them again after growing waits. Not for several threads at once.
+/// Two cameras as one camera: pairs frames, and where a device fails or falls silent closes both
+/// and opens them again after growing waits. Not for several threads at once.
 class StereoCameraDevice {
  public:
   StereoCameraDevice(const StereoCameraOptions& options, VideoEnvironment environment);
@@ -68,7 +68,7 @@ class StereoCameraDevice {
   const StereoCameraStatus& status() const { return status_; }
 
  private:
-  struct Eye {
+  struct Camera {
     std::unique_ptr<VideoDevice> device;
     double last_frame_s = 0;
   };
@@ -77,19 +77,19 @@ class StereoCameraDevice {
   void Close(const std::string& problem);
   std::optional<FramePair> Capture(double timeout_s);
   void ReadDevices(double timeout_s);
-  std::optional<FramePair> Take(StereoEye eye, VideoFrame frame);
+  std::optional<FramePair> Take(StereoSide side, VideoFrame frame);
   void CheckSilence();
   void CopyExposure();
   void UpdateCounts();
-  std::string Name(size_t eye) const;
+  std::string Name(size_t side) const;
 
   const StereoCameraOptions options_;
   const VideoEnvironment environment_;
   Backoff backoff_;
   FramePairer pairer_;
   RateMeter rate_;
-  std::vector<Eye> eyes_;  ///< one where side by side
-  VideoCounts closed_;     ///< of devices that are closed
+  std::vector<Camera> cameras_;  ///< one where side by side
+  VideoCounts closed_;           ///< of devices that are closed
   std::deque<FramePair> ready_;
   double exposure_copied_s_ = 0;
   StereoCameraStatus status_;

@@ -9,10 +9,10 @@
 
 namespace arfm_vo {
 
-/// What is asked of a video device; of both eyes the same.
+/// What is asked of a video device; of both cameras the same.
 struct VideoOptions {
   std::string pixel_format = "GREY";  ///< or YUYV, UYVY, NV12, MJPG, or Bayer's
-  int width = 640, height = 480;      ///< px, of an eye
+  int width = 640, height = 480;      ///< px, of a camera
   double rate_hz = 10;                ///< frames a second
   double exposure_s = 0;              ///< 0: automatic
   int gain = -1;                      ///< in the device's unit; -1: the device's own
@@ -44,7 +44,7 @@ struct VideoCounts {
   int num_stamped_late = 0;
 };
 
-/// Exposure time and gain as one eye has them, to be copied to the other.
+/// Exposure time and gain as one camera has them, to be copied to the other.
 struct Exposure {
   double time_s = 0;
   std::optional<int> gain;

@@ -42,12 +42,13 @@ class LandmarkAligner {
   void SetCorrection(const StereoCorrection& correction) { correction_ = correction; }
   /// How the camera moves from the left picture to a right one that is late or early: right pixels
   /// are measured there and moved to where they would be without.
-  void SetMotionBetweenEyes(const Rigid3& later_from_now) { later_from_now_ = later_from_now; }
+  void SetMotionBetweenImages(const Rigid3& later_from_now) { later_from_now_ = later_from_now; }
 
  private:
-  /// SourceFromTarget for an eye at `eye_from_world`, where it does not change the size too much.
+  /// SourceFromTarget for a camera at `camera_from_world`, where it does not change the size too
+  /// much.
   std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
-                                      const Rigid3& eye_from_world) const;
+                                      const Rigid3& camera_from_world) const;
 
   StereoCamera camera_;
   StereoCorrection correction_;

@@ -73,7 +73,7 @@ class LocalMap {
   void RemoveObservation(KeyframeId keyframe, LandmarkId landmark);
   /// The right camera has turned since the keyframe before the newest.
   void Turn(const RightTurn& turn) { keyframes_.back().right_turn = turn; }
-  /// Forgets what the right eye saw in the keyframes before this one.
+  /// Forgets what the right camera saw in the keyframes before this one.
   void ForgetRight(KeyframeId before);
   /// Applies `new_from_old` to the whole map: all poses and points.
   void Transform(const Rigid3& new_from_old);

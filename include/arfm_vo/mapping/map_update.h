@@ -33,7 +33,7 @@ struct MapUpdate {
 /// Moves keyframes and landmarks to where a global adjustment found them, against the newest
 /// keyframe that both know, which it returns: that one stays where it is. Null, and nothing moves,
 /// where there is none. Keyframes before the first of the update's, and before the newest
-/// `num_keyframes`, are of another correction: what their right eye saw is forgotten.
+/// `num_keyframes`, are of another correction: what their right camera saw is forgotten.
 const Keyframe* ApplyMapUpdate(const MapUpdate& update, LocalMap& map);
 
 }  // namespace arfm_vo

@@ -35,7 +35,7 @@ struct SeenPoint {
   Appearance appearance;
   PointObservation observation;  ///< where; its x_in_world is not known
 };
-/// All keypoints of a frame; those that both eyes see in both.
+/// All keypoints of a frame; those that both cameras see in both.
 std::vector<SeenPoint> PointsSeen(const StereoCamera& camera, const StereoCorrection& correction,
                                   const StereoFrame& frame);
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "arfm_vo/mapping/landmark.h"
-#include "arfm_vo/odometry/eye_skew.h"
 #include "arfm_vo/odometry/reason.h"
+#include "arfm_vo/odometry/stereo_skew.h"
 #include "arfm_vo/pose/pose_estimate.h"
 
 namespace arfm_vo {
@@ -30,7 +30,7 @@ struct OdometryUpdate {
   bool is_keyframe = false;
   bool is_relocalised = false;        ///< found among keyframes that had left the local map
   LandmarkObservations observations;  ///< of the map's landmarks that agree with the pose
-  std::optional<EyeSkew> skew;        ///< where the right picture is late or early, and made up for
+  std::optional<StereoSkew> skew;     ///< where the right picture is late or early, and made up for
   double median_row_residual_px = 0;  ///< v_right - v_left of the stereo points: calibration health
   StageTimes stage_ms;
   /// What the motion is told by where no picture measured it.

@@ -38,8 +38,8 @@ struct FrontendOptions {
   ARFM_FIELDS(surf, stereo, left_mask)
 };
 
-/// ARFM: from a stereo pair to the left image's features and the points that both eyes see
-/// (layers image to reconstruction). What arfm_node runs. Both eyes are worked on in parallel.
+/// ARFM: from a stereo pair to the left image's features and the points that both cameras see
+/// (layers image to reconstruction). What arfm_node runs. Both cameras are worked on in parallel.
 class StereoFrontend {
  public:
   /// Throws std::invalid_argument where the camera, an option or the mask's file is wrong.

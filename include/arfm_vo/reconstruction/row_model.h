@@ -30,7 +30,7 @@ class RowModel {
   /// Robust standard deviation of the newest samples from the model, px; 0 before the first.
   double spread_px() const { return spread_px_; }
   /// How far the newest pair's rows are off the model as a whole, px (median): a bump between the
-  /// exposures of the eyes, which the model does not follow at once. Zero below 0.3 px.
+  /// exposures of the cameras, which the model does not follow at once. Zero below 0.3 px.
   double shift_px() const { return shift_px_; }
   /// True once enough samples have been seen for the model to be trusted.
   bool IsLearnt() const { return num_samples_ >= kMinSamples; }

@@ -17,7 +17,8 @@ struct StereoPoint {
   Eigen::Vector3d x_in_camera = Eigen::Vector3d::Zero();  ///< m, left camera frame
   /// d disparity / d(u_left, v): how the surface slants; zero where it faces the camera.
   Eigen::Vector2d disparity_gradient = Eigen::Vector2d::Zero();
-  /// False: placed by motion, from the left eye alone; u_right is where the right one would see it.
+  /// False: placed by motion, from the left camera alone; u_right is where the right one would see
+  /// it.
   bool has_right = true;
 };
 using StereoPoints = std::vector<StereoPoint>;

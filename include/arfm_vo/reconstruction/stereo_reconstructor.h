@@ -64,7 +64,7 @@ class StereoReconstructor {
   double row_agreement() const { return row_agreement_; }
   /// Whether left and right of the last pair fit better in exchange. Looked for among matches near
   /// rows (`guided`) only, where few are found.
-  bool eyes_are_swapped() const { return eyes_are_swapped_; }
+  bool images_are_swapped() const { return images_are_swapped_; }
 
  private:
   /// A left keypoint found in the right image.
@@ -96,7 +96,7 @@ class StereoReconstructor {
   RowModel row_model_;
   RowSearch row_search_;
   double row_agreement_ = 1;
-  bool eyes_are_swapped_ = false;
+  bool images_are_swapped_ = false;
 };
 
 }  // namespace arfm_vo

@@ -57,17 +57,18 @@ class BoardRenderer {
   std::vector<Eigen::Vector2d> rays_;  ///< normalised, of the pixels: [height+1 x width+1]
 };
 
-/// Two eyes as they are before calibration.
+/// Two cameras as they are before calibration.
 struct BoardRig {
   DistortedCamera left, right;
   Rigid3 right_from_left;
 
-  /// Two eyes of 1624 x 1234 pixels 0.24 m apart with small faults of mounting, scaled to a width.
+  /// Two cameras of 1624 x 1234 pixels 0.24 m apart with small faults of mounting, scaled to a
+  /// width.
   static BoardRig Make(int width = 1624);
   double BaselineM() const { return right_from_left.translation.norm(); }
 };
 
-/// Seeded poses left_from_board, all of the board in sight of both eyes, in all parts of the
+/// Seeded poses left_from_board, all of the board in sight of both cameras, in all parts of the
 /// picture, 25 to 80 % of its width wide, tilted up to `max_tilt_deg` every way.
 std::vector<Rigid3> DrawBoardPoses(const BoardRig& rig, const BoardPattern& pattern, int num_poses,
                                    double max_tilt_deg, int seed);

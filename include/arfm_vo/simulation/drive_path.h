@@ -36,7 +36,7 @@ std::vector<Eigen::Vector2d> FollowPath(const PlanarPath& path, double beyond_m)
 /// Where the tracks touch the ground and where the camera sits on the rover.
 struct RoverShape {
   double track_length_m = 0.9, track_gauge_m = 0.6;      ///< on the ground, between the middles
-  double camera_height_m = 1.0, camera_forward_m = 0.2;  ///< of the left eye, from the base
+  double camera_height_m = 1.0, camera_forward_m = 0.2;  ///< of the left camera, from the base
   double camera_left_m = 0.1;   ///< of the left camera from the base's middle
   double camera_tilt_deg = 17;  ///< downward
 
@@ -71,8 +71,8 @@ PlaceOnGround GroundOf(const Terrain& terrain, const RoverShape& shape);
 /// The slope of the ground under a rover that stands so, degrees.
 double SlopeOf(const Rigid3& world_from_base);
 
-/// The left eye (x right, y down, z ahead) with the head panned to the left and tilted downward
+/// The left camera (x right, y down, z ahead) with the head panned to the left and tilted downward
 /// from its place of rest.
-Rigid3 BaseFromLeftEye(const RoverShape& shape, double pan_rad = 0, double tilt_rad = 0);
+Rigid3 BaseFromLeftCamera(const RoverShape& shape, double pan_rad = 0, double tilt_rad = 0);
 
 }  // namespace arfm_vo

@@ -23,7 +23,7 @@ struct SceneOptions {
   int width = 0, height = 0;  ///< px; 0: as the path's camera has it
   double noise_grey_levels = 1;
   double margin_m = 40;  ///< of ground with rocks and full detail around the path
-  /// A fault of rectification: what the right eye sees is turned by this rotation vector, mrad.
+  /// A fault of rectification: what the right camera sees is turned by this rotation vector, mrad.
   double right_x_mrad = 0, right_y_mrad = 0, right_z_mrad = 0;
   /// The head sweeps through so much: pan once to the left and the right, tilt twice down and up.
   double sweep_pan_deg = 0, sweep_tilt_deg = 0;
@@ -43,13 +43,13 @@ class Scene {
   const StereoCamera& camera() const { return camera_; }
   const Terrain& terrain() const { return *terrain_; }
   double Stamp(int pair) const { return 0.1 * pair; }
-  /// The left eye in the terrain's frame.
+  /// The left camera in the terrain's frame.
   const Rigid3& WorldFromLeft(int pair) const { return world_from_left_.at(pair); }
-  /// The left eye in the frame of the first pair's left eye: the ground truth.
+  /// The left camera in the frame of the first pair's left camera: the ground truth.
   Rigid3 FirstFromLeft(int pair) const {
     return world_from_left_.front().Inverse() * world_from_left_.at(pair);
   }
-  /// The left eye on the base, at any time; the head moves in between the pairs too.
+  /// The left camera on the base, at any time; the head moves in between the pairs too.
   Rigid3 BaseFromLeft(double stamp_s) const;
   /// The base in its own frame at the first pair: the ground truth.
   Rigid3 FirstFromBase(int pair) const {

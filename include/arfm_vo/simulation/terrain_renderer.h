@@ -38,14 +38,14 @@ class TerrainRenderer {
   /// `terrain` must outlive the renderer.
   TerrainRenderer(const Terrain& terrain, const RenderOptions& options);
 
-  /// The view of the left eye of `camera` (its baseline plays no part). `bodies` are moving things:
-  /// they are seen and cast shadows.
+  /// The view of the left camera of `camera` (its baseline plays no part). `bodies` are moving
+  /// things: they are seen and cast shadows.
   RenderedView Trace(const StereoCamera& camera, const Rigid3& world_from_camera,
                      const std::vector<Solid>& bodies = {}) const;
   /// The same as an 8 bit picture; `image_id` selects the noise.
   cv::Mat Render(const StereoCamera& camera, const Rigid3& world_from_camera, uint32_t image_id,
                  const std::vector<Solid>& bodies = {}) const;
-  /// Both eyes; the noise is that of images 2 * pair_id and 2 * pair_id + 1.
+  /// Both cameras; the noise is that of images 2 * pair_id and 2 * pair_id + 1.
   StereoImages RenderPair(const StereoCamera& camera, const Rigid3& world_from_left,
                           uint32_t pair_id, double stamp_s,
                           const std::vector<Solid>& bodies = {}) const;
@@ -55,7 +55,7 @@ class TerrainRenderer {
   RenderOptions options_;
 };
 
-/// The pose of the right eye of a stereo camera whose left eye is at `world_from_left`.
-Rigid3 RightEyePose(const StereoCamera& camera, const Rigid3& world_from_left);
+/// The pose of the right camera of a stereo camera whose left camera is at `world_from_left`.
+Rigid3 RightCameraPose(const StereoCamera& camera, const Rigid3& world_from_left);
 
 }  // namespace arfm_vo

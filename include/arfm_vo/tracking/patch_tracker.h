@@ -62,8 +62,8 @@ class PatchTracker {
   /// Takes the right image's displacement into account from now on. Observations stay as measured.
   void SetCorrection(const StereoCorrection& correction);
   /// See LandmarkAligner.
-  void SetMotionBetweenEyes(const Rigid3& later_from_now) {
-    aligner_.SetMotionBetweenEyes(later_from_now);
+  void SetMotionBetweenImages(const Rigid3& later_from_now) {
+    aligner_.SetMotionBetweenImages(later_from_now);
   }
 
  private:

@@ -200,7 +200,7 @@ StereoFrameStamped ToMessage(const StereoFrame& frame, const StereoCamera& camer
     }
   }
   ARFM_COPY_FIELDS(message, frame, num_right_keypoints, left_is_repeated, right_is_repeated,
-                   eyes_are_swapped, row_agreement, ratio_threshold)
+                   images_are_swapped, row_agreement, ratio_threshold)
   message.grey_mean = frame.grey.mean;
   message.grey_variance = frame.grey.variance;
   return message;
@@ -215,7 +215,7 @@ StereoFrame FromMessage(const StereoFrameStamped& message) {
     frame.points = ImportPoints(message);
   });
   ARFM_COPY_FIELDS(frame, message, num_right_keypoints, left_is_repeated, right_is_repeated,
-                   eyes_are_swapped, row_agreement, ratio_threshold)
+                   images_are_swapped, row_agreement, ratio_threshold)
   frame.grey = {message.grey_mean, message.grey_variance};
   return frame;
 }

@@ -18,7 +18,7 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-/// camera_info of a rectified eye (REP-104); `p3` = -fx * baseline on the right one.
+/// camera_info of a rectified camera (REP-104); `p3` = -fx * baseline on the right one.
 sensor_msgs::CameraInfo MakeInfo(const StereoCamera& camera, const std_msgs::Header& header,
                                  double p3) {
   sensor_msgs::CameraInfo info;
@@ -45,19 +45,20 @@ sensor_msgs::ImageConstPtr ToLittleEndian(const sensor_msgs::ImageConstPtr& mess
   return swapped;
 }
 
-void CheckEye(const sensor_msgs::CameraInfo& info, const std::string& eye) {
+void CheckSide(const sensor_msgs::CameraInfo& info, const std::string& side) {
   const bool is_finite =
       std::all_of(info.P.begin(), info.P.end(), [](double value) { return std::isfinite(value); });
-  Require(is_finite, eye + " camera_info: P holds a value that is not finite");
-  Require(info.P[0] > 0 && info.P[5] > 0,
-          Format("%s camera_info: the focal lengths in P are %g and %g: this eye is not calibrated",
-                 eye.c_str(), info.P[0], info.P[5]));
+  Require(is_finite, side + " camera_info: P holds a value that is not finite");
+  Require(
+      info.P[0] > 0 && info.P[5] > 0,
+      Format("%s camera_info: the focal lengths in P are %g and %g: this camera is not calibrated",
+             side.c_str(), info.P[0], info.P[5]));
   Require(info.P[1] == 0 && info.P[4] == 0,
-          eye + " camera_info: P has skew: the pair is not rectified");
+          side + " camera_info: P has skew: the pair is not rectified");
   Require(info.binning_x <= 1 && info.binning_y <= 1,
-          eye + " camera_info: binning is not supported, scale P and the size instead");
+          side + " camera_info: binning is not supported, scale P and the size instead");
   Require(info.roi.x_offset == 0 && info.roi.y_offset == 0,
-          eye + " camera_info: a region of interest is not supported, shift P instead");
+          side + " camera_info: a region of interest is not supported, shift P instead");
 }
 
 }  // namespace
@@ -102,8 +103,8 @@ cv::Mat ToGrey(const sensor_msgs::ImageConstPtr& message, const std::string& top
 
 StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
                               const sensor_msgs::CameraInfo& right) {
-  CheckEye(left, "left");
-  CheckEye(right, "right");
+  CheckSide(left, "left");
+  CheckSide(right, "right");
   Require(left.width == right.width && left.height == right.height,
           Format("camera_info: the left image is %ux%u, the right one %ux%u: both must publish one "
                  "size",

@@ -30,7 +30,7 @@ std::string WhatToDoWhenLost(const StereoFrame& frame, const SessionUpdate& pose
     return counts + "is the image dark, blurred or without texture (light, exposure, lens cap)?";
   if (num_points * 10 < num_features)
     return counts +
-           "left and right do not fit: are the images rectified (rectify:=true), the eyes not "
+           "left and right do not fit: are the images rectified (rectify:=true), the cameras not "
            "swapped, and taken at the same time?";
   return counts + "is the motion too fast for the rate of the images?";
 }
@@ -45,7 +45,7 @@ std::string FindProblem(const StereoFrame& frame, const SessionUpdate& pose) {
 }
 
 /// Empty where there is none.
-std::string Describe(const std::optional<EyeSkew>& skew) {
+std::string Describe(const std::optional<StereoSkew>& skew) {
   if (!skew) return "";
   return Format("the right picture is taken %.1f ms %s the left one (sigma %.1f)",
                 1e3 * std::abs(skew->s), skew->s > 0 ? "after" : "before", 1e3 * skew->sigma_s);

@@ -175,10 +175,10 @@ bool SimulatorNode::HasHeadMoved() {
 }
 
 Rigid3 SimulatorNode::BaseFromCamera() const {
-  if (!head_) return BaseFromLeftEye(options_.shape);
-  // The unit tilts upward, BaseFromLeftEye downward.
-  return BaseFromLeftEye(options_.shape, head_->Angle(PtuAxis::kPan),
-                         -head_->Angle(PtuAxis::kTilt));
+  if (!head_) return BaseFromLeftCamera(options_.shape);
+  // The unit tilts upward, BaseFromLeftCamera downward.
+  return BaseFromLeftCamera(options_.shape, head_->Angle(PtuAxis::kPan),
+                            -head_->Angle(PtuAxis::kTilt));
 }
 
 void SimulatorNode::TakePair() {

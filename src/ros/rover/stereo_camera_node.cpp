@@ -13,7 +13,7 @@ namespace {
 constexpr double kStep_s = 0.1;
 constexpr double kReport_s = 1;
 constexpr double kMinRateShare = 0.8;      ///< of the rate asked for; fewer pairs are a warning
-constexpr double kMaxUnpairedShare = 0.1;  ///< of an eye's frames since the last report; as well
+constexpr double kMaxUnpairedShare = 0.1;  ///< of a camera's frames since the last report; as well
 /// A stereo camera's baseline is shorter, m.
 constexpr double kMaxBaseline_m = 10;
 
@@ -33,11 +33,11 @@ std::string WhyNoPairs(const StereoCameraStatus& status, const StereoCameraStatu
   const bool has_right = status.num_unpaired_right > before.num_unpaired_right;
   if (status.num_ambiguous > before.num_ambiguous)
     return Format(
-        "frames of one eye come within %.1f ms, as two for one partner (max_skew_s is %.1f ms): "
+        "frames of one camera come within %.1f ms, as two for one partner (max_skew_s is %.1f ms): "
         "its rate is higher than asked, or its stamps are wrong",
         2e3 * camera.max_skew_s, 1e3 * camera.max_skew_s);
   if (has_left && has_right)
-    return Format("the eyes' frames are %.1f ms apart (max_skew_s is %.1f ms)",
+    return Format("the cameras' frames are %.1f ms apart (max_skew_s is %.1f ms)",
                   1e3 * status.rejected_skew_s, 1e3 * camera.max_skew_s);
   return "";
 }
@@ -68,10 +68,10 @@ void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& be
   if (!why_none.empty()) return diagnostics.summary(Diagnostics::ERROR, "no pairs: " + why_none);
   if (!status.problem.empty()) return diagnostics.summary(Diagnostics::ERROR, status.problem);
   if (!has_pairs && share > 0)
-    return diagnostics.summary(Diagnostics::ERROR, "no pairs: frames come from one eye alone");
+    return diagnostics.summary(Diagnostics::ERROR, "no pairs: frames come from one camera alone");
   if (!has_pairs) return diagnostics.summary(Diagnostics::WARN, "no pairs since the last report");
   if (share > kMaxUnpairedShare)
-    return diagnostics.summaryf(Diagnostics::WARN, "%.0f %% of an eye's frames have no partner",
+    return diagnostics.summaryf(Diagnostics::WARN, "%.0f %% of a camera's frames have no partner",
                                 100 * share);
   if (status.rate_hz < kMinRateShare * camera.video.rate_hz)
     return diagnostics.summaryf(Diagnostics::WARN, "%.1f pairs a second, asked are %.1f",
@@ -86,21 +86,22 @@ void ReportCalibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::C
     const bool is_one = IsCalibrated(left) || IsCalibrated(right);
     return diagnostics.summary(
         Diagnostics::WARN,
-        is_one ? std::string(IsCalibrated(left) ? "right" : "left") + " eye is not calibrated"
+        is_one ? std::string(IsCalibrated(left) ? "right" : "left") + " camera is not calibrated"
                : "not calibrated (calibrate_stereo, set_camera_info or left_camera_info_url)");
   }
-  for (const auto& [eye, info] : {std::pair("left", &left), {"right", &right}})
+  for (const auto& [side, info] : {std::pair("left", &left), {"right", &right}})
     if (!HasSize(*info, width, height))
       return diagnostics.summaryf(Diagnostics::ERROR,
-                                  "%s calibration is for %ux%u, pictures are %dx%d: not used", eye,
+                                  "%s calibration is for %ux%u, pictures are %dx%d: not used", side,
                                   info->width, info->height, width, height);
   const double baseline_m = -right.P[3] / right.P[0];
   diagnostics.addf("baseline (m)", "%.4f", baseline_m);
   if (!(baseline_m > 0 && baseline_m < kMaxBaseline_m))
-    return diagnostics.summaryf(Diagnostics::ERROR,
-                                "baseline is %.4g m: P[3] of the right eye must be -fx * baseline "
-                                "in m; are the eyes swapped?",
-                                baseline_m);
+    return diagnostics.summaryf(
+        Diagnostics::ERROR,
+        "baseline is %.4g m: P[3] of the right camera must be -fx * baseline "
+        "in m; are the cameras swapped?",
+        baseline_m);
   diagnostics.summary(Diagnostics::OK, "calibrated");
 }
 

@@ -104,7 +104,7 @@ TEST_F(SessionTest, WhatIsWrongWithThePicturesIsToldAndDoesNotMoveThePose) {
   }
 }
 
-TEST_F(SessionTest, OneEyeTellsThePoseForAWhile) {
+TEST_F(SessionTest, OneCameraTellsThePoseForAWhile) {
   Step(0);
   for (int i = 1; i <= 3; ++i) Step(0.2 * i);
   StereoImages last;

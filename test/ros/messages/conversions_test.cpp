@@ -30,7 +30,7 @@ StereoFrame MakeFrame() {
   frame.points.push_back({2, {12.5, 22.25, 4.0}, -0.75, 1.5, {4, 5, 60}, {0, 0.5}});
   frame.num_right_keypoints = 7;
   frame.right_is_repeated = true;
-  frame.eyes_are_swapped = true;
+  frame.images_are_swapped = true;
   frame.grey = {101.5, 2500.25};
   frame.ratio_threshold = 0.8125;
   return frame;
@@ -93,7 +93,7 @@ TEST(Conversions, AStereoFrameSurvivesTheRoundTripToTheLastBit) {
     EXPECT_EQ(back.points[i].disparity_gradient, frame.points[i].disparity_gradient);
   }
   EXPECT_EQ(back.num_right_keypoints, 7);
-  EXPECT_TRUE(!back.left_is_repeated && back.right_is_repeated && back.eyes_are_swapped);
+  EXPECT_TRUE(!back.left_is_repeated && back.right_is_repeated && back.images_are_swapped);
   EXPECT_EQ(std::tie(back.grey.mean, back.grey.variance), std::make_tuple(101.5, 2500.25));
   EXPECT_EQ(back.ratio_threshold, 0.8125);
   EXPECT_EQ(FromMessage(ToMessage(StereoFrame{}, kCamera)).features.size(), 0);

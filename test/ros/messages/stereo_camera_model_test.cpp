@@ -9,7 +9,7 @@
 namespace arfm_vo {
 namespace {
 
-/// camera_info of an eye of KITTI's shape; `p3` is P[3].
+/// camera_info of a camera of KITTI's shape; `p3` is P[3].
 sensor_msgs::CameraInfo MakeInfo(double p3) {
   sensor_msgs::CameraInfo info;
   info.width = 1226;
@@ -26,7 +26,7 @@ TEST(StereoCameraModel, TakesIntrinsicsFromTheLeftAndTheBaselineFromTheRight) {
               (StereoCamera{700, 710, 600, 180, baseline_m, 1226, 370}));
 }
 
-TEST(StereoCameraModel, SaysWhatIsWrongWithTheEyes) {
+TEST(StereoCameraModel, SaysWhatIsWrongWithTheCameras) {
   using Info = sensor_msgs::CameraInfo;
   const std::pair<const char*, std::function<void(Info&, Info&)>> rows[] = {
       {"P[3] is 0", [](auto&, auto& right) { right.P[3] = 0; }},
@@ -37,7 +37,7 @@ TEST(StereoCameraModel, SaysWhatIsWrongWithTheEyes) {
       {"cx is 600 in the left P and 610", [](auto&, auto& right) { right.P[2] = 610; }},
       {"fy is 710 in the left P and 711", [](auto&, auto& right) { right.P[5] = 711; }},
       {"skew", [](auto& left, auto&) { left.P[1] = 0.5; }},
-      {"left camera_info: the focal lengths in P are 0 and 0: this eye is not calibrated",
+      {"left camera_info: the focal lengths in P are 0 and 0: this camera is not calibrated",
        [](auto& left, auto&) { left.P.fill(0); }},
       {"left image is 1226x370, the right one 1241x370",
        [](auto&, auto& right) { right.width = 1241; }},

@@ -76,9 +76,9 @@ TEST(OdometryHealth, TheRowResidualWarnsAtHalfAPixelAndIsAnErrorAtOne) {
   EXPECT_EQ(LevelOfRows(1.1), DiagnosticStatus::ERROR);
 }
 
-TEST_F(OdometryHealthTest, ASkewBetweenTheEyesIsToldInMilliseconds) {
+TEST_F(OdometryHealthTest, ASkewBetweenTheCamerasIsToldInMilliseconds) {
   SessionUpdate pose = kTracked;
-  pose.update.skew = EyeSkew{-0.0101, 0.0002};
+  pose.update.skew = StereoSkew{-0.0101, 0.0002};
   health_.Count(FrameWithRows(0.3), pose, 1, 0);
   const Wrapper status = Told(&OdometryHealth::ReportCalibration);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
@@ -160,7 +160,7 @@ TEST(OdometryHealth, WhatLastsIsWarnedOfWithItsRemedy) {
                  "Lookup would require extrapolation into the future.",
                  0,
                  {"tf_timeout_s"}},
-                {PoseStatus::kTooFewFeatures, "too few", 0, {"the eyes not swapped"}},
+                {PoseStatus::kTooFewFeatures, "too few", 0, {"the cameras not swapped"}},
                 {PoseStatus::kTooFewMatches, "too few matches", 300, {"too fast"}}};
   for (const auto& [status, text, num_points, told] : kCases) {
     OdometryHealth health;

@@ -86,18 +86,18 @@ TEST(CameraHealth, WhatIsWrongHasItsLevelAndItsReason) {
          s.rejected_skew_s = 0.02;
          s.problem = "no pairs yet";  // as before the first pair
        }},
-      {DiagnosticStatus::ERROR, "from one eye alone",
+      {DiagnosticStatus::ERROR, "from one camera alone",
        [&](Status& s) { without_pairs(s, 10, 0, 0); }},
-      {DiagnosticStatus::ERROR, "right eye gives no frames",
+      {DiagnosticStatus::ERROR, "right camera gives no frames",
        [&](Status& s) {
          without_pairs(s, 10, 0, 0);
-         s.problem = "right eye gives no frames";
+         s.problem = "right camera gives no frames";
        }},
       {DiagnosticStatus::ERROR, "within 8.0 ms", [&](Status& s) { without_pairs(s, 10, 10, 10); }},
       {DiagnosticStatus::WARN, "", [](Status& s) { s.rate_hz = 7.9; }},
       {DiagnosticStatus::WARN, "17 %", [](Status& s) { s.num_unpaired_right = 2; }},  // of 12
-      {DiagnosticStatus::WARN, "left eye: its gain cannot be set",
-       [](Status& s) { s.warning = "left eye: its gain cannot be set"; }}};
+      {DiagnosticStatus::WARN, "left camera: its gain cannot be set",
+       [](Status& s) { s.warning = "left camera: its gain cannot be set"; }}};
   for (const auto& [level, text, spoil] : kCases) {
     Status status = GoodStatus();
     spoil(status);
@@ -124,7 +124,7 @@ TEST(CameraHealth, CalibrationIsWatched) {
     const char* text;
   } rows[] = {{Info(0), Info(0.2), DiagnosticStatus::OK, ""},
               {{}, {}, DiagnosticStatus::WARN, ""},
-              {Info(0), {}, DiagnosticStatus::WARN, "right eye is not calibrated"},
+              {Info(0), {}, DiagnosticStatus::WARN, "right camera is not calibrated"},
               {Info(0), small, DiagnosticStatus::ERROR, "320x480"},
               {Info(0), Info(200), DiagnosticStatus::ERROR, ""},  // in millimetres
               {Info(0), Info(-0.2), DiagnosticStatus::ERROR, "swapped"}};

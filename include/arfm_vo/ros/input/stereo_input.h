@@ -56,7 +56,7 @@ struct StereoMessagePair {
 /// Gives `take` the messages of exactly one stamp.
 StereoCallbacks PairExactly(std::function<void(const StereoMessagePair&)> take);
 
-/// Subscribes to both eyes' images and camera_info for as long as it lives, and counts them.
+/// Subscribes to both cameras' images and camera_info for as long as it lives, and counts them.
 class StereoInput {
  public:
   StereoInput(ros::NodeHandle node, const ros::NodeHandle& private_node,

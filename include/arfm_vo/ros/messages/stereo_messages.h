@@ -22,7 +22,7 @@ struct StereoTopics {
   std::string ground_truth = "/stereo/ground_truth";
 };
 
-/// A pair as messages, all with the same stamp. Both eyes have the left optical frame, as
+/// A pair as messages, all with the same stamp. Both cameras have the left optical frame, as
 /// stereo_image_proc wants it; the truth is in the frame `ground_truth`.
 struct StereoMessages {
   sensor_msgs::Image left, right;  ///< mono8
@@ -46,10 +46,10 @@ cv::Mat ToGrey(const sensor_msgs::ImageConstPtr& message, const std::string& top
                GreyWindow& window);
 
 /// The rectified stereo camera that a pair of camera_info messages describes: intrinsics from P of
-/// the left eye, baseline_m = -P[3] / P[0] of the right eye (REP-104), size of a pixel after
+/// the left camera, baseline_m = -P[3] / P[0] of the right camera (REP-104), size of a pixel after
 /// binning and region of interest as P stands. Throws std::invalid_argument saying what is wrong
-/// and what to do about it: an eye that is not calibrated, P matrices that differ (not rectified),
-/// sizes that differ, left and right swapped, no baseline, a baseline in mm.
+/// and what to do about it: a camera that is not calibrated, P matrices that differ (not
+/// rectified), sizes that differ, left and right swapped, no baseline, a baseline in mm.
 StereoCamera MakeStereoCamera(const sensor_msgs::CameraInfo& left,
                               const sensor_msgs::CameraInfo& right);
 

@@ -47,8 +47,8 @@ std::optional<double> AngleAt(double time_s, const std::optional<PtuReading>& be
 /// A pan-tilt unit in ROS: `cmd` (JointState) in; `joint_states`, `settled` and `refused` out. The
 /// axes are read one after the other; a message has both as they were at the middle of pan's query,
 /// tilt between its readings. (In messages of their own the second would push the first out of
-/// robot_state_publisher's queue of one.) Homing is refused while the rover drives: the eyes would
-/// look elsewhere.
+/// robot_state_publisher's queue of one.) Homing is refused while the rover drives: the cameras
+/// would look elsewhere.
 class PanTiltNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter. A unit that is not there is no error:

@@ -12,14 +12,14 @@
 #include "arfm_vo/hardware/clock_offset.h"
 #include "arfm_vo/hardware/stereo_camera_device.h"
 #include "arfm_vo/ros/node/health.h"
-#include "arfm_vo/ros/rover/camera_eye.h"
+#include "arfm_vo/ros/rover/published_camera.h"
 
 namespace arfm_vo {
 
 struct StereoCameraNodeOptions {
   StereoCameraOptions camera;  ///< its keys stand beside those of the node
   std::string left_camera_info_url, right_camera_info_url;  ///< as camera_info_manager takes them
-  std::string frame_id = "left_camera_optical";             ///< of both eyes' messages
+  std::string frame_id = "left_camera_optical";             ///< of both cameras' messages
 
   void Check() const;
   ARFM_FIELDS((camera), left_camera_info_url, right_camera_info_url, frame_id)
@@ -31,12 +31,12 @@ struct StereoCameraNodeOptions {
 void ReportCamera(const StereoCameraStatus& status, const StereoCameraStatus& before,
                   const StereoCameraOptions& camera, Diagnostics& diagnostics);
 
-/// The calibration of both eyes: WARN where there is none, ERROR where it has another size than the
-/// pictures or a baseline that is none.
+/// The calibration of both cameras: WARN where there is none, ERROR where it has another size than
+/// the pictures or a baseline that is none.
 void ReportCalibration(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
                        int width, int height, Diagnostics& diagnostics);
 
-/// Pairs of a stereo camera as left|right/image_raw and camera_info, both eyes with one stamp.
+/// Pairs of a stereo camera as left|right/image_raw and camera_info, both cameras with one stamp.
 class StereoCameraNode {
  public:
   /// Throws std::invalid_argument naming a wrong parameter. A camera that is not there is no error:
@@ -52,7 +52,7 @@ class StereoCameraNode {
 
   const StereoCameraNodeOptions options_;
   DriveListener drive_;
-  CameraEye left_, right_;
+  PublishedCamera left_, right_;
   // Of the capturing thread:
   StereoCameraDevice camera_;
   ClockOffset clock_;

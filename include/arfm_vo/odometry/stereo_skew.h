@@ -13,7 +13,7 @@ namespace arfm_vo {
 struct OdometryUpdate;
 
 /// How much later than the left picture the right one is taken (earlier: negative).
-struct EyeSkew {
+struct StereoSkew {
   double s = 0, sigma_s = 0;
 };
 
@@ -21,9 +21,9 @@ struct EyeSkew {
 /// left and right rows differ by a field over the image that stays (StereoCorrection); with skew
 /// they differ besides by the skew times the speed at which a point's row moves. Both are estimated
 /// together by least squares over all frames.
-class EyeSkewEstimator {
+class StereoSkewEstimator {
  public:
-  explicit EyeSkewEstimator(const StereoCamera& camera);
+  explicit StereoSkewEstimator(const StereoCamera& camera);
 
   /// Takes the next pair, with the pose that is expected for it.
   void Advance(double stamp_s, const std::optional<PredictedPose>& predicted);
@@ -34,9 +34,9 @@ class EyeSkewEstimator {
   /// known of the skew: a standard deviation, rad, about the camera's axes.
   const Eigen::Vector3d& turn_sigma_rad() const { return turn_sigma_rad_; }
 
-  /// Learns from the pair's pose and what both eyes saw, right pixels moved to where they would be
-  /// without that motion; sets its skew: nothing where it may well be none, that is no more than a
-  /// millisecond, give or take. The pose is degraded where the motion is too large to be made up
+  /// Learns from the pair's pose and what both cameras saw, right pixels moved to where they would
+  /// be without that motion; sets its skew: nothing where it may well be none, that is no more than
+  /// a millisecond, give or take. The pose is degraded where the motion is too large to be made up
   /// for well. Returns by how much the way up to here may be wrong besides, m: that of all before
   /// the skew was found.
   double Learn(const LocalMap& map, OdometryUpdate& update);
@@ -57,7 +57,8 @@ class EyeSkewEstimator {
   /// In `duration_s`, at the speed of the way to `predicted`, or of the last way.
   Rigid3 MotionIn(double duration_s, double stamp_s,
                   const std::optional<PredictedPose>& predicted) const;
-  /// How far the motion moves what the right eye sees of the observed landmarks, px, their median.
+  /// How far the motion moves what the right camera sees of the observed landmarks, px, their
+  /// median.
   double MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const;
   void AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s, double sigma_px);
   void Solve();
@@ -68,9 +69,9 @@ class EyeSkewEstimator {
   Matrix scatter_ = Matrix::Zero();  ///< of the frames' scores, which rows that err together widen
   Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
-  EyeSkew skew_;                  ///< by all frames
-  std::optional<EyeSkew> found_;  ///< where it is significant
-  bool is_known_ = false;         ///< it was found once
+  StereoSkew skew_;                  ///< by all frames
+  std::optional<StereoSkew> found_;  ///< where it is significant
+  bool is_known_ = false;            ///< it was found once
   Rigid3 later_from_now_;
   Eigen::Vector3d turn_sigma_rad_ = Eigen::Vector3d::Zero();
   std::optional<Last> last_;

@@ -1,4 +1,4 @@
-#include "arfm_vo/odometry/eye_skew.h"
+#include "arfm_vo/odometry/stereo_skew.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -31,7 +31,7 @@ constexpr double kMaxShiftPx = 1;
 
 }  // namespace
 
-EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera) {
+StereoSkewEstimator::StereoSkewEstimator(const StereoCamera& camera) : camera_(camera) {
   constexpr int kRows = StereoCorrection::kNumField;
   prior_.topLeftCorner<kRows, kRows>() = CorrectionBelief::OfCalibration(camera)
                                              .covariance.bottomRightCorner<kRows, kRows>()
@@ -40,13 +40,13 @@ EyeSkewEstimator::EyeSkewEstimator(const StereoCamera& camera) : camera_(camera)
   skew_.sigma_s = kSkewSigma_s;
 }
 
-void EyeSkewEstimator::Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
+void StereoSkewEstimator::Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
   later_from_now_ = found_ ? MotionIn(found_->s, stamp_s, predicted) : Rigid3();
   const double unknown_s = std::hypot(found_ ? 0 : skew_.s, skew_.sigma_s);
   turn_sigma_rad_ = LogSO3(MotionIn(unknown_s, stamp_s, predicted).rotation);
 }
 
-double EyeSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
+double StereoSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
   Add(map, update);
   update.skew = found_;
   if (update.pose.IsTracked() && MedianShiftPx(map, update) >= kMaxShiftPx) {
@@ -57,7 +57,7 @@ double EyeSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
   return is_new ? kDoubt * update.pose.camera_from_world.Inverse().translation.norm() : 0;
 }
 
-void EyeSkewEstimator::Add(const LocalMap& map, const OdometryUpdate& update) {
+void StereoSkewEstimator::Add(const LocalMap& map, const OdometryUpdate& update) {
   const Rigid3& camera_from_world = update.pose.camera_from_world;
   if (!last_) {
     last_ = Last{update.stamp_s, camera_from_world, {}, 0};
@@ -83,8 +83,8 @@ void EyeSkewEstimator::Add(const LocalMap& map, const OdometryUpdate& update) {
                camera_from_world * last_->camera_from_world.Inverse(), interval_s};
 }
 
-void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s,
-                              double sigma_px) {
+void StereoSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s,
+                                 double sigma_px) {
   Vector row;
   row << ImageBasis(camera_, pixels.tail<2>()).values, row_speed_px_s;
   const double made_up_s = found_ ? found_->s : 0;
@@ -99,7 +99,7 @@ void EyeSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed_px
   score_ += weight * off_px * row;
 }
 
-void EyeSkewEstimator::Solve() {
+void StereoSkewEstimator::Solve() {
   const Matrix information = information_ + prior_;
   const auto decomposed = information.ldlt();
   solution_ = decomposed.solve(right_side_);
@@ -111,8 +111,8 @@ void EyeSkewEstimator::Solve() {
   found_ = is_significant ? std::optional(skew_) : std::nullopt;
 }
 
-Rigid3 EyeSkewEstimator::MotionIn(double duration_s, double stamp_s,
-                                  const std::optional<PredictedPose>& predicted) const {
+Rigid3 StereoSkewEstimator::MotionIn(double duration_s, double stamp_s,
+                                     const std::optional<PredictedPose>& predicted) const {
   if (!last_) return {};
   if (predicted && stamp_s > last_->stamp_s) {
     const Rigid3 now_from_last = predicted->camera_from_world * last_->camera_from_world.Inverse();
@@ -122,7 +122,7 @@ Rigid3 EyeSkewEstimator::MotionIn(double duration_s, double stamp_s,
   return Interpolate({}, last_->now_from_before, duration_s / last_->interval_s);
 }
 
-double EyeSkewEstimator::MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const {
+double StereoSkewEstimator::MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const {
   if (later_from_now_.IsIdentity()) return 0;
   std::vector<double> shifts_px;
   for (const LandmarkObservation& observation : update.observations) {

@@ -1,4 +1,4 @@
-#include "arfm_vo/ros/rover/camera_eye.h"
+#include "arfm_vo/ros/rover/published_camera.h"
 
 #include <camera_calibration_parsers/parse.h>
 #include <cv_bridge/cv_bridge.h>
@@ -38,8 +38,8 @@ bool HasSize(const sensor_msgs::CameraInfo& info, int width, int height) {
   return static_cast<int>(info.width) == width && static_cast<int>(info.height) == height;
 }
 
-CameraEye::CameraEye(const ros::NodeHandle& node, const std::string& name, const std::string& url,
-                     const DriveListener& drive)
+PublishedCamera::PublishedCamera(const ros::NodeHandle& node, const std::string& name,
+                                 const std::string& url, const DriveListener& drive)
     : name_(name),
       url_(url.empty() ? "file://${ROS_HOME}/camera_info/${NAME}.yaml" : url),
       drive_(drive),
@@ -49,10 +49,10 @@ CameraEye::CameraEye(const ros::NodeHandle& node, const std::string& name, const
           image_transport::ImageTransport(node_).advertiseCamera("image_raw", kCameraQueueSize)) {
   // The manager's own service knows no reason to refuse.
   ros::ServiceManager::instance()->unadvertiseService(node_.resolveName(kService));
-  server_ = node_.advertiseService(kService, &CameraEye::Set, this);
+  server_ = node_.advertiseService(kService, &PublishedCamera::Set, this);
 }
 
-std::optional<double> CameraEye::AgeInDays() {
+std::optional<double> PublishedCamera::AgeInDays() {
   try {
     const auto age = std::filesystem::file_time_type::clock::now() -
                      std::filesystem::last_write_time(PathOf(manager_.resolveURL(url_, name_)));
@@ -62,7 +62,7 @@ std::optional<double> CameraEye::AgeInDays() {
   }
 }
 
-void CameraEye::Publish(const cv::Mat& grey, const std_msgs::Header& header) {
+void PublishedCamera::Publish(const cv::Mat& grey, const std_msgs::Header& header) {
   if (publisher_.getNumSubscribers() == 0) return;
   const auto info = boost::make_shared<sensor_msgs::CameraInfo>(Loaded());
   if (!HasSize(*info, grey.cols, grey.rows)) *info = {};
@@ -73,8 +73,8 @@ void CameraEye::Publish(const cv::Mat& grey, const std_msgs::Header& header) {
   publisher_.publish(image.toImageMsg(), info);
 }
 
-bool CameraEye::Set(sensor_msgs::SetCameraInfo::Request& request,
-                    sensor_msgs::SetCameraInfo::Response& response) {
+bool PublishedCamera::Set(sensor_msgs::SetCameraInfo::Request& request,
+                          sensor_msgs::SetCameraInfo::Response& response) {
   try {
     Require(!drive_.IsDriving(), "the rover drives: stop it first");
     RequireFinite(request.camera_info.D, "D");
@@ -89,7 +89,7 @@ bool CameraEye::Set(sensor_msgs::SetCameraInfo::Request& request,
     response.success = true;
   } catch (const std::exception& error) {
     response.status_message = std::string("camera_info is not set: ") + error.what();
-    ROS_WARN("%s eye: %s", name_.c_str(), response.status_message.c_str());
+    ROS_WARN("%s camera: %s", name_.c_str(), response.status_message.c_str());
   }
   return true;
 }

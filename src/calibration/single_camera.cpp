@@ -1,4 +1,4 @@
-#include "arfm_vo/calibration/eye.h"
+#include "arfm_vo/calibration/single_camera.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -24,14 +24,14 @@ struct ViewProblem {
   Jacobian by_pose, by_camera;
 };
 
-ViewProblem Linearize(const Eye& eye, const BoardPose& pose, const BoardCorners& corners,
-                      const std::vector<cv::Point3f>& board_corners) {
+ViewProblem Linearize(const SingleCamera& camera, const BoardPose& pose,
+                      const BoardCorners& corners, const std::vector<cv::Point3f>& board_corners) {
   std::vector<cv::Point2f> projected;
   cv::Mat jacobian;
-  cv::projectPoints(board_corners, pose.rotation, pose.translation_m, eye.matrix, eye.distortion,
-                    projected, jacobian);
+  cv::projectPoints(board_corners, pose.rotation, pose.translation_m, camera.matrix,
+                    camera.distortion, projected, jacobian);
   const Eigen::Map<const Jacobian> all(jacobian.ptr<double>(), jacobian.rows, jacobian.cols);
-  const int num_camera = kIntrinsicsColumns + static_cast<int>(eye.distortion.total());
+  const int num_camera = kIntrinsicsColumns + static_cast<int>(camera.distortion.total());
   const int num = static_cast<int>(corners.size());
   ViewProblem problem{Eigen::VectorXd(2 * num), all.leftCols(kPoseColumns),
                       Jacobian::Zero(2 * num, 1 + num_camera)};
@@ -39,7 +39,7 @@ ViewProblem Linearize(const Eye& eye, const BoardPose& pose, const BoardCorners&
   for (int i = 0; i < num; ++i) {
     problem.residual[2 * i] = corners[i].x - projected[i].x;
     problem.residual[2 * i + 1] = corners[i].y - projected[i].y;
-    problem.by_camera(2 * i, 0) = (projected[i].y - eye.matrix(1, 2)) / eye.matrix(1, 1);
+    problem.by_camera(2 * i, 0) = (projected[i].y - camera.matrix(1, 2)) / camera.matrix(1, 1);
   }
   return problem;
 }
@@ -57,19 +57,20 @@ DistortionModel ParseDistortionModel(const std::string& text) {
                               text + "'");
 }
 
-EyeCalibration CalibrateEye(const std::vector<BoardCorners>& views, const Chessboard& board,
-                            cv::Size image_size, DistortionModel model) {
-  Require(views.size() >= 3, "eye: Zhang's calibration needs at least 3 views");
+SingleCalibration CalibrateCamera(const std::vector<BoardCorners>& views, const Chessboard& board,
+                                  cv::Size image_size, DistortionModel model) {
+  Require(views.size() >= 3, "camera: Zhang's calibration needs at least 3 views");
   const std::vector<std::vector<cv::Point3f>> board_corners(views.size(), board.Corners());
   const bool is_rational = model == DistortionModel::kRationalPolynomial;
-  EyeCalibration calibration;
+  SingleCalibration calibration;
   std::vector<cv::Mat> rotations, translations;
   cv::Mat sigma_intrinsics, sigma_poses, view_rms, distortion;
-  calibration.rms_px = cv::calibrateCamera(
-      board_corners, views, image_size, calibration.eye.matrix, distortion, rotations, translations,
-      sigma_intrinsics, sigma_poses, view_rms, is_rational ? cv::CALIB_RATIONAL_MODEL : 0,
-      {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-9});
-  calibration.eye.distortion = distortion.reshape(1, 1).colRange(0, is_rational ? 8 : 5).clone();
+  calibration.rms_px =
+      cv::calibrateCamera(board_corners, views, image_size, calibration.camera.matrix, distortion,
+                          rotations, translations, sigma_intrinsics, sigma_poses, view_rms,
+                          is_rational ? cv::CALIB_RATIONAL_MODEL : 0,
+                          {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-9});
+  calibration.camera.distortion = distortion.reshape(1, 1).colRange(0, is_rational ? 8 : 5).clone();
   for (size_t i = 0; i < views.size(); ++i) {
     calibration.poses.push_back({rotations[i], translations[i]});
     calibration.view_rms_px.push_back(view_rms.at<double>(static_cast<int>(i)));
@@ -77,16 +78,17 @@ EyeCalibration CalibrateEye(const std::vector<BoardCorners>& views, const Chessb
   return calibration;
 }
 
-EyePrecision EvaluatePrecision(const EyeCalibration& calibration,
-                               const std::vector<BoardCorners>& views, const Chessboard& board) {
+IntrinsicsPrecision EvaluatePrecision(const SingleCalibration& calibration,
+                                      const std::vector<BoardCorners>& views,
+                                      const Chessboard& board) {
   const std::vector<cv::Point3f> board_corners = board.Corners();
-  const int size = 1 + kIntrinsicsColumns + static_cast<int>(calibration.eye.distortion.total());
+  const int size = 1 + kIntrinsicsColumns + static_cast<int>(calibration.camera.distortion.total());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size);
   double sum = 0, num_residuals = 0;
   for (size_t i = 0; i < views.size(); ++i) {
     const ViewProblem view =
-        Linearize(calibration.eye, calibration.poses[i], views[i], board_corners);
+        Linearize(calibration.camera, calibration.poses[i], views[i], board_corners);
     // Eliminate the view's pose (Schur complement).
     const Eigen::MatrixXd mixed = view.by_pose.transpose() * view.by_camera;
     const Eigen::LDLT<Eigen::MatrixXd> pose_information(view.by_pose.transpose() * view.by_pose);

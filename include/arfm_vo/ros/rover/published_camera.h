@@ -12,13 +12,13 @@
 
 namespace arfm_vo {
 
-/// One eye of the stereo camera: image_raw and camera_info, which is loaded from an URL, and the
+/// One camera of the stereo camera: image_raw and camera_info, which is loaded from an URL, and the
 /// service set_camera_info that sets and stores it, but not while the rover drives.
-class CameraEye {
+class PublishedCamera {
  public:
-  /// `drive` must outlive the eye.
-  CameraEye(const ros::NodeHandle& node, const std::string& name, const std::string& url,
-            const DriveListener& drive);
+  /// `drive` must outlive the camera.
+  PublishedCamera(const ros::NodeHandle& node, const std::string& name, const std::string& url,
+                  const DriveListener& drive);
 
   /// With the calibration, or an empty one where it is not for pictures of this size.
   void Publish(const cv::Mat& grey, const std_msgs::Header& header);
