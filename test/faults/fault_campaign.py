@@ -232,6 +232,8 @@ def main():
     parser.add_argument("--output", metavar="PAGE", help="whose tables are replaced")
     parser.add_argument("--max-stop-s", type=float, default=MAX_STOP_S, help="after the fault or its limit")
     arguments = parser.parse_args()
+    if arguments.output and not pathlib.Path(arguments.output).is_file():
+        parser.error("--output %s: there is no such page" % arguments.output)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so do its children
     names = arguments.only.split("|") if arguments.only else [""]
     with tempfile.NamedTemporaryFile(suffix=".log", prefix="fault_campaign_") as log:
