@@ -66,11 +66,10 @@ std::vector<ScaleSpaceMaximum> MaximumFinder::Find(const IntegralImage& integral
       ComputeLayer(integral, octave, layer, threads);
     }
   }
-  const size_t target = options.target_keypoints;
   auto maxima = FindAbove(options.hessian_threshold, integral);
-  if (maxima.size() < target) {
+  if (maxima.size() < options.NumWithWeak()) {
     maxima = FindAbove(std::min(SurfDetectorOptions::kNoise, options.hessian_threshold), integral);
-    KeepStrongest(target, maxima);
+    KeepStrongest(options.NumWithWeak(), maxima);
   }
   return maxima;
 }

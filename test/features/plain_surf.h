@@ -169,9 +169,9 @@ inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) 
   const ScaleSpace space = ComputeScaleSpace(integral, options.detector);
   SurfDetectorOptions detector = options.detector;
   auto maxima = FindMaxima(space, grey.size(), detector);
-  if (static_cast<int>(maxima.size()) < detector.target_keypoints) {
+  if (maxima.size() < detector.NumWithWeak()) {
     detector.hessian_threshold = SurfDetectorOptions::kNoise;
-    KeepStrongest(detector.target_keypoints, maxima = FindMaxima(space, grey.size(), detector));
+    KeepStrongest(detector.NumWithWeak(), maxima = FindMaxima(space, grey.size(), detector));
   }
   Features features;
   features.keypoints = SelectKeypoints(integral, space, maxima, options.detector);

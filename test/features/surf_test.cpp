@@ -128,7 +128,7 @@ TEST(SurfTest, WeakTextureIsTakenWhereThereIsNoOtherButNoNoise) {
   SurfOptions strong;
   strong.detector.target_keypoints = 0;
   EXPECT_LT(Surf(strong).Extract(weak).size(), 100);
-  EXPECT_GT(Surf({}).Extract(weak).size(), 500);
+  EXPECT_NEAR(Surf({}).Extract(weak).size(), SurfDetectorOptions::kFew, 30);
   EXPECT_EQ(Surf({}).Extract(noise).size(), 0);
 }
 
