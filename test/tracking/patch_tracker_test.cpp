@@ -94,6 +94,18 @@ TEST_F(PatchTrackerTest, PatchesDoNotDecideOutOfReachNorWhereMostIsHidden) {
   EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
 }
 
+/// Swapped images: the left one alone agrees with a pose at the right camera.
+TEST_F(PatchTrackerTest, PatchesDoNotDecideWhereTheRightImageShowsElse) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  StereoImages images = wall_.Render(1, truth_);
+  images.right = images.left;
+  Expectation expected = ExpectedWithin(truth_, 0.001);
+  EXPECT_FALSE(tracker.TrackByPatches(images, map_, expected, 0));
+  expected.use_right = false;
+  EXPECT_TRUE(tracker.TrackByPatches(images, map_, expected, 0)) << "known, and taken into account";
+}
+
 /// The camera seems to rest by what covers most of the picture, the rest has moved out of reach.
 TEST_F(PatchTrackerTest, PatchesDoNotTakeWhatIsFixedBeforeTheCameraForRest) {
   CountAllSeen(map_);
