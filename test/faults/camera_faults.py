@@ -116,8 +116,7 @@ def camera_faults():
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5, may_go_on=True),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_camera),
-        Fault("cameras are swapped", changed(swap), contradiction + " or " + stale, mend, 1.5, max_wrong_way_m=0.12,  # until a wrong one is stale
-              is_well=lambda c: is_true(c) or c.rover.status.reason == contradiction),
+        Fault("cameras are swapped", changed(swap), stale, mend, 1.5, is_well=is_true),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
         Fault("camera's node is stopped (SIGSTOP) for 2 s: its pairs wait", stop_camera_for(2), stale, mend, 1.5, may_go_on=True),
         Fault("camera's node is killed and started anew after 2 s: its topics go and come", restart_camera(2), stale, mend, 1.5,
