@@ -1,4 +1,5 @@
 """Faults of the camera and of where it is: what the odometry sees, with right stamps and with wrong ones."""
+import itertools
 import math
 import os
 import re
@@ -7,9 +8,8 @@ import time
 
 import rospy
 import tf2_ros
-from camera_tap import IMAGES, AgainOnce, Hold, Settling, cover, freeze, recalibrate, swap, unchanged
+from camera_tap import IMAGES, AgainOnce, Hold, Settling, cover, darken, freeze, recalibrate, swap, unchanged
 from fault import Fault
-from geometry_msgs.msg import TransformStamped
 from rover import pid_of
 
 
@@ -92,11 +92,7 @@ def shift_camera(campaign):
 
 def tilt_map(campaign):
     """A second node tells a map in which the rover stands on a slope of 35 degrees."""
-    message = TransformStamped()
-    message.header.frame_id, message.child_frame_id = "map", "odom"
-    message.header.stamp = rospy.Time.now() + rospy.Duration(0.5)
-    message.transform.rotation.x, message.transform.rotation.w = 0.3007, 0.9537
-    campaign.broadcaster.sendTransform(message)
+    campaign.transform("map", "odom", 0, rospy.Time.now() + rospy.Duration(0.5), tilt_rad=math.radians(35))
 
 
 def is_true(campaign):
@@ -110,11 +106,16 @@ def names_the_right_camera(campaign):
 
 
 def camera_faults():
+    def frozen(names):
+        return lambda campaign: setattr(campaign.camera, "change", freeze(campaign.camera.last, names))
     stale, anew, contradiction = "pose is stale", "odometry has started anew", "pose contradicts the tracks"
     return [
-        Fault("camera is frozen: the same pictures with new stamps", lambda c: setattr(c.camera, "change", freeze(c.camera.last)), stale, mend, 1),
+        Fault("camera is frozen: the same pictures with new stamps", frozen(IMAGES), stale, mend, 1),
+        Fault("left camera is frozen", frozen(IMAGES[:1]), stale, mend, 1.5, is_well=is_true),
+        Fault("right camera is frozen", frozen(IMAGES[1:]), "drives on", mend, 1.5, is_well=names_the_right_camera),
         Fault("both lenses are covered", changed(cover(*IMAGES)), stale, mend, 1.5),
         Fault("both lenses are covered for 2 s", cover_for(2), stale, mend, 1.5, may_go_on=True),
+        Fault("left lens is covered", changed(cover(IMAGES[0])), stale, mend, 1.5, is_well=is_true),
         Fault("right lens is covered", changed(cover(IMAGES[1])), "drives on", mend, 1.5, is_well=names_the_right_camera),
         Fault("cameras are swapped", changed(swap), stale, mend, 1.5, is_well=is_true),
         Fault("calibration changes while driving", changed(recalibrate), anew, mend, 1),
@@ -128,6 +129,9 @@ def camera_faults():
         Fault("camera is away at rest: the start-up check says so, and nothing starts", stop_without_camera, "stopped by hand",
               lambda c: (c.camera.advertise(), mend(c)), is_well=lambda c: "\nno camera" in c.rover.call("chassis_node/start").message),
         Fault("camera falls silent", changed(lambda pair: []), stale, mend, 1.5),
+        Fault("pictures are half as bright at once", changed(darken), "drives on", mend, is_well=is_true),
+        Fault("every other pair is lost", changed(lambda pair, kept=itertools.cycle((True, False)): [pair] if next(kept) else []),
+              stale, mend, 3, may_go_on=True, is_well=is_true),
         Fault("each pair comes twice", changed(lambda pair: [pair, pair]), "drives on", mend, is_well=is_true),
         Fault("an old pair comes again", changed(AgainOnce), "drives on", mend, is_well=is_true),
         Fault("a second node tells the camera 0.5 m farther ahead", shift_camera, contradiction, mend, 1),

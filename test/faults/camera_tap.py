@@ -61,16 +61,17 @@ def with_data(image, data):
 
 def cover(*topics):
     """Black pictures."""
-    def change(pair):
-        return [{name: with_data(message, bytes(len(message.data))) if name in topics else message for name, message in pair.items()}]
-    return change
+    return lambda pair: [{**pair, **{name: with_data(pair[name], bytes(len(pair[name].data))) for name in topics}}]
 
 
-def freeze(seen):
+def freeze(seen, names=IMAGES):
     """The pictures of a pair that was seen, with new stamps."""
-    def change(pair):
-        return [{**pair, **{name: with_data(pair[name], seen[name].data) for name in IMAGES}}]
-    return change
+    return lambda pair: [{**pair, **{name: with_data(pair[name], seen[name].data) for name in names}}]
+
+
+def darken(pair, gain=0.5):
+    grey = bytes(int(gain * value) for value in range(256))
+    return [{**pair, **{name: with_data(pair[name], bytes(pair[name].data).translate(grey)) for name in IMAGES}}]
 
 
 class Hold:
@@ -96,9 +97,7 @@ class Settling:
     def __call__(self, pair):
         stamp_s = pair[IMAGES[0]].header.stamp.to_sec()
         self.begin_s = self.begin_s or stamp_s
-        gain = min(1, 0.5 + (stamp_s - self.begin_s) / 6)
-        grey = bytes(int(gain * value) for value in range(256))
-        return [{**pair, **{name: with_data(pair[name], bytes(pair[name].data).translate(grey)) for name in IMAGES}}]
+        return darken(pair, min(1, 0.5 + (stamp_s - self.begin_s) / 6))
 
 
 def swap(pair):

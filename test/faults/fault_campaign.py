@@ -68,12 +68,12 @@ class Campaign:
     def publish(self, topic, message):
         self.publishers[topic].publish(message)
 
-    def transform(self, parent, child, x_m, stamp=None):
+    def transform(self, parent, child, x_m, stamp=None, tilt_rad=0):
         message = TransformStamped()
         message.header.frame_id, message.child_frame_id = parent, child
         message.header.stamp = stamp if stamp is not None else rospy.Time.now()
         message.transform.translation.x = x_m
-        message.transform.rotation.w = 1
+        message.transform.rotation.x, message.transform.rotation.w = math.sin(tilt_rad / 2), math.cos(tilt_rad / 2)
         self.broadcaster.sendTransform(message)
 
     def command(self, text):
@@ -229,15 +229,13 @@ def run(names, log, page, max_stop_s):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", help="faults whose name holds one of these, separated by |")
-    parser.add_argument("--output", metavar="PAGE", help="whose tables are replaced")
+    parser.add_argument("--output", metavar="PAGE", type=argparse.FileType("r+"), help="whose tables are replaced")
     parser.add_argument("--max-stop-s", type=float, default=MAX_STOP_S, help="after the fault or its limit")
     arguments = parser.parse_args()
-    if arguments.output and not pathlib.Path(arguments.output).is_file():
-        parser.error("--output %s: there is no such page" % arguments.output)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so do its children
     names = arguments.only.split("|") if arguments.only else [""]
     with tempfile.NamedTemporaryFile(suffix=".log", prefix="fault_campaign_") as log:
-        rows = run(names, log, arguments.output, arguments.max_stop_s)
+        rows = run(names, log, arguments.output and arguments.output.name, arguments.max_stop_s)
     return 0 if all(row["kept"] for row in rows) else 1
 
 
