@@ -24,7 +24,7 @@ def spawn(campaign, program, count=1):
 
 def unburden(campaign):
     for process in campaign.burden:
-        process.kill()
+        process.terminate()  # a ROS node takes leave of the master: its port may soon be another's
         process.wait()
     time.sleep(2)
 
