@@ -85,7 +85,7 @@ TABLE = (
     ("src/driving/goal_limits.cpp", BASIC, (
         ("a goal's distance is limited", "!(distance_m <= options_.max_distance_m)", "false"),
         ("a goal lies inside the fence", 'if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";', ""),
-        ("the way stays inside the fence", "!bg::covered_by(way, MakeRing(options_.fence_m))", "false"),
+        ("the way stays inside the fence", "!bg::covered_by(bg::model::linestring<Place>{from, to}, fence)", "false"),
         ("a path's length is limited", "route.size() > static_cast<size_t>(options_.max_waypoints)", "false"))),
     ("src/driving/speed_limiter.cpp", BASIC, (
         ("only finite speeds are driven", "wanted.IsFinite() ? Shrink(wanted) : PlanarMotion{}", "Shrink(wanted)"),)),
