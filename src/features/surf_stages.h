@@ -18,8 +18,7 @@ inline IntegralView View(const IntegralImage& integral) {
 class MaximumFinder {
  public:
   /// Maxima of 3 x 3 x 3 neighbours of the scale space, octave by octave, layer by layer, row by
-  /// row. Where fewer than NumWithWeak() are above the threshold: the strongest, so many, in any
-  /// order.
+  /// row. Where fewer than NumWithWeak() are above the threshold: the strongest, in any order.
   std::vector<ScaleSpaceMaximum> Find(const IntegralImage& integral,
                                       const SurfDetectorOptions& options, int threads);
   /// Of the last image.

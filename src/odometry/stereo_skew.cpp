@@ -41,18 +41,19 @@ StereoSkewEstimator::StereoSkewEstimator(const StereoCamera& camera) : camera_(c
 }
 
 void StereoSkewEstimator::Advance(double stamp_s, const std::optional<PredictedPose>& predicted) {
-  later_from_now_ = found_ ? MotionIn(found_->s, stamp_s, predicted) : Rigid3();
-  const double unknown_s = std::hypot(found_ ? 0 : skew_.s, skew_.sigma_s);
+  const auto found = Found();
+  later_from_now_ = found ? MotionIn(found->s, stamp_s, predicted) : Rigid3();
+  const double unknown_s = std::hypot(found ? 0 : skew_.s, skew_.sigma_s);
   turn_sigma_rad_ = LogSO3(MotionIn(unknown_s, stamp_s, predicted).rotation);
 }
 
 double StereoSkewEstimator::Learn(const LocalMap& map, OdometryUpdate& update) {
   Add(map, update);
-  update.skew = found_;
+  update.skew = Found();
   if (update.pose.IsTracked() && MedianShiftPx(map, update) >= kMaxShiftPx) {
     update.Degrade(Reason::kSkewed);
   }
-  const bool is_new = found_ && !is_known_;
+  const bool is_new = update.skew && !is_known_;
   is_known_ |= is_new;
   return is_new ? kDoubt * update.pose.camera_from_world.Inverse().translation.norm() : 0;
 }
@@ -87,7 +88,8 @@ void StereoSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed
                                  double sigma_px) {
   Vector row;
   row << ImageBasis(camera_, pixels.tail<2>()).values, row_speed_px_s;
-  const double made_up_s = found_ ? found_->s : 0;
+  const auto found = Found();
+  const double made_up_s = found ? found->s : 0;
   const double residual_px = pixels.w() - pixels.y() + made_up_s * row_speed_px_s;
   const double off_px = residual_px - row.dot(solution_);
   if (std::abs(off_px) > kMaxRowPx) return;
@@ -107,8 +109,11 @@ void StereoSkewEstimator::Solve() {
   const Vector by_score = decomposed.solve(Vector::Unit(kSize - 1));
   const double variance = by_score[kSize - 1] + by_score.dot(scatter_ * by_score);
   skew_ = {solution_[kSize - 1], std::sqrt(variance)};
+}
+
+std::optional<StereoSkew> StereoSkewEstimator::Found() const {
   const bool is_significant = std::abs(skew_.s) >= kMinSkew_s + kSignificance * skew_.sigma_s;
-  found_ = is_significant ? std::optional(skew_) : std::nullopt;
+  return is_significant ? std::optional(skew_) : std::nullopt;
 }
 
 Rigid3 StereoSkewEstimator::MotionIn(double duration_s, double stamp_s,

@@ -151,12 +151,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   if (right_fault_ != Reason::kNone) {
     TellRightFault(update);
   } else {
-    const auto& seen = tracked.observations;
-    const auto num_right =
-        std::count_if(seen.begin(), seen.end(), [](const auto& one) { return one.has_right; });
-    const double share =
-        static_cast<double>(num_right) / std::max<double>(1, static_cast<double>(seen.size()));
-    right_belongs_.Add(LogRatioOfShare(share, kTogether, kApart));
+    right_belongs_.Add(LogRatioOfShare(ShareWithRight(tracked.observations), kTogether, kApart));
   }
   if (1 - probability > PathDoubt::kLikely) update.reason = Reason::kGroupsDiffer;
   if (tracked.is_odd_rest) update.Degrade(Reason::kFixed);

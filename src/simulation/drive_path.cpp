@@ -101,8 +101,8 @@ double SlopeOf(const Rigid3& world_from_base) { return TiltOf(world_from_base) *
 
 Rigid3 BaseFromLeftCamera(const RoverShape& shape, double pan_rad, double tilt_rad) {
   const double tilt = shape.camera_tilt_deg * M_PI / 180 + tilt_rad;
-  Eigen::Matrix3d
-      tilted_from_camera;  // the camera's axes in x ahead, y left, z up, before pan and tilt
+  // The camera's axes in x ahead, y left, z up, before pan and tilt.
+  Eigen::Matrix3d tilted_from_camera;
   tilted_from_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const Eigen::Quaterniond head_from_camera = Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
                                               Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *

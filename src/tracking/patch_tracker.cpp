@@ -119,10 +119,7 @@ bool PatchTracker::Decides(const TrackedFrame& tracked, const LocalMap& map,
   }
   if (2 * num_seen < num_seen_before) return false;
   // Of swapped images the left one fits a pose at the right camera, and the right one none.
-  const auto& seen = tracked.observations;
-  const auto num_right =
-      std::count_if(seen.begin(), seen.end(), [](const auto& one) { return one.has_right; });
-  if (expected.use_right && 2 * num_right < static_cast<int>(seen.size())) return false;
+  if (expected.use_right && ShareWithRight(tracked.observations) < 0.5) return false;
   // Where poses before may not have been the ground's there is more to weigh.
   const double ground = expected.if_none.ground;
   return std::min(0., std::log(ground / (1 - ground))) + tracked.log_odds >= kSure;

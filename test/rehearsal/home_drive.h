@@ -79,10 +79,10 @@ class LastingRover {
   double Now() const { return 0.01 * static_cast<double>(num_steps_); }
 
   void Look(OdometryChain& chain, Pilot& pilot) {
-    const Rigid3 camera = chassis_.plant().WorldFromBase() * BaseFromLeftCamera({});
+    const Rigid3 world_from_camera = chassis_.plant().WorldFromBase() * BaseFromLeftCamera({});
     const int pair = static_cast<int>(num_steps_ / kStepsAPair);
-    const SessionUpdate update =
-        chain.Process(renderer_.RenderPair(StereoRigOptions().Camera(), camera, pair, Now()));
+    const SessionUpdate update = chain.Process(
+        renderer_.RenderPair(StereoRigOptions().Camera(), world_from_camera, pair, Now()));
     pilot.ObserveEpoch(update.epoch, Now());
     const Matrix6& covariance = update.covariance;
     pilot.ObserveUncertainty(Now(), {Now(), std::sqrt(covariance.topLeftCorner<2, 2>().trace()),

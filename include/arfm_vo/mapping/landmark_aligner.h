@@ -45,8 +45,7 @@ class LandmarkAligner {
   void SetMotionBetweenImages(const Rigid3& later_from_now) { later_from_now_ = later_from_now; }
 
  private:
-  /// SourceFromTarget for a camera at `camera_from_world`, where it does not change the size too
-  /// much.
+  /// SourceFromTarget for the camera of an image, where the size does not change too much.
   std::optional<cv::Matx22f> FindWarp(const Landmark& landmark, const Keyframe& reference,
                                       const Rigid3& camera_from_world) const;
 

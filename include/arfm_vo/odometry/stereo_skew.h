@@ -57,11 +57,12 @@ class StereoSkewEstimator {
   /// In `duration_s`, at the speed of the way to `predicted`, or of the last way.
   Rigid3 MotionIn(double duration_s, double stamp_s,
                   const std::optional<PredictedPose>& predicted) const;
-  /// How far the motion moves what the right camera sees of the observed landmarks, px, their
-  /// median.
+  /// How far the motion moves the observed landmarks in the right image, px, the median.
   double MedianShiftPx(const LocalMap& map, const OdometryUpdate& update) const;
   void AddRow(const Eigen::Vector4d& pixels, double row_speed_px_s, double sigma_px);
   void Solve();
+  /// The skew, where it is significant.
+  std::optional<StereoSkew> Found() const;
 
   StereoCamera camera_;
   Matrix prior_ = Matrix::Zero();        ///< information before anything is seen: the calibration's
@@ -69,9 +70,8 @@ class StereoSkewEstimator {
   Matrix scatter_ = Matrix::Zero();  ///< of the frames' scores, which rows that err together widen
   Vector score_;                     ///< of the newest frame
   Vector right_side_ = Vector::Zero(), solution_ = Vector::Zero();
-  StereoSkew skew_;                  ///< by all frames
-  std::optional<StereoSkew> found_;  ///< where it is significant
-  bool is_known_ = false;            ///< it was found once
+  StereoSkew skew_;        ///< by all frames
+  bool is_known_ = false;  ///< it was found once
   Rigid3 later_from_now_;
   Eigen::Vector3d turn_sigma_rad_ = Eigen::Vector3d::Zero();
   std::optional<Last> last_;
