@@ -27,7 +27,7 @@ Eigen::Matrix<double, 4, StereoCorrection::kSize> ReprojectionTerm::ByCorrection
   Eigen::Matrix<double, 4, StereoCorrection::kSize> by_correction;
   by_correction.setZero();
   by_correction.row(2).head<kNumField>() = right_by_field;
-  by_correction.middleCols<StereoCorrection::kNumRadial>(kNumField) = by_radial;
+  by_correction.middleCols<StereoCorrection::kNumLens>(kNumField) = by_lens;
   by_correction.row(3).tail<kNumField>() = right_by_field;
   return by_correction;
 }
@@ -38,7 +38,7 @@ ReprojectionModel::ReprojectionModel(const StereoCamera& camera, const StereoCor
       correction_(correction),
       with_correction_(with_correction),
       is_displaced_(with_correction || !correction.IsZero()),
-      radial_unit_(1 / RadialBasis::CornerPx(camera)) {
+      lens_unit_(1 / LensBasis::CornerPx(camera)) {
   field_ << correction.coefficients_px.head<StereoCorrection::kNumField>().transpose(),
       correction.coefficients_px.tail<StereoCorrection::kNumField>().transpose();
 }
@@ -70,7 +70,7 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
   term.x = rotation * point + translation;
   if (with_correction_) {
     term.right_by_field.setZero();
-    term.by_radial.setZero();
+    term.by_lens.setZero();
   }
   if (!(term.x.z() > kMinDepth)) {
     term.by_x.setZero();
@@ -103,20 +103,17 @@ bool ReprojectionModel::Linearize(const BundleObservation& observation,
 ReprojectionModel::Displaced ReprojectionModel::Displace(const Eigen::Vector2d& from_centre,
                                                          int row, double inverse_sigma,
                                                          ReprojectionTerm& term) const {
-  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
   const Eigen::Vector2d nominal = from_centre + Eigen::Vector2d(camera_.cx, camera_.cy);
   Displaced at{nominal, Eigen::Matrix2d::Identity()};
   if (!is_displaced_) return at;
   const StereoCorrection::Coefficients& coefficients = correction_.coefficients_px;
-  const Eigen::Vector2d p = radial_unit_ * from_centre;
-  const double r2 = p.squaredNorm();
-  const auto gains = RadialBasis::Gains(r2);
-  const auto radial = coefficients.segment<kNumRadial>(kNumField);
-  const double gain = gains.dot(radial), slope = RadialBasis::Slopes(r2).dot(radial);
-  at.pixel += gain * p;
-  at.by_pixel.diagonal().array() += radial_unit_ * gain;
-  at.by_pixel += (radial_unit_ * slope * p).lazyProduct(p.transpose());
-  if (with_correction_) term.by_radial.middleRows<2>(row) = inverse_sigma * p * gains.transpose();
+  const Eigen::Vector2d p = lens_unit_ * from_centre;
+  const LensBasis::Coefficients lens = coefficients.segment<kNumLens>(kNumField);
+  const LensBasis::Values by_lens = LensBasis::At(p);
+  at.pixel += by_lens.lazyProduct(lens);
+  at.by_pixel += lens_unit_ * LensBasis::Slope(p, lens);
+  if (with_correction_) term.by_lens.middleRows<2>(row) = inverse_sigma * by_lens;
   if (row == 0) return at;
   const ImageBasis basis(camera_, nominal);
   at.pixel += field_.lazyProduct(basis.values);

@@ -105,11 +105,11 @@ void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weig
 void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                                             const Eigen::Matrix3d& rotation, int track,
                                             int free_pose) {
-  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
   const auto& field = term.right_by_field;
   const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
-  // The coefficients of u move row 2 alone, those of v row 3, the radial ones all four.
-  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
+  // The coefficients of u move row 2 alone, those of v row 3, those of the lens all four.
+  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumLens)}) {
     if (first >= num_coefficients_) break;
     const Eigen::Vector3d by_x = weighted.row(row);
     point_borders_[track].middleCols<kNumField>(first).noalias() +=
@@ -119,30 +119,29 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
     by_pose << term.x.cross(by_x), by_x;
     held_.border[free_pose].middleCols<kNumField>(first).noalias() += by_pose * field.transpose();
   }
-  const Eigen::Matrix<double, 3, kNumRadial> by_x = weighted.transpose() * term.by_radial;
-  point_borders_[track].middleCols<kNumRadial>(kNumField).noalias() += rotation.transpose() * by_x;
+  const Eigen::Matrix<double, 3, kNumLens> by_x = weighted.transpose() * term.by_lens;
+  point_borders_[track].middleCols<kNumLens>(kNumField).noalias() += rotation.transpose() * by_x;
   if (problem_.correction_prior) LinearizeCorner(term, weight);
   if (free_pose == BundleStructure::kFixed) return;
-  held_.border[free_pose].block<3, kNumRadial>(0, kNumField) += Skew(term.x) * by_x;
-  held_.border[free_pose].block<3, kNumRadial>(3, kNumField) += by_x;
+  held_.border[free_pose].block<3, kNumLens>(0, kNumField) += Skew(term.x) * by_x;
+  held_.border[free_pose].block<3, kNumLens>(3, kNumField) += by_x;
 }
 
 void NormalEquations::LinearizeCorner(const ReprojectionTerm& term, double weight) {
-  constexpr int kNumField = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
+  constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
   const auto& field = term.right_by_field;
   const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
-  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumRadial)}) {
+  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumLens)}) {
     held_.corner.block<kNumField, kNumField>(first, first) += corner;
     held_.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
-    const Eigen::Matrix<double, kNumField, kNumRadial> mixed =
-        weight * field * term.by_radial.row(row);
-    held_.corner.block<kNumField, kNumRadial>(first, kNumField) += mixed;
-    held_.corner.block<kNumRadial, kNumField>(kNumField, first) += mixed.transpose();
+    const Eigen::Matrix<double, kNumField, kNumLens> mixed = weight * field * term.by_lens.row(row);
+    held_.corner.block<kNumField, kNumLens>(first, kNumField) += mixed;
+    held_.corner.block<kNumLens, kNumField>(kNumField, first) += mixed.transpose();
   }
-  held_.corner.block<kNumRadial, kNumRadial>(kNumField, kNumField) +=
-      weight * term.by_radial.transpose() * term.by_radial;
-  held_.corner_right.segment<kNumRadial>(kNumField) -=
-      weight * term.by_radial.transpose() * term.residual;
+  held_.corner.block<kNumLens, kNumLens>(kNumField, kNumField) +=
+      weight * term.by_lens.transpose() * term.by_lens;
+  held_.corner_right.segment<kNumLens>(kNumField) -=
+      weight * term.by_lens.transpose() * term.residual;
 }
 
 double NormalEquations::AddConstraints(const BundleState& state) {

@@ -8,18 +8,19 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kNumTerms = ImageBasis::kNumTerms, kNumRadial = RadialBasis::kNumTerms;
+constexpr int kNumTerms = ImageBasis::kNumTerms, kNumLens = LensBasis::kNumTerms;
 
 /// Small differences between two cameras that a calibration may leave: wx, wy, wz (rad), relative
-/// focal length, its aspect, centre (px), k1, k2, k3, p1, p2. Far wider than calibrations are, as
-/// their errors make up for each other; the size of the field is bounded on its own.
-constexpr int kNumErrors = 12;
-constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,
-                                            20,   0.01, 0.01,  0.01, 0.01,  0.01};
+/// focal length, its aspect, centre (px), k1, k2, k3, p1, p2 and the same two by r^2 (Brown,
+/// Decentering distortion of lenses, 1966). Far wider than calibrations are, as their errors make
+/// up for each other; the size of the field is bounded on its own.
+constexpr int kNumErrors = 14;
+constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20,   20,
+                                            0.01, 0.01, 0.01,  0.01, 0.01,  0.01, 0.01};
 /// What no such error explains, and the size of the whole field, px a coefficient.
 constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
-/// Of the radial coefficients, px in the corners.
-constexpr double kRadialSigmaPx = 3;
+/// Of both images' radial and tangential coefficients, px in the corners.
+constexpr double kRadialSigmaPx = 3, kTangentialSigmaPx = 1;
 /// Of both images' focal length: what calibrations after Zhang say of themselves.
 constexpr double kFocalLengthSigma = 1e-3;
 /// The pixels above are of a camera with this focal length: what a calibration is off by are
@@ -27,8 +28,7 @@ constexpr double kFocalLengthSigma = 1e-3;
 constexpr double kFocalLengthPx = 700;
 /// How much the errors of kErrorSigma change from one drive to the next, whatever the focal length:
 /// rotation (rad) and centre (px).
-constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3,
-                                                    0.3,  0,    0,    0, 0, 0};
+constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3, 0.3};
 
 using ErrorSigmas = Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>>;
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
@@ -38,8 +38,11 @@ void DisplaceByErrors(const StereoCamera& camera, const Eigen::Vector2d& pixel, 
                       ErrorRow& dv) {
   const double x = (pixel.x() - camera.cx) / camera.fx, y = (pixel.y() - camera.cy) / camera.fy;
   const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
-  du << x * y, 1 + x * x, y, x, x, 0, 0, x * r2, x * r4, x * r6, 2 * x * y, r2 + 2 * x * x;
-  dv << 1 + y * y, x * y, -x, y, -y, 0, 0, y * r2, y * r4, y * r6, r2 + 2 * y * y, 2 * x * y;
+  const double across = 2 * x * y, along_x = r2 + 2 * x * x, along_y = r2 + 2 * y * y;
+  du << x * y, 1 + x * x, y, x, x, 0, 0, x * r2, x * r4, x * r6, across, along_x, across * r2,
+      along_x * r2;
+  dv << 1 + y * y, x * y, -x, y, -y, 0, 0, y * r2, y * r4, y * r6, along_y, across, along_y * r2,
+      across * r2;
   du *= camera.fx;
   dv *= camera.fy;
   du[5] = dv[6] = 1;
@@ -66,7 +69,7 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
     along_v += basis.values * dv;
   }
   Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> coefficients;
-  coefficients << gram.ldlt().solve(along_u), Eigen::Matrix<double, kNumRadial, kNumErrors>::Zero(),
+  coefficients << gram.ldlt().solve(along_u), Eigen::Matrix<double, kNumLens, kNumErrors>::Zero(),
       gram.ldlt().solve(along_v);
   return coefficients;
 }
@@ -86,11 +89,12 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
                            Isotropic(kUnmodelledSigmaPx).covariance;
   CorrectionBelief belief;
   belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
-  belief.covariance.diagonal().segment<kNumRadial>(kNumTerms).setConstant(kRadialSigmaPx *
-                                                                          kRadialSigmaPx);
+  auto of_lens = belief.covariance.diagonal().segment<kNumLens>(kNumTerms);
+  of_lens.setConstant(kTangentialSigmaPx * kTangentialSigmaPx);
+  of_lens.head<LensBasis::kNumRadial>().setConstant(kRadialSigmaPx * kRadialSigmaPx);
   belief.covariance *= std::pow(camera.fx / kFocalLengthPx, 2);
-  belief.covariance.diagonal()[kNumTerms + RadialBasis::kFocalLength] =
-      std::pow(kFocalLengthSigma * RadialBasis::CornerPx(camera), 2);
+  belief.covariance.diagonal()[kNumTerms + LensBasis::kFocalLength] =
+      std::pow(kFocalLengthSigma * LensBasis::CornerPx(camera), 2);
   return belief;
 }
 
@@ -118,23 +122,23 @@ CorrectionBelief CorrectionBelief::After(const RightTurn& turn, const StereoCame
 CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
 
 CorrectionBelief::Estimate CorrectionBelief::LargestRadial() const {
-  constexpr int kSteps = 20;
+  constexpr int kSteps = 20, kNumRadial = LensBasis::kNumRadial;
   Estimate radial;
   for (int i = 1; i <= kSteps; ++i) {
     const double r = double(i) / kSteps;
-    const auto by_coefficients = (r * RadialBasis::Gains(r * r)).eval();
+    const auto by_coefficients = LensBasis::At({r, 0}).row(0).head<kNumRadial>().eval();
     const double off = by_coefficients.dot(mean.coefficients_px.segment<kNumRadial>(kNumTerms));
     if (std::abs(off) < std::abs(radial.mean)) continue;
     radial = {off, std::sqrt(by_coefficients.dot(
-                       covariance.block<kNumRadial, kNumRadial>(kNumTerms, kNumTerms) *
-                       by_coefficients))};
+                       by_coefficients *
+                       covariance.block<kNumRadial, kNumRadial>(kNumTerms, kNumTerms)))};
   }
   return radial;
 }
 
 CorrectionBelief::Estimate CorrectionBelief::FocalLengthExcess(const StereoCamera& camera) const {
-  constexpr int kIndex = kNumTerms + RadialBasis::kFocalLength;
-  const double corner_px = RadialBasis::CornerPx(camera);
+  constexpr int kIndex = kNumTerms + LensBasis::kFocalLength;
+  const double corner_px = LensBasis::CornerPx(camera);
   return {mean.coefficients_px[kIndex] / corner_px,
           std::sqrt(covariance(kIndex, kIndex)) / corner_px};
 }

@@ -10,12 +10,11 @@
 namespace arfm_vo {
 namespace {
 
-/// The correction is known where its columns are known better than this all over the image, and
-/// the camera has turned where that moves columns by more: no observation is trusted more
-/// (LandmarkAlignerOptions::min_sigma_px).
-constexpr double kKnownSigmaPx = 0.1;
+/// No window is trusted more than an observation (LandmarkAlignerOptions::min_sigma_px).
+constexpr double kObservationSigmaPx = 0.1;
 
-/// No coefficient is known better: a lens is not quite what its model says.
+/// No coefficient is known better: a lens is not quite what its model says. The correction is known
+/// where its columns are, all over the image.
 constexpr double kModelSigmaPx = 0.05;
 
 /// What an adjustment holds, px.
@@ -34,7 +33,7 @@ constexpr double kSameProbability = 0.95;
 /// so much of it the correction is learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
 
-constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
 
 /// Of a vector of three with this covariance; 1 in the mean.
 double Square(const Eigen::Vector3d& x, const Eigen::Matrix3d& covariance) {
@@ -48,7 +47,7 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
     : camera_(camera),
       may_learn_(may_learn),
       is_open_(may_learn &&
-               (known.is_of_earlier_drive || known.MaxColumnSigma(camera) > kKnownSigmaPx)),
+               (known.is_of_earlier_drive || known.MaxColumnSigma(camera) > kModelSigmaPx)),
       by_turn_(CorrectionBelief::ByTurn(camera)),
       prior_(known),
       learnt_(known),
@@ -77,7 +76,7 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   if (result.correction_covariance.isZero(0)) return false;
   learnt_ = {result.correction, result.correction_covariance};
   TakeNews(learnt_);
-  is_open_ = learnt_.MaxColumnSigma(camera_) > kKnownSigmaPx;
+  is_open_ = learnt_.MaxColumnSigma(camera_) > kModelSigmaPx;
   is_found_ |= !is_open_;
   num_learnt_ = num_keyframes;
   turn_covariance_.setZero();
@@ -165,8 +164,8 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const Window newest{turn_of * window.correction.coefficients_px,
                       turn_of * window.correction_covariance * turn_of.transpose()};
   const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
-  const Eigen::Matrix3d noise =
-      scatter_.value() * newest.covariance + kKnownSigmaPx * kKnownSigmaPx * px2_by_turn.inverse();
+  const Eigen::Matrix3d noise = scatter_.value() * newest.covariance +
+                                kObservationSigmaPx * kObservationSigmaPx * px2_by_turn.inverse();
   const double ratio = Square(off, turn_covariance_ + noise);
   // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;

@@ -55,11 +55,11 @@ TEST(CorrectionBelief, OfACalibrationIsAboutAPixelWide) {
 
 TEST(CorrectionBelief, BothCornersOfACalibrationMayBeOffBySomePixels) {
   const CorrectionBelief belief = CorrectionBelief::OfCalibration(kCamera);
-  const RadialBasis corner(kCamera, {kCamera.width - 1.0, kCamera.height - 1.0});
-  constexpr int kFirst = StereoCorrection::kNumField, kNumRadial = StereoCorrection::kNumRadial;
-  const Eigen::Matrix2d covariance =
-      corner.values * belief.covariance.block<kNumRadial, kNumRadial>(kFirst, kFirst) *
-      corner.values.transpose();
+  const LensBasis corner(kCamera, {kCamera.width - 1.0, kCamera.height - 1.0});
+  constexpr int kFirst = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
+  const Eigen::Matrix2d covariance = corner.values *
+                                     belief.covariance.block<kNumLens, kNumLens>(kFirst, kFirst) *
+                                     corner.values.transpose();
   EXPECT_NEAR(std::sqrt(covariance.trace()), 3, 1);
 }
 
@@ -82,7 +82,7 @@ TEST(CorrectionBelief, FocalLengthExcessIsAShareOfIt) {
   CorrectionBelief belief = CorrectionBelief::OfCalibration(kCamera);
   EXPECT_NEAR(belief.FocalLengthExcess(kCamera).sigma, 1e-3, 1e-12);
   const double corner_px = 0.5 * std::hypot(kCamera.width, kCamera.height);
-  belief.mean.coefficients_px[StereoCorrection::kNumField + RadialBasis::kFocalLength] =
+  belief.mean.coefficients_px[StereoCorrection::kNumField + LensBasis::kFocalLength] =
       0.002 * corner_px;
   EXPECT_NEAR(belief.FocalLengthExcess(kCamera).mean, 0.002, 1e-12);
   const Eigen::Vector3d x(3, -1, 10);

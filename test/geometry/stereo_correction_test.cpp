@@ -75,17 +75,16 @@ TEST(StereoCorrection, RadialTermsMoveBothImagesAwayFromTheCentre) {
 
 TEST(StereoCorrection, SlopesOfRadialTermsAgreeWithNumericOnes) {
   constexpr double kRadius = 0.7, kStep = 1e-6;
-  const auto gains = [](double r) { return RadialBasis::Gains(r * r); };
+  const auto gains = [](double r) { return LensBasis::Gains(r * r); };
   const Eigen::Vector3d numeric =
       (gains(kRadius + kStep) - gains(kRadius - kStep)) / (2 * kStep * kRadius);
-  EXPECT_LT((RadialBasis::Slopes(kRadius * kRadius) - numeric).norm(), 1e-8);
+  EXPECT_LT((LensBasis::Slopes(kRadius * kRadius) - numeric).norm(), 1e-8);
 }
 
 TEST(StereoCorrection, NominalPixelsUndoTheDisplacement) {
   StereoCorrection correction;
   correction.coefficients_px.setLinSpaced(-0.5, 0.6);
-  correction.coefficients_px.segment<StereoCorrection::kNumRadial>(StereoCorrection::kNumField)
-      << 2,
+  correction.coefficients_px.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 2,
       -1, 0.5;
   for (const double z : {2.0, 10.0, 1000.0}) {
     const Eigen::Vector3d x(0.5 * z, -0.1 * z, z);

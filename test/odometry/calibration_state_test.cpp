@@ -7,7 +7,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
 const StereoCamera kCamera{700, 700, 320, 240, 0.3, 640, 480};
 const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kCamera);
 

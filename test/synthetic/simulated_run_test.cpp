@@ -126,7 +126,7 @@ TEST(SimulatedRun, NeesOfTheFirst20MetresIsWithinItsBoundsWithAWrongCalibration)
 
 /// Three of its standard deviations before the drive: turns tell what straight ways do not.
 TEST(SimulatedRun, AFocalLengthThatIsWrongIsLearntInTurns) {
-  constexpr int kFocalLength = StereoCorrection::kNumField + RadialBasis::kFocalLength;
+  constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
   const double sigma_px =
       std::sqrt(CorrectionBelief::OfCalibration(kCamera).covariance(kFocalLength, kFocalLength));
   SimulatedRunOptions options;

@@ -19,7 +19,7 @@ struct ReprojectionTerm {
   /// by its coefficients of v; other rows do not depend on these. This and the next are set where
   /// derivatives by the correction are wanted.
   Eigen::Matrix<double, StereoCorrection::kNumField, 1> right_by_field;
-  Eigen::Matrix<double, 4, StereoCorrection::kNumRadial> by_radial;
+  Eigen::Matrix<double, 4, StereoCorrection::kNumLens> by_lens;
 
   /// Derivatives by the step of BoxPlus(pose, .), by X, and by the correction.
   Eigen::Matrix<double, 4, 6> ByPose() const;
@@ -58,8 +58,8 @@ class ReprojectionModel {
   StereoCorrection correction_;
   Eigen::Matrix<double, 2, StereoCorrection::kNumField> field_;  ///< (u, v) of the right image
   bool with_correction_;
-  bool is_displaced_;   ///< the correction is not zero, or derivatives by it are wanted
-  double radial_unit_;  ///< px^-1, of RadialBasis
+  bool is_displaced_;  ///< the correction is not zero, or derivatives by it are wanted
+  double lens_unit_;   ///< px^-1, of LensBasis
 };
 
 /// The error of a pose constraint, (rotation rad, translation m), and its derivatives by the steps

@@ -10,21 +10,21 @@ namespace arfm_vo {
 /// images show things. The right image's displacement is a smooth field: every small error of its
 /// camera's rotation, focal length, centre or distortion is such a field nearly enough (cf. Kreso
 /// and Segvic, VISAPP 2015), and so is the difference of such errors in both cameras. What both
-/// cameras have in common, which stereo does not see and motion does, is radial.
+/// cameras have in common, which stereo does not see and motion does, is what a lens distorts.
 struct StereoCorrection {
-  static constexpr int kNumField = ImageBasis::kNumTerms, kNumRadial = RadialBasis::kNumTerms;
-  static constexpr int kSize = 2 * kNumField + kNumRadial;
+  static constexpr int kNumField = ImageBasis::kNumTerms, kNumLens = LensBasis::kNumTerms;
+  static constexpr int kSize = 2 * kNumField + kNumLens;
   /// The first so many coefficients move points in space and poses; rows do not.
-  static constexpr int kNumPlacing = kNumField + kNumRadial;
+  static constexpr int kNumPlacing = kNumField + kNumLens;
   using Coefficients = Eigen::Matrix<double, kSize, 1>;
 
-  /// Ten of the right image's u, three radial ones of both images, ten of the right image's v.
+  /// Twelve of the right image's u, five of both images' lens, twelve of the right image's v.
   Coefficients coefficients_px = Coefficients::Zero();
 
   bool IsZero() const { return coefficients_px.isZero(0); }
   /// Displacement (du, dv), px, of what the calibration places at `pixel` of the left image.
   Eigen::Vector2d AtLeft(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {
-    return RadialBasis(camera, pixel).values * coefficients_px.segment<kNumRadial>(kNumField);
+    return LensBasis(camera, pixel).values * coefficients_px.segment<kNumLens>(kNumField);
   }
   /// The same of the right image.
   Eigen::Vector2d AtRight(const StereoCamera& camera, const Eigen::Vector2d& pixel) const {

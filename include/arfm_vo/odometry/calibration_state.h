@@ -10,7 +10,7 @@
 namespace arfm_vo {
 
 /// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
-/// until its columns are known better than any single observation. From then on the newest
+/// until its columns are known as well as the model is right. From then on the newest
 /// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
 /// process noise is what the innovation asks for, and none where that is within its covariance
 /// (Jazwinski, Adaptive filtering, Automatica 1969). The covariance is as wide as what comes says

@@ -44,7 +44,7 @@ class StereoSkewEstimator {
   void Interrupt() { last_.reset(); }
 
  private:
-  static constexpr int kSize = 11;  ///< ten of the row field, px, and the skew, s
+  static constexpr int kSize = ImageBasis::kNumTerms + 1;  ///< the row field, px, and the skew, s
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   struct Last {
