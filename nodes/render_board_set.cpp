@@ -13,7 +13,7 @@ using namespace arfm_vo;
 namespace fs = std::filesystem;
 
 struct BoardSet {
-  BoardPattern pattern;
+  Chessboard board;
   SensorOptions sensor;
   int num_pairs = 63, width = 1624, seed = 1, num_threads = 1;
   double max_tilt_deg = 40;
@@ -31,8 +31,9 @@ void RenderBoardSet(const std::string& folder, const BoardSet& set) {
   set.sensor.Check();
   const BoardRig rig = BoardRig::Make(set.width);
   const std::vector<Rigid3> poses =
-      DrawBoardPoses(rig, set.pattern, set.num_pairs, set.max_tilt_deg, set.seed);
-  const BoardRenderer left(rig.left, set.pattern), right(rig.right, set.pattern);
+      DrawBoardPoses(rig, set.board, set.num_pairs, set.max_tilt_deg, set.seed);
+  const BoardRenderer left(rig.left, rig.image_size, set.board);
+  const BoardRenderer right(rig.right, rig.image_size, set.board);
   const std::string unfinished = folder + ".unfinished";
   fs::create_directories(unfinished);
   ProgressBar bar(stderr);
@@ -43,7 +44,7 @@ void RenderBoardSet(const std::string& folder, const BoardSet& set) {
         right.Render(rig.right_from_left * poses[i], set.sensor, 2 * i + 1, set.num_threads));
     bar.Show(i + 1, set.num_pairs);
   }
-  WriteWholeFile(unfinished + "/truth.yaml", FormatTruth(rig, set.pattern));
+  WriteWholeFile(unfinished + "/truth.yaml", FormatTruth(rig, set.board));
   fs::rename(unfinished, folder);
 }
 
@@ -61,9 +62,9 @@ int main(int argc, char** argv) {
       "truth.yaml. The same options give the same bytes.";
   program.inputs = {{"OUTPUT_DIR", &folder}};
   program.Add("pairs", set.num_pairs, "N", "number of pairs, 63 if not given");
-  program.Add("columns", set.pattern.columns, "N", "of inner corners");
-  program.Add("rows", set.pattern.rows, "N", "of inner corners");
-  program.Add("square", set.pattern.square_m, "M", "side of a square");
+  program.Add("columns", set.board.columns, "N", "of inner corners");
+  program.Add("rows", set.board.rows, "N", "of inner corners");
+  program.Add("square", set.board.square_m, "M", "side of a square");
   program.Add("width", set.width, "PX", "of the images, with the same view");
   program.Add("max-tilt", set.max_tilt_deg, "DEG", "of the board");
   program.Add("blur", set.sensor.blur_px, "PX", "of the lens, standard deviation");

@@ -2,7 +2,6 @@
 
 #include <locale.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -41,23 +40,19 @@ std::string FormatNumber(double value, bool fixed) {
 #else  // libstdc++ before 11 has it of integers only
 
 std::string FormatNumber(double value, bool fixed) {
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  if (!std::isfinite(value)) {
-    stream << value;
+  const auto shortest = [&](std::ios_base& (*notation)(std::ios_base&)) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    double read_back = NAN;
+    for (int precision = 0; read_back != value; ++precision) {
+      stream.str("");
+      stream << notation << std::setprecision(precision) << value;
+      if (!std::isfinite(value) || !ParseNumber(stream.str(), read_back)) break;
+    }
     return stream.str();
-  }
-  int num_decimals = -1;
-  double read_back = 0;
-  do {
-    stream.str("");
-    stream << std::scientific << std::setprecision(++num_decimals) << value;
-  } while (!ParseNumber(stream.str(), read_back) || read_back != value);
-  const std::string scientific = stream.str();
-  const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
-  stream.str("");
-  stream << std::fixed << std::setprecision(std::max(0, num_decimals - exponent)) << value;
-  return fixed || stream.str().size() <= scientific.size() ? stream.str() : scientific;
+  };
+  const std::string plain = shortest(std::fixed), scientific = shortest(std::scientific);
+  return fixed || plain.size() <= scientific.size() ? plain : scientific;
 }
 
 #endif

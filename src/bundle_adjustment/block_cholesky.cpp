@@ -29,6 +29,16 @@ std::vector<int> Order(const BlockPattern& blocks) {
 
 }  // namespace
 
+BlockPattern::BlockPattern(std::vector<std::vector<int>> tied_to) {
+  for (int row = 0; row < static_cast<int>(tied_to.size()); ++row) {
+    std::vector<int>& ties = tied_to[row];
+    ties.push_back(row);
+    std::sort(ties.begin(), ties.end());
+    columns.insert(columns.end(), ties.begin(), std::unique(ties.begin(), ties.end()));
+    row_begin.push_back(static_cast<int>(columns.size()));
+  }
+}
+
 int BlockPattern::Find(int row, int column, int from) const {
   // Neighbours on a path stand next to each other: a step or two, then a search.
   if (columns[from] == column) return from;

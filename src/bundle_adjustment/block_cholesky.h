@@ -13,6 +13,9 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct BlockPattern {
   std::vector<int> row_begin = {0}, columns;
 
+  BlockPattern() = default;
+  /// `tied_to`: for each row the later rows that it is tied to, in any order, also repeatedly.
+  explicit BlockPattern(std::vector<std::vector<int>> tied_to);
   int num_rows() const { return static_cast<int>(row_begin.size()) - 1; }
   /// The index of block (row, column) into `columns`; it must be there. `from` must not lie behind
   /// it in its row.

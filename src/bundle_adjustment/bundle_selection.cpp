@@ -1,27 +1,11 @@
 #include "bundle_selection.h"
 
-#include <numeric>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
 namespace {
-
-/// Disjoint sets of 0..size-1.
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t size) : parents_(size) {
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-  int Root(int i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void Join(int i, int j) { parents_[Root(i)] = Root(j); }
-
- private:
-  std::vector<int> parents_;
-};
 
 std::vector<char> FindVisible(const BundleProblem& problem) {
   const ReprojectionModel model(problem.camera, problem.correction, false);
@@ -56,21 +40,21 @@ std::vector<char> FindPlaceable(const BundleProblem& problem, const std::vector<
 
 std::vector<char> FindFreePoses(const BundleProblem& problem, const BundleSelection& selection) {
   const int num_poses = static_cast<int>(problem.camera_from_world.size());
-  DisjointSets sets(num_poses + problem.points.size());
+  boost::disjoint_sets_with_storage<> sets(num_poses + problem.points.size());
   for (size_t i = 0; i < problem.observations.size(); ++i) {
     if (!selection.observation_is_used[i]) continue;
-    sets.Join(problem.observations[i].pose, num_poses + problem.observations[i].point);
+    sets.union_set(problem.observations[i].pose, num_poses + problem.observations[i].point);
   }
   for (const PoseConstraint& constraint : problem.constraints) {
-    sets.Join(constraint.first, constraint.second);
+    sets.union_set(constraint.first, constraint.second);
   }
   std::vector<char> is_anchored(num_poses + problem.points.size(), 0);
   for (int i = 0; i < num_poses; ++i) {
-    if (problem.pose_is_fixed[i]) is_anchored[sets.Root(i)] = 1;
+    if (problem.pose_is_fixed[i]) is_anchored[sets.find_set(i)] = 1;
   }
   std::vector<char> is_free(num_poses);
   for (int i = 0; i < num_poses; ++i) {
-    is_free[i] = !problem.pose_is_fixed[i] && is_anchored[sets.Root(i)];
+    is_free[i] = !problem.pose_is_fixed[i] && is_anchored[sets.find_set(i)];
   }
   return is_free;
 }

@@ -37,53 +37,32 @@ void BundleStructure::SortObservations(const BundleProblem& problem,
     const auto first = observations.begin() + begin[i], last = observations.begin() + begin[i + 1];
     if (!std::is_sorted(first, last, by_pose)) std::stable_sort(first, last, by_pose);
   }
+  const auto is_repeated = [](const BundleObservation& a, const BundleObservation& b) {
+    return a.point == b.point && a.pose == b.pose;
+  };
+  observations.erase(std::unique(observations.begin(), observations.end(), is_repeated),
+                     observations.end());
 }
 
 void BundleStructure::FindTracks() {
-  const int num_observations = static_cast<int>(observations.size());
-  sightings.reserve(observations.size());
-  for (int i = 0; i < num_observations; ++i) {
-    const BundleObservation& observation = observations[i];
-    const bool is_new_point = i == 0 || observation.point != observations[i - 1].point;
-    if (is_new_point) {
-      const int first = static_cast<int>(sightings.size());
-      tracks.push_back({observation.point, first, first});
-    }
-    if (is_new_point || observation.pose != observations[i - 1].pose) {
-      sightings.push_back({observation.pose, free_pose[observation.pose], i, i});
-      ++tracks.back().last;
-    }
-    ++sightings.back().last;
+  for (int i = 0; i < static_cast<int>(observations.size()); ++i) {
+    const int point = observations[i].point;
+    if (i == 0 || point != observations[i - 1].point) tracks.push_back({point, i, i});
+    ++tracks.back().last;
   }
 }
 
 void BundleStructure::FindBlocks(const BundleProblem& problem) {
-  // For each free pose in turn, those it shares a point with.
-  std::vector<std::vector<int>> tracks_of(num_free_poses()), tied_to(num_free_poses());
-  for (int i = 0; i < static_cast<int>(tracks.size()); ++i) {
-    for (int k = tracks[i].first; k < tracks[i].last; ++k) {
-      if (sightings[k].free_pose != kFixed) tracks_of[sightings[k].free_pose].push_back(i);
-    }
-  }
-  for (const PoseConstraint& constraint : problem.constraints) {
-    const int a = free_pose[constraint.first], b = free_pose[constraint.second];
+  std::vector<std::vector<int>> tied_to(num_free_poses());
+  const auto tie = [&](int a, int b) {
     if (a != kFixed && b != kFixed) tied_to[std::min(a, b)].push_back(std::max(a, b));
-  }
-  std::vector<int> seen_by(num_free_poses(), kFixed);
-  for (int row = 0; row < num_free_poses(); ++row) {
-    const auto add = [&](int column) {
-      if (column < row || seen_by[column] == row) return;
-      seen_by[column] = row;
-      blocks.columns.push_back(column);
-    };
-    add(row);
-    for (const int track : tracks_of[row]) {
-      for (int k = tracks[track].first; k < tracks[track].last; ++k) add(sightings[k].free_pose);
-    }
-    for (const int column : tied_to[row]) add(column);
-    std::sort(blocks.columns.begin() + blocks.row_begin.back(), blocks.columns.end());
-    blocks.row_begin.push_back(static_cast<int>(blocks.columns.size()));
-  }
+  };
+  for (const Track& track : tracks)
+    for (int i = track.first; i < track.last; ++i)
+      for (int j = i + 1; j < track.last; ++j) tie(FreePose(i), FreePose(j));
+  for (const PoseConstraint& constraint : problem.constraints)
+    tie(free_pose[constraint.first], free_pose[constraint.second]);
+  blocks = BlockPattern(std::move(tied_to));
 }
 
 }  // namespace arfm_vo

@@ -12,19 +12,13 @@ namespace arfm_vo {
 struct BundleStructure {
   static constexpr int kFixed = -1;
 
-  /// All observations of one point by one pose (there is one as a rule).
-  struct Sighting {
-    int pose = 0;             ///< index into the problem
-    int free_pose = 0;        ///< 0..num_free_poses-1, kFixed where the pose does not move
-    int first = 0, last = 0;  ///< observations[first..last)
-  };
   struct Track {
     int point = 0;            ///< index into the problem
-    int first = 0, last = 0;  ///< sightings[first..last), sorted by pose
+    int first = 0, last = 0;  ///< observations[first..last), sorted by pose
   };
 
-  std::vector<BundleObservation> observations;  ///< those used, sorted by point and pose
-  std::vector<Sighting> sightings;
+  /// Those used, sorted by point and pose; of one point by one pose the first alone.
+  std::vector<BundleObservation> observations;
   std::vector<Track> tracks;      ///< of the points used, sorted by point
   std::vector<int> free_pose;     ///< [poses] of the problem, or kFixed
   std::vector<int> pose_of_free;  ///< [free poses]
@@ -32,6 +26,8 @@ struct BundleStructure {
   BlockPattern blocks;  ///< of the reduced camera matrix, free poses by free poses
 
   BundleStructure(const BundleProblem& problem, const BundleSelection& selection);
+  /// Of an observation's pose, or kFixed.
+  int FreePose(int observation) const { return free_pose[observations[observation].pose]; }
   int num_free_poses() const { return static_cast<int>(pose_of_free.size()); }
 
  private:

@@ -2,7 +2,9 @@
 
 #include <ceres/iteration_callback.h>
 #include <ceres/loss_function.h>
+#include <ceres/normal_prior.h>
 #include <ceres/ordered_groups.h>
+#include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <memory>
@@ -52,14 +54,11 @@ class CeresBundle {
       : problem_(problem),
         selection_(selection),
         options_(options),
-        poses_(problem.camera_from_world.size()),
+        steps_(problem.camera_from_world.size(), PoseStep::Zero()),
         points_(problem.points),
         correction_(problem.correction.coefficients_px),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()),
         ceres_problem_(ProblemOptions()) {
-    for (size_t i = 0; i < poses_.size(); ++i) {
-      SetPose(problem.camera_from_world[i], poses_[i].data());
-    }
     AddObservations();
     AddConstraints();
     AddPrior();
@@ -68,7 +67,7 @@ class CeresBundle {
 
   BundleResult Solve(const BundleCallback& callback) {
     ceres::Solver::Options options;
-    const bool is_small = poses_.size() <= 40;
+    const bool is_small = steps_.size() <= 40;
     options.linear_solver_type = is_small ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
     if (options_.strategy == StepStrategy::kGaussNewton) {
       options.initial_trust_region_radius = kBoundlessRadius;
@@ -99,24 +98,20 @@ class CeresBundle {
     for (size_t i = 0; i < problem_.observations.size(); ++i) {
       if (!selection_.observation_is_used[i]) continue;
       const BundleObservation& observation = problem_.observations[i];
-      ceres::CostFunction* cost;
-      if (observation.has_right) {
-        cost = new ReprojectionCost<4>(problem_.camera, observation);
-      } else {
-        cost = new ReprojectionCost<2>(problem_.camera, observation);
-      }
       CeresLoss* const loss = observation.has_right ? &stereo_loss_ : &mono_loss_;
-      ceres_problem_.AddResidualBlock(cost, is_robust ? loss : nullptr,
-                                      poses_[observation.pose].data(),
-                                      points_[observation.point].data(), correction_.data());
+      ceres_problem_.AddResidualBlock(
+          new ReprojectionCost(problem_.camera, observation,
+                               problem_.camera_from_world[observation.pose]),
+          is_robust ? loss : nullptr, steps_[observation.pose].data(),
+          points_[observation.point].data(), correction_.data());
     }
   }
 
   void AddConstraints() {
     for (const PoseConstraint& constraint : problem_.constraints) {
-      ceres_problem_.AddResidualBlock(new ConstraintCost(constraint), nullptr,
-                                      poses_[constraint.first].data(),
-                                      poses_[constraint.second].data());
+      ceres_problem_.AddResidualBlock(new ConstraintCost(constraint, problem_.camera_from_world),
+                                      nullptr, steps_[constraint.first].data(),
+                                      steps_[constraint.second].data());
     }
   }
 
@@ -126,20 +121,20 @@ class CeresBundle {
       ceres_problem_.SetParameterBlockConstant(correction_.data());
       return;
     }
-    ceres_problem_.AddResidualBlock(new CorrectionPriorCost(*problem_.correction_prior), nullptr,
-                                    correction_.data());
+    const CorrectionBelief& prior = *problem_.correction_prior;
+    const ceres::Matrix root = prior.Information().llt().matrixL().transpose();
+    ceres_problem_.AddResidualBlock(new ceres::NormalPrior(root, prior.mean.coefficients_px),
+                                    nullptr, correction_.data());
     ordering_->AddElementToGroup(correction_.data(), 1);
   }
 
   void SetConstants() {
-    for (size_t i = 0; i < poses_.size(); ++i) {
-      double* const pose = poses_[i].data();
-      if (!ceres_problem_.HasParameterBlock(pose)) continue;
+    for (size_t i = 0; i < steps_.size(); ++i) {
+      double* const step = steps_[i].data();
       if (selection_.pose_is_free[i]) {
-        SetPoseManifold(ceres_problem_, pose);
-        ordering_->AddElementToGroup(pose, 1);
-      } else {
-        ceres_problem_.SetParameterBlockConstant(pose);
+        ordering_->AddElementToGroup(step, 1);
+      } else if (ceres_problem_.HasParameterBlock(step)) {
+        ceres_problem_.SetParameterBlockConstant(step);
       }
     }
     for (size_t i = 0; i < points_.size(); ++i) {
@@ -149,33 +144,28 @@ class CeresBundle {
 
   BundleResult ResultOf(const ceres::Solver::Summary& summary) const {
     BundleResult result;
-    result.camera_from_world.reserve(poses_.size());
-    for (const PoseArray& pose : poses_) result.camera_from_world.push_back(PoseOf(pose.data()));
+    result.camera_from_world = problem_.camera_from_world;
+    for (size_t i = 0; i < steps_.size(); ++i) {
+      Rigid3& pose = result.camera_from_world[i];
+      if (selection_.pose_is_free[i]) pose = MovedBy(steps_[i].data(), pose);
+    }
     result.points = points_;
     result.correction.coefficients_px = correction_;
     result.num_iterations = static_cast<int>(summary.iterations.size()) - 1;
     result.initial_cost = 2 * summary.initial_cost;
     result.final_cost = 2 * summary.final_cost;
-    switch (summary.termination_type) {
-      case ceres::CONVERGENCE:
-        result.status = BundleStatus::kConverged;
-        break;
-      case ceres::NO_CONVERGENCE:
-        result.status = BundleStatus::kNotConverged;
-        break;
-      case ceres::USER_SUCCESS:
-        result.status = BundleStatus::kCancelled;
-        break;
-      default:
-        result.status = BundleStatus::kFailed;
-    }
+    result.status = summary.termination_type == ceres::CONVERGENCE ? BundleStatus::kConverged
+                    : summary.termination_type == ceres::NO_CONVERGENCE
+                        ? BundleStatus::kNotConverged
+                    : summary.termination_type == ceres::USER_SUCCESS ? BundleStatus::kCancelled
+                                                                      : BundleStatus::kFailed;
     return result;
   }
 
   const BundleProblem& problem_;
   const BundleSelection& selection_;
   const BundleOptions& options_;
-  std::vector<PoseArray> poses_;
+  std::vector<PoseStep> steps_;  ///< of the poses from where they start
   std::vector<Eigen::Vector3d> points_;
   Coefficients correction_;
   CeresLoss mono_loss_{RobustLoss(options_.loss, kBundleLossThreshold, 2)};

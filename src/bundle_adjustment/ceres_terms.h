@@ -5,58 +5,62 @@
 #include <Eigen/Cholesky>
 
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
-#include "pose_manifold.h"
+#include "arfm_vo/geometry/screw_motion.h"
 
 namespace arfm_vo::ceres_terms {
 
-constexpr int kMaxCoefficients = StereoCorrection::kSize;
+// A pose is a parameter block of six numbers: the step of BoxPlus from where the adjustment starts,
+// so that it needs no manifold.
+constexpr int kPoseSize = 6, kMaxCoefficients = StereoCorrection::kSize;
 using Coefficients = StereoCorrection::Coefficients;
-template <int N>
-using RowMajor = Eigen::Matrix<double, N, kPoseSize, Eigen::RowMajor>;
+using PoseStep = Eigen::Matrix<double, kPoseSize, 1>;
+template <int N, int M>
+using RowMajor = Eigen::Matrix<double, N, M, Eigen::RowMajor>;
 
-/// ReprojectionTerm, N = 4 rows, or 2 without a right pixel. Parameters: pose, point, correction.
-template <int N>
-class ReprojectionCost : public ceres::SizedCostFunction<N, kPoseSize, 3, kMaxCoefficients> {
+inline Rigid3 MovedBy(const double* step, const Rigid3& start) {
+  return BoxPlus(start, Eigen::Map<const PoseStep>(step));
+}
+
+/// The step of BoxPlus from the moved pose that a change of `step` comes to.
+inline Eigen::Matrix<double, 6, 6> Further(const double* step) {
+  const Eigen::Matrix3d turn = LeftJacobianSO3(Eigen::Map<const Eigen::Vector3d>(step));
+  Eigen::Matrix<double, 6, 6> further;
+  further << turn, Eigen::Matrix3d::Zero(),
+      Skew(Eigen::Map<const Eigen::Vector3d>(step + 3)) * turn, Eigen::Matrix3d::Identity();
+  return further;
+}
+
+/// ReprojectionTerm; without a right pixel its last two rows are zero. Parameters: pose, point,
+/// correction.
+class ReprojectionCost : public ceres::SizedCostFunction<4, kPoseSize, 3, kMaxCoefficients> {
  public:
-  ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation)
-      : camera_(camera), observation_(observation) {}
+  ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation,
+                   const Rigid3& start)
+      : camera_(camera), observation_(observation), start_(start) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const Rigid3 pose = PoseOf(parameters[0]);
-    const bool with_correction = jacobians != nullptr && jacobians[2] != nullptr;
-    const ReprojectionModel model(camera_, {Coefficients(parameters[2])}, with_correction);
-    const Eigen::Vector3d point(parameters[1]);
+    const Rigid3 pose = MovedBy(parameters[0], start_);
+    const Eigen::Matrix3d rotation = pose.RotationMatrix();
+    const ReprojectionModel model(camera_, {Coefficients(parameters[2])},
+                                  jacobians != nullptr && jacobians[2] != nullptr);
     ReprojectionTerm term;
-    if (jacobians == nullptr) {
-      model.Evaluate(observation_, pose.RotationMatrix(), pose.translation, point, term.residual);
-    } else {
-      model.Linearize(observation_, pose.RotationMatrix(), pose.translation, point, term);
-    }
-    Eigen::Map<Eigen::Matrix<double, N, 1>>(residuals + 0) = term.residual.template head<N>();
-    if (jacobians != nullptr) SetJacobians(term, pose.RotationMatrix(), jacobians);
+    model.Linearize(observation_, rotation, pose.translation, Eigen::Vector3d(parameters[1]), term);
+    Eigen::Map<Eigen::Vector4d>(residuals + 0) = term.residual;
+    if (jacobians == nullptr) return true;
+    if (jacobians[0] != nullptr)
+      Eigen::Map<RowMajor<4, kPoseSize>>(jacobians[0] + 0) = term.ByPose() * Further(parameters[0]);
+    if (jacobians[1] != nullptr)
+      Eigen::Map<RowMajor<4, 3>>(jacobians[1] + 0) = term.ByPoint(rotation);
+    if (jacobians[2] != nullptr)
+      Eigen::Map<RowMajor<4, kMaxCoefficients>>(jacobians[2] + 0) = term.ByCorrection();
     return true;
   }
 
  private:
-  void SetJacobians(const ReprojectionTerm& term, const Eigen::Matrix3d& rotation,
-                    double** jacobians) const {
-    using Matrix3 = Eigen::Matrix<double, N, 3, Eigen::RowMajor>;
-    if (jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor<N>>(jacobians[0]) << term.ByPose().template topRows<N>(),
-          Eigen::Matrix<double, N, 1>::Zero();
-    }
-    if (jacobians[1] != nullptr) {
-      Eigen::Map<Matrix3>(jacobians[1] + 0) = term.ByPoint(rotation).template topRows<N>();
-    }
-    if (jacobians[2] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, N, kMaxCoefficients, Eigen::RowMajor>>(jacobians[2] + 0) =
-          term.ByCorrection().template topRows<N>();
-    }
-  }
-
   const StereoCamera& camera_;
   const BundleObservation& observation_;
+  const Rigid3& start_;
 };
 
 /// R with R^T R = information, which may be singular. (By eigenvalues it takes GCC 10 s more.)
@@ -71,49 +75,27 @@ inline Eigen::Matrix<double, 6, 6> FindSquareRoot(const Eigen::Matrix<double, 6,
 /// sqrt(Omega) e of a PoseConstraint. Parameters: first pose, second pose.
 class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> {
  public:
-  explicit ConstraintCost(const PoseConstraint& constraint)
-      : constraint_(constraint), root_(FindSquareRoot(constraint.information)) {}
+  ConstraintCost(const PoseConstraint& constraint, const std::vector<Rigid3>& start)
+      : constraint_(constraint), start_(start), root_(FindSquareRoot(constraint.information)) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     const ConstraintTerm term =
-        LinearizeConstraint(constraint_, PoseOf(parameters[0]), PoseOf(parameters[1]));
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(residuals + 0) = root_ * term.residual;
-    if (jacobians == nullptr) return true;
+        LinearizeConstraint(constraint_, MovedBy(parameters[0], start_[constraint_.first]),
+                            MovedBy(parameters[1], start_[constraint_.second]));
+    Eigen::Map<PoseStep>(residuals + 0) = root_ * term.residual;
     for (const int i : {0, 1}) {
-      if (jacobians[i] == nullptr) continue;
-      Eigen::Map<RowMajor<6>>(jacobians[i]) << root_ * (i == 0 ? term.by_first : term.by_second),
-          Eigen::Matrix<double, 6, 1>::Zero();
+      if (jacobians == nullptr || jacobians[i] == nullptr) continue;
+      Eigen::Map<RowMajor<6, kPoseSize>>(jacobians[i] + 0) =
+          root_ * (i == 0 ? term.by_first : term.by_second) * Further(parameters[i]);
     }
     return true;
   }
 
  private:
   const PoseConstraint& constraint_;
+  const std::vector<Rigid3>& start_;
   const Eigen::Matrix<double, 6, 6> root_;
-};
-
-/// What the correction's coefficients are off their prior's mean, times the root of its
-/// information.
-class CorrectionPriorCost : public ceres::SizedCostFunction<kMaxCoefficients, kMaxCoefficients> {
- public:
-  explicit CorrectionPriorCost(const CorrectionBelief& prior)
-      : mean_(prior.mean.coefficients_px), root_(prior.Information().llt().matrixL().transpose()) {}
-
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Map<const Coefficients> k(parameters[0]);
-    Eigen::Map<Coefficients>(residuals + 0) = root_ * (k - mean_);
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Root>(jacobians[0] + 0) = root_;
-    }
-    return true;
-  }
-
- private:
-  using Root = Eigen::Matrix<double, kMaxCoefficients, kMaxCoefficients, Eigen::RowMajor>;
-  const Coefficients mean_;
-  const Root root_;
 };
 
 }  // namespace arfm_vo::ceres_terms

@@ -14,7 +14,7 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       max_time_share_(options.max_time_share),
       num_coefficients_(static_cast<int>(selection.correction_directions.cols())),
       solver_(structure.blocks, num_coefficients_),
-      sighting_terms_(structure.sightings.size()),
+      ties_(structure.observations.size()),
       point_blocks_(structure.tracks.size()),
       point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
       point_rights_(structure.tracks.size()) {
@@ -34,55 +34,49 @@ double NormalEquations::Linearize(const BundleState& state) {
     if (num_coefficients_ > 0) point_borders_[track].setZero(3, num_coefficients_);
     point_rights_[track].setZero();
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
-      cost += LinearizeSighting(model, state, track, i);
+      cost += LinearizeObservation(model, state, track, i);
     }
   }
   return cost + AddConstraints(state) + AddPrior(state);
 }
 
-double NormalEquations::LinearizeSighting(const ReprojectionModel& model, const BundleState& state,
-                                          int track, int index) {
-  const BundleStructure::Sighting& sighting = structure_.sightings[index];
-  const Eigen::Matrix3d& rotation = rotations_[sighting.pose];
-  const int free_pose = sighting.free_pose;
-  SightingTerm& tie = sighting_terms_[index];
-  tie.upper.setZero();
-  double cost = 0;
-  for (int i = sighting.first; i < sighting.last; ++i) {
-    const BundleObservation& observation = structure_.observations[i];
-    ReprojectionTerm term;
-    model.Linearize(observation, rotation, state.camera_from_world[sighting.pose].translation,
-                    state.points[observation.point], term);
-    const RobustLoss& loss = losses_[observation.has_right];
-    const double s = term.residual.squaredNorm();
-    cost += loss.Rho(s);
-    const double weight = loss.Weight(s);
+double NormalEquations::LinearizeObservation(const ReprojectionModel& model,
+                                             const BundleState& state, int track, int index) {
+  const BundleObservation& observation = structure_.observations[index];
+  const Eigen::Matrix3d& rotation = rotations_[observation.pose];
+  const int free_pose = structure_.FreePose(index);
+  ReprojectionTerm term;
+  model.Linearize(observation, rotation, state.camera_from_world[observation.pose].translation,
+                  state.points[observation.point], term);
+  const RobustLoss& loss = losses_[observation.has_right];
+  const double s = term.residual.squaredNorm();
+  const double weight = loss.Weight(s);
 
-    // With A the derivative by x, J_point = A R and J_pose = A (-[x]x, I).
-    const Eigen::Matrix3d m = weight * (term.by_x.transpose().lazyProduct(term.by_x));
-    const Eigen::Vector3d pull = -weight * term.by_x.transpose().lazyProduct(term.residual);
-    const Eigen::Matrix3d m_r = m.lazyProduct(rotation);
-    point_blocks_[track] += rotation.transpose().lazyProduct(m_r);
-    point_rights_[track] += rotation.transpose().lazyProduct(pull);
-    if (free_pose != BundleStructure::kFixed) {
-      const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
-      Matrix6d& block = held_.blocks[structure_.blocks.row_begin[free_pose]];
-      block.topLeftCorner<3, 3>() += CrossColumns(term.x, x_m.transpose());
-      block.topRightCorner<3, 3>() += x_m;
-      block.bottomRightCorner<3, 3>() += m;
-      held_.right[free_pose].head<3>() += term.x.cross(pull);
-      held_.right[free_pose].tail<3>() += pull;
-      tie.x = term.x;
-      tie.Add(m);
-    }
-    if (num_coefficients_ == 0) continue;
+  // With A the derivative by x, J_point = A R and J_pose = A (-[x]x, I).
+  const Eigen::Matrix3d m = weight * (term.by_x.transpose().lazyProduct(term.by_x));
+  const Eigen::Vector3d pull = -weight * term.by_x.transpose().lazyProduct(term.residual);
+  const Eigen::Matrix3d m_r = m.lazyProduct(rotation);
+  point_blocks_[track] += rotation.transpose().lazyProduct(m_r);
+  point_rights_[track] += rotation.transpose().lazyProduct(pull);
+  if (free_pose != BundleStructure::kFixed) {
+    const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
+    Matrix6d& block = held_.blocks[structure_.blocks.row_begin[free_pose]];
+    block.topLeftCorner<3, 3>() += CrossColumns(term.x, x_m.transpose());
+    block.topRightCorner<3, 3>() += x_m;
+    block.bottomRightCorner<3, 3>() += m;
+    held_.right[free_pose].head<3>() += term.x.cross(pull);
+    held_.right[free_pose].tail<3>() += pull;
+    ties_[index].x = term.x;
+    ties_[index].Set(m);
+  }
+  if (num_coefficients_ > 0) {
     if (problem_.correction_turns) {
       LinearizeByTurns(term, weight, rotation, track, free_pose);
     } else {
       LinearizeByCorrection(term, weight, rotation, track, free_pose);
     }
   }
-  return cost;
+  return loss.Rho(s);
 }
 
 void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weight,

@@ -55,14 +55,14 @@ class NormalEquations {
   const std::vector<Eigen::Matrix3d>& point_blocks() const { return point_blocks_; }
 
  private:
-  /// What ties a pose to a point that it sees: J_pose^T W J_point = ([x]x, I) m R, with m the sum
-  /// of A^T W A over the observations, A their derivatives by x = R X + t.
-  struct SightingTerm {
+  /// What ties a pose to a point that it sees: J_pose^T W J_point = ([x]x, I) m R, with m =
+  /// A^T W A, A the observation's derivative by x = R X + t.
+  struct Tie {
     Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< m, camera frame
     Vector6d upper = Vector6d::Zero();            ///< of m: xx, xy, yy, xz, yz, zz
 
-    void Add(const Eigen::Matrix3d& m) {
-      upper += (Vector6d() << m(0, 0), m(0, 1), m(1, 1), m(0, 2), m(1, 2), m(2, 2)).finished();
+    void Set(const Eigen::Matrix3d& m) {
+      upper << m(0, 0), m(0, 1), m(1, 1), m(0, 2), m(1, 2), m(2, 2);
     }
     Eigen::Matrix3d M() const {
       Eigen::Matrix3d m;
@@ -72,8 +72,8 @@ class NormalEquations {
   };
   using PoseByPoint = Eigen::Matrix<double, 6, 3>;
 
-  double LinearizeSighting(const ReprojectionModel& model, const BundleState& state, int track,
-                           int index);
+  double LinearizeObservation(const ReprojectionModel& model, const BundleState& state, int track,
+                              int index);
   void LinearizeByTurns(const ReprojectionTerm& term, double weight,
                         const Eigen::Matrix3d& rotation, int track, int free_pose);
   void LinearizeByCorrection(const ReprojectionTerm& term, double weight,
@@ -99,7 +99,7 @@ class NormalEquations {
   std::vector<Eigen::Matrix3d> rotations_;      ///< [poses]
   ReducedSystem held_;                          ///< equations with the points held
   ReducedSystem reduced_;                       ///< with the points eliminated
-  std::vector<SightingTerm> sighting_terms_;    ///< poses by points
+  std::vector<Tie> ties_;                       ///< [observations] poses by points
   std::vector<Eigen::Matrix3d> point_blocks_;   ///< points by points
   std::vector<BorderMatrix<3>> point_borders_;  ///< points by correction, where it is free
   std::vector<Eigen::Vector3d> point_rights_;   ///< of b

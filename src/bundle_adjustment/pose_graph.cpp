@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "arfm_vo/base/check.h"
@@ -52,20 +51,14 @@ class PoseGraph {
 
  private:
   BlockPattern FindPattern(size_t num_poses) const {
-    std::vector<std::set<int>> tied_to(num_poses - 1);
-    for (size_t row = 0; row < tied_to.size(); ++row) tied_to[row].insert(static_cast<int>(row));
+    std::vector<std::vector<int>> tied_to(num_poses - 1);
     for (const Constraints* constraints : {&steps_, &loops_}) {
       for (const PoseConstraint& c : *constraints) {
         const int row = std::min(c.first, c.second) - 1;
-        if (row >= 0) tied_to[row].insert(std::max(c.first, c.second) - 1);
+        if (row >= 0) tied_to[row].push_back(std::max(c.first, c.second) - 1);
       }
     }
-    BlockPattern pattern;
-    for (const std::set<int>& row : tied_to) {
-      pattern.columns.insert(pattern.columns.end(), row.begin(), row.end());
-      pattern.row_begin.push_back(static_cast<int>(pattern.columns.size()));
-    }
-    return pattern;
+    return BlockPattern(std::move(tied_to));
   }
 
   const Constraints& steps_;

@@ -63,19 +63,19 @@ void NormalEquations::EliminatePoint(int track, double damping) {
   const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
   track_blocks_.resize(std::max<size_t>(track_blocks_.size(), last - first));
   for (int i = first; i < last; ++i) {
-    if (structure_.sightings[i].free_pose == BundleStructure::kFixed) continue;
-    const SightingTerm& term = sighting_terms_[i];
-    const Eigen::Matrix3d m_r = term.M().lazyProduct(rotations_[structure_.sightings[i].pose]);
-    track_blocks_[i - first] << CrossColumns(term.x, m_r), m_r;
+    if (structure_.FreePose(i) == BundleStructure::kFixed) continue;
+    const Eigen::Matrix3d m_r =
+        ties_[i].M().lazyProduct(rotations_[structure_.observations[i].pose]);
+    track_blocks_[i - first] << CrossColumns(ties_[i].x, m_r), m_r;
   }
   for (int i = first; i < last; ++i) {
-    const int row = structure_.sightings[i].free_pose;
+    const int row = structure_.FreePose(i);
     if (row == BundleStructure::kFixed) continue;
     reduced_.right[row].noalias() -= track_blocks_[i - first] * inverse_right;
     const PoseByPoint product = track_blocks_[i - first] * inverse;
     int block = structure_.blocks.row_begin[row];
     for (int j = i; j < last; ++j) {
-      const int column = structure_.sightings[j].free_pose;
+      const int column = structure_.FreePose(j);
       if (column == BundleStructure::kFixed) continue;
       block = structure_.blocks.Find(row, column, block);
       reduced_.blocks[block].noalias() -= product * track_blocks_[j - first].transpose();
@@ -97,12 +97,12 @@ void NormalEquations::FindPointSteps(double damping, BundleStep& step) const {
     Eigen::Vector3d right = point_rights_[track];
     if (num_coefficients_ > 0) right -= point_borders_[track] * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
-      const auto& [pose, free_pose, from, to] = structure_.sightings[i];
+      const int free_pose = structure_.FreePose(i);
       if (free_pose == BundleStructure::kFixed) continue;
       const Eigen::Vector3d turn = step.reduced.segment<3>(6 * free_pose);
       const Eigen::Vector3d shift = step.reduced.segment<3>(6 * free_pose + 3);
-      const SightingTerm& term = sighting_terms_[i];
-      right.noalias() -= rotations_[pose].transpose() * (term.M() * (shift + turn.cross(term.x)));
+      const Eigen::Matrix3d& rotation = rotations_[structure_.observations[i].pose];
+      right.noalias() -= rotation.transpose() * (ties_[i].M() * (shift + turn.cross(ties_[i].x)));
     }
     step.points[track] = DampedInverse(track, damping) * right;
   }
@@ -140,17 +140,18 @@ void NormalEquations::Apply(const BundleStep& step, BundleState& state) const {
     pose = Rigid3(ExpSO3(turn), Eigen::Vector3d(LeftJacobianSO3(turn) * shift)) * pose;
   }
   for (size_t track = 0; track < step.points.size(); ++track) {
-    const BundleStructure::Sighting& host = structure_.sightings[structure_.tracks[track].first];
+    const int host = structure_.observations[structure_.tracks[track].first].pose;
+    const int free_host = structure_.free_pose[host];
     Eigen::Vector3d& point = state.points[structure_.tracks[track].point];
-    if (host.free_pose == BundleStructure::kFixed) {
+    if (free_host == BundleStructure::kFixed) {
       point += step.points[track];
       continue;
     }
-    const auto host_step = step.reduced.segment<6>(6 * host.free_pose);
-    const Eigen::Vector3d x = old[host.pose] * point;
+    const auto host_step = step.reduced.segment<6>(6 * free_host);
+    const Eigen::Vector3d x = old[host] * point;
     const Eigen::Vector3d moved_x = x + host_step.head<3>().cross(x) + host_step.tail<3>() +
-                                    old[host.pose].rotation * step.points[track];
-    point = state.camera_from_world[host.pose].Inverse() * moved_x;
+                                    old[host].rotation * step.points[track];
+    point = state.camera_from_world[host].Inverse() * moved_x;
   }
   state.correction.coefficients_px +=
       selection_.correction_directions * step.reduced.tail(num_coefficients_);

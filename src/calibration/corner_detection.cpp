@@ -14,9 +14,8 @@ namespace {
 
 constexpr double kMinSquare_m = 0.001, kMaxSquare_m = 1;
 
-/// Longest side in px of the image in which the board is first looked for; the refinement works at
-/// full size.
-constexpr int kSearchSide = 1000;
+/// Longest side in px of the image in which the board's size is looked for.
+constexpr double kGuessSide = 1000;
 /// Half the refinement window: this share of the distance to the next grid line, within bounds, px.
 constexpr double kWindowShare = 0.35;
 constexpr int kMinHalfWindow = 2, kMaxHalfWindow = 11;
@@ -101,17 +100,6 @@ bool FindBoard(const cv::Mat& grey, cv::Size size, BoardCorners& corners) {
   return false;
 }
 
-/// The image at the size of the search, and its scale to the image's.
-double ShrinkForSearch(const cv::Mat& grey, cv::Mat& small) {
-  const double scale = std::max(1.0, std::max(grey.cols, grey.rows) / double(kSearchSide));
-  if (scale == 1) {
-    small = grey;
-  } else {
-    cv::resize(grey, small, cv::Size(), 1 / scale, 1 / scale, cv::INTER_AREA);
-  }
-  return scale;
-}
-
 }  // namespace
 
 void Chessboard::Check() const {
@@ -157,20 +145,10 @@ void RefineCorners(const cv::Mat& grey, cv::Size size, BoardCorners& corners) {
 }
 
 std::optional<BoardCorners> DetectCorners(const cv::Mat& grey, cv::Size size) {
-  cv::Mat small;
-  const double scale = ShrinkForSearch(grey, small);
   BoardCorners corners;
-  bool is_found = FindBoard(small, size, corners);
-  if (is_found && scale != 1) {
-    RefineCorners(small, size, corners);
-    // Pixel centres are at whole numbers: the centre of the first small pixel is not that of the
-    // first large one.
-    for (cv::Point2f& corner : corners)
-      corner = (corner + cv::Point2f(0.5F, 0.5F)) * scale - cv::Point2f(0.5F, 0.5F);
-  } else if (!is_found && scale != 1) {
-    is_found = FindBoard(grey, size, corners);  // squares too small for the search's size
+  if (!FindBoard(grey, size, corners) || static_cast<int>(corners.size()) != size.area()) {
+    return std::nullopt;
   }
-  if (!is_found || static_cast<int>(corners.size()) != size.area()) return std::nullopt;
   RefineCorners(grey, size, corners);
   if (!AreAllSeen(grey, {corners, size})) return std::nullopt;
   return IsClockwise(corners, size) ? corners : ReverseRows(corners, size);
@@ -202,8 +180,9 @@ BoardCorners MirrorCorners(const BoardCorners& corners, cv::Size size, int image
 std::optional<cv::Size> GuessBoardSize(const cv::Mat&) { return std::nullopt; }
 #else
 std::optional<cv::Size> GuessBoardSize(const cv::Mat& grey) {
+  const double scale = std::min(1.0, kGuessSide / std::max(grey.cols, grey.rows));
   cv::Mat small, grid;
-  ShrinkForSearch(grey, small);
+  cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
   BoardCorners corners;
   if (!cv::findChessboardCornersSB(small, {3, 3}, corners,
                                    cv::CALIB_CB_LARGER | cv::CALIB_CB_ACCURACY, grid))

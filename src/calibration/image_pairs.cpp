@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -36,15 +37,9 @@ std::string LastNumber(const std::string& name) {
   return name.substr(first, last + 1 - first);
 }
 
-/// Numbers in names compare as numbers: 2 before 10, and 07 is 7.
+/// Numbers in names compare as numbers: 2 before 10.
 bool ComesBefore(const std::string& a, const std::string& b) {
-  const auto is_number = [](const std::string& text) {
-    return !text.empty() && text.size() < 18 &&
-           text.find_first_not_of("0123456789") == std::string::npos;
-  };
-  if (is_number(a) && is_number(b) && std::stoll(a) != std::stoll(b))
-    return std::stoll(a) < std::stoll(b);
-  return a < b;
+  return strverscmp(a.c_str(), b.c_str()) < 0;
 }
 
 using Files = std::map<std::string, fs::path, decltype(&ComesBefore)>;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/random.h"
@@ -33,24 +34,34 @@ double SquareWave(double x, double width) {
 constexpr int kMaxTries = 100000;
 constexpr double kMarginPx = 5;
 
-bool IsInSight(const DistortedCamera& camera, const BoardPattern& pattern,
+bool IsInSight(const SingleCamera& camera, cv::Size image_size, const Chessboard& board,
                const Rigid3& camera_from_board) {
-  for (const double column : {-1.5, pattern.columns + 0.5}) {
-    for (const double row : {-1.5, pattern.rows + 0.5}) {
+  std::vector<cv::Point3d> corners;
+  for (const double column : {-1.5, board.columns + 0.5}) {
+    for (const double row : {-1.5, board.rows + 0.5}) {
       const Eigen::Vector3d x =
-          camera_from_board * Eigen::Vector3d(column * pattern.square_m, row * pattern.square_m, 0);
+          camera_from_board * Eigen::Vector3d(column * board.square_m, row * board.square_m, 0);
       if (x.z() < 0.2) return false;
-      const Eigen::Vector2d pixel = camera.Project(x.head<2>() / x.z());
-      if (pixel.x() < kMarginPx || pixel.y() < kMarginPx ||
-          pixel.x() > camera.width - 1 - kMarginPx || pixel.y() > camera.height - 1 - kMarginPx) {
-        return false;
-      }
+      corners.emplace_back(x.x(), x.y(), x.z());
     }
   }
-  return true;
+  std::vector<cv::Point2d> pixels;
+  cv::projectPoints(corners, cv::Vec3d(), cv::Vec3d(), camera.matrix, camera.distortion, pixels);
+  const cv::Rect2d inside(kMarginPx, kMarginPx, image_size.width - 1 - 2 * kMarginPx,
+                          image_size.height - 1 - 2 * kMarginPx);
+  return std::all_of(pixels.begin(), pixels.end(),
+                     [&](const cv::Point2d& pixel) { return inside.contains(pixel); });
 }
 
-Rigid3 DrawPose(const DistortedCamera& camera, const BoardPattern& pattern, double max_tilt_rad,
+std::vector<cv::Point2d> Unproject(const SingleCamera& camera,
+                                   const std::vector<cv::Point2d>& pixels) {
+  std::vector<cv::Point2d> rays;
+  cv::undistortPoints(pixels, rays, camera.matrix, camera.distortion, cv::noArray(), cv::noArray(),
+                      {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-11});
+  return rays;
+}
+
+Rigid3 DrawPose(const BoardRig& rig, const Chessboard& board, double max_tilt_rad,
                 RandomEngine& engine) {
   const auto draw = [&](double low, double high) {
     return low + (high - low) * RandomUnit(engine);
@@ -59,77 +70,48 @@ Rigid3 DrawPose(const DistortedCamera& camera, const BoardPattern& pattern, doub
   const Eigen::Quaterniond rotation =
       ExpSO3(tilt * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0)) *
       ExpSO3({0, 0, draw(-0.3, 0.3)});
-  const double width_m = (pattern.columns + 1) * pattern.square_m;
-  const double z = width_m * camera.fx / (draw(0.25, 0.8) * camera.width);
-  const Eigen::Vector2d pixel(draw(0, camera.width), draw(0, camera.height));
-  const Eigen::Vector2d ray = camera.Unproject(pixel);
-  const Eigen::Vector3d middle((pattern.columns - 1) * pattern.square_m / 2,
-                               (pattern.rows - 1) * pattern.square_m / 2, 0);
-  return {rotation, Eigen::Vector3d(z * Eigen::Vector3d(ray.x(), ray.y(), 1) - rotation * middle)};
+  const double width_m = (board.columns + 1) * board.square_m;
+  const double z = width_m * rig.left.matrix(0, 0) / (draw(0.25, 0.8) * rig.image_size.width);
+  const double v = draw(0, rig.image_size.height), u = draw(0, rig.image_size.width);
+  const cv::Point2d ray = Unproject(rig.left, {{u, v}})[0];
+  const Eigen::Vector3d middle((board.columns - 1) * board.square_m / 2,
+                               (board.rows - 1) * board.square_m / 2, 0);
+  return {rotation, Eigen::Vector3d(z * Eigen::Vector3d(ray.x, ray.y, 1) - rotation * middle)};
 }
 
-std::string FormatCamera(const std::string& side, const DistortedCamera& camera) {
+std::string FormatCamera(const std::string& side, const SingleCamera& camera) {
+  const cv::Matx33d& k = camera.matrix;
+  const cv::Mat1d d = camera.distortion;
   std::string lines;
-  const auto& [fx, fy, cx, cy, k1, k2, p1, p2, k3, width, height] = camera;
-  const double values[] = {fx, fy, cx, cy, k1, k2, p1, p2, k3};
-  const char* const kKeys[] = {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
-  for (size_t i = 0; i < std::size(values); ++i)
-    lines += std::string(kKeys[i]) + "_" + side + ": " + FormatNumber(values[i]) + "\n";
+  for (const auto& [key, value] : {std::pair("fx", k(0, 0)),
+                                   {"fy", k(1, 1)},
+                                   {"cx", k(0, 2)},
+                                   {"cy", k(1, 2)},
+                                   {"k1", d(0)},
+                                   {"k2", d(1)},
+                                   {"p1", d(2)},
+                                   {"p2", d(3)},
+                                   {"k3", d(4)}})
+    lines += std::string(key) + "_" + side + ": " + FormatNumber(value) + "\n";
   return lines;
 }
 
 }  // namespace
 
-void DistortedCamera::Check() const {
-  Require(fx > 0 && fy > 0, "distorted camera: focal lengths must be positive");
-  Require(width >= 1 && height >= 1, "distorted camera: width and height must be positive");
-  for (const double value : {fx, fy, cx, cy, k1, k2, p1, p2, k3}) {
-    Require(std::isfinite(value), "distorted camera: a value is not finite");
-  }
-}
-
-Eigen::Vector2d DistortedCamera::Project(const Eigen::Vector2d& n) const {
-  const double x = n.x(), y = n.y(), r2 = n.squaredNorm();
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) + cx,
-          fy * (y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y)) + cy};
-}
-
-Eigen::Vector2d DistortedCamera::Unproject(const Eigen::Vector2d& pixel) const {
-  constexpr double kStep = 1e-6;
-  Eigen::Vector2d n((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const Eigen::Vector2d error = Project(n) - pixel;
-    if (error.squaredNorm() < 1e-22) break;
-    Eigen::Matrix2d jacobian;
-    jacobian.col(0) = (Project(n + Eigen::Vector2d(kStep, 0)) - error - pixel) / kStep;
-    jacobian.col(1) = (Project(n + Eigen::Vector2d(0, kStep)) - error - pixel) / kStep;
-    n -= jacobian.inverse() * error;
-  }
-  return n;
-}
-
-void BoardPattern::Check() const {
-  Require(columns >= 2 && rows >= 2, "board: needs at least 2 x 2 inner corners");
-  Require(square_m > 0, "board: square_m must be positive");
-}
-
-BoardRenderer::BoardRenderer(const DistortedCamera& camera, const BoardPattern& pattern)
-    : camera_(camera), pattern_(pattern) {
-  camera.Check();
-  pattern.Check();
-  rays_.reserve(static_cast<size_t>(camera.width + 1) * (camera.height + 1));
-  for (int v = 0; v <= camera.height; ++v) {
-    for (int u = 0; u <= camera.width; ++u) {
-      rays_.push_back(camera.Unproject({u, v}));
-    }
-  }
+BoardRenderer::BoardRenderer(const SingleCamera& camera, cv::Size image_size,
+                             const Chessboard& board)
+    : image_size_(image_size), board_(board) {
+  board.Check();
+  std::vector<cv::Point2d> pixels;
+  for (int v = 0; v <= image_size.height; ++v)
+    for (int u = 0; u <= image_size.width; ++u) pixels.emplace_back(u, v);
+  rays_ = Unproject(camera, pixels);
 }
 
 double BoardRenderer::Tone(const Eigen::Vector2d& at, const Eigen::Vector2d& width) const {
   const auto share_within = [&](double margin) {
-    return ShareWithin(-margin, pattern_.columns - 1 + margin, at.x(), width.x()) *
-           ShareWithin(-margin, pattern_.rows - 1 + margin, at.y(), width.y());
+    return ShareWithin(-margin, board_.columns - 1 + margin, at.x(), width.x()) *
+           ShareWithin(-margin, board_.rows - 1 + margin, at.y(), width.y());
   };
   const double black = (1 + SquareWave(at.x(), width.x()) * SquareWave(at.y(), width.y())) / 2;
   return kBackground + (kWhite - kBackground) * share_within(2) -
@@ -140,17 +122,17 @@ cv::Mat BoardRenderer::Trace(const Rigid3& camera_from_board, int num_threads) c
   Require(camera_from_board.IsFinite(), "board: its pose is not finite");
   // board_from_ray * (x, y, 1) is the point on the board's plane, up to scale.
   Eigen::Matrix3d ray_from_board = camera_from_board.RotationMatrix();
-  ray_from_board.leftCols<2>() *= pattern_.square_m;
+  ray_from_board.leftCols<2>() *= board_.square_m;
   ray_from_board.col(2) = camera_from_board.translation;
   const Eigen::Matrix3d board_from_ray = ray_from_board.inverse();
   const double facing = std::abs(camera_from_board.RotationMatrix()(2, 2));
-  cv::Mat radiance(camera_.height, camera_.width, CV_32FC1);
-  ForEachRow(camera_.height, num_threads, [&](int v) {
-    for (int u = 0; u < camera_.width; ++u) {
+  cv::Mat radiance(image_size_, CV_32FC1);
+  ForEachRow(image_size_.height, num_threads, [&](int v) {
+    for (int u = 0; u < image_size_.width; ++u) {
       double nearest = 1e9;  // 1 / depth in units of the scale; not positive behind the camera
       const auto meet = [&](int right, int down) -> Eigen::Vector2d {
-        const size_t at = static_cast<size_t>(v + down) * (camera_.width + 1) + u + right;
-        const Eigen::Vector3d q = board_from_ray * rays_[at].homogeneous();
+        const size_t at = static_cast<size_t>(v + down) * (image_size_.width + 1) + u + right;
+        const Eigen::Vector3d q = board_from_ray * Eigen::Vector3d(rays_[at].x, rays_[at].y, 1);
         nearest = std::min(nearest, q.z());
         return q.head<2>() / q.z();
       };
@@ -159,7 +141,7 @@ cv::Mat BoardRenderer::Trace(const Rigid3& camera_from_board, int num_threads) c
       const Eigen::Vector2d width(std::hypot(along_u.x(), along_v.x()),
                                   std::hypot(along_u.y(), along_v.y()));
       // The board is lit from the camera's side, a little unevenly; the room behind is even.
-      const double light = (0.75 + 0.25 * facing) * (0.9 + 0.1 * u / camera_.width);
+      const double light = (0.75 + 0.25 * facing) * (0.9 + 0.1 * u / image_size_.width);
       radiance.at<float>(v, u) = light * (nearest > 1e-9 ? Tone(here, width) : kBackground);
     }
   });
@@ -173,25 +155,26 @@ cv::Mat BoardRenderer::Render(const Rigid3& camera_from_board, const SensorOptio
 
 BoardRig BoardRig::Make(int width) {
   const double scale = width / 1624.0;
-  const int height = static_cast<int>(std::lround(1234 * scale));
-  BoardRig rig;
-  rig.left = {1405 * scale, 1406.3 * scale, 818.6 * scale, 609.1 * scale, -0.168, 0.081,
-              3e-4,         -4e-4,          0.006,         width,         height};
-  rig.right = {1412.5 * scale, 1413.1 * scale, 806.2 * scale, 621.7 * scale, -0.172, 0.085,
-               -2e-4,          3e-4,           0.004,         width,         height};
-  rig.right_from_left = {ExpSO3({0.005, -0.011, 0.004}), Eigen::Vector3d(-0.24, 0.0014, -0.0021)};
-  return rig;
+  const auto camera = [&](double fx, double fy, double cx, double cy,
+                          const cv::Vec<double, 5>& distortion) {
+    return SingleCamera{{fx * scale, 0, cx * scale, 0, fy * scale, cy * scale, 0, 0, 1},
+                        cv::Mat(distortion).t()};
+  };
+  return {{width, static_cast<int>(std::lround(1234 * scale))},
+          camera(1405, 1406.3, 818.6, 609.1, {-0.168, 0.081, 3e-4, -4e-4, 0.006}),
+          camera(1412.5, 1413.1, 806.2, 621.7, {-0.172, 0.085, -2e-4, 3e-4, 0.004}),
+          {ExpSO3({0.005, -0.011, 0.004}), Eigen::Vector3d(-0.24, 0.0014, -0.0021)}};
 }
 
-std::vector<Rigid3> DrawBoardPoses(const BoardRig& rig, const BoardPattern& pattern, int num_poses,
+std::vector<Rigid3> DrawBoardPoses(const BoardRig& rig, const Chessboard& board, int num_poses,
                                    double max_tilt_deg, int seed) {
-  pattern.Check();
+  board.Check();
   RandomEngine engine(seed);
   std::vector<Rigid3> poses;
   for (int i = 0; i < kMaxTries && static_cast<int>(poses.size()) < num_poses; ++i) {
-    const Rigid3 pose = DrawPose(rig.left, pattern, max_tilt_deg * M_PI / 180, engine);
-    if (IsInSight(rig.left, pattern, pose) &&
-        IsInSight(rig.right, pattern, rig.right_from_left * pose)) {
+    const Rigid3 pose = DrawPose(rig, board, max_tilt_deg * M_PI / 180, engine);
+    if (IsInSight(rig.left, rig.image_size, board, pose) &&
+        IsInSight(rig.right, rig.image_size, board, rig.right_from_left * pose)) {
       poses.push_back(pose);
     }
   }
@@ -200,12 +183,12 @@ std::vector<Rigid3> DrawBoardPoses(const BoardRig& rig, const BoardPattern& patt
   return poses;
 }
 
-std::string FormatTruth(const BoardRig& rig, const BoardPattern& pattern) {
+std::string FormatTruth(const BoardRig& rig, const Chessboard& board) {
   const Eigen::Vector3d rotation = LogSO3(rig.right_from_left.rotation);
   const Eigen::Vector3d& translation = rig.right_from_left.translation;
   std::string lines =
-      "columns: " + std::to_string(pattern.columns) + "\nrows: " + std::to_string(pattern.rows) +
-      "\nsquare_m: " + FormatNumber(pattern.square_m) + "\n" + FormatCamera("left", rig.left) +
+      "columns: " + std::to_string(board.columns) + "\nrows: " + std::to_string(board.rows) +
+      "\nsquare_m: " + FormatNumber(board.square_m) + "\n" + FormatCamera("left", rig.left) +
       FormatCamera("right", rig.right) + "baseline_m: " + FormatNumber(rig.BaselineM()) + "\n";
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);

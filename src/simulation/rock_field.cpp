@@ -9,7 +9,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kCell = 2.0;         ///< m, of placing and culling
+constexpr double kCell = 2.0;         ///< m, of placing
 constexpr double kShadowCell = 0.4;   ///< m, of the shadow lists
 constexpr double kShadowReach = 2.0;  ///< shadows on falling ground are longer than on level ground
 
@@ -80,25 +80,16 @@ RockField::RockField(const RockOptions& options, const RockBed& bed, double side
 
 void RockField::FillCell(const RockOptions& options, const RockBed& bed, int i, int j,
                          uint32_t seed) {
-  const int begin = static_cast<int>(rocks_.size());
   const uint32_t cell_word = HashCell(i, j, seed);
   const double expected = options.density_per_m2 * kCell * kCell;
   const int number = static_cast<int>(expected + HashUnit(cell_word));
-  double lowest = 1e9, highest = -1e9, reach = 0;
   for (int k = 0; k < number; ++k) {
     const Draw draw{HashCell(k, 77, cell_word)};
     const double x = (i + draw(0)) * kCell - side_m_ / 2, y = (j + draw(1)) * kCell - side_m_ / 2;
     const double radius = DrawRadius(options, draw(2));
     if (draw(3) > bed.cover(x, y) || radius > bed.max_radius_m(x, y)) continue;
     rocks_.push_back(MakeRock(draw, {x, y, bed.height_m(x, y)}, radius, options.flatness));
-    lowest = std::min(lowest, rocks_.back().center.z());
-    highest = std::max(highest, rocks_.back().center.z());
-    reach = std::max(reach, rocks_.back().bounding_radius_m);
   }
-  const Eigen::Vector3d center((i + 0.5) * kCell - side_m_ / 2, (j + 0.5) * kCell - side_m_ / 2,
-                               (lowest + highest) / 2);
-  cells_.push_back({begin, static_cast<int>(rocks_.size()), center,
-                    std::hypot(kCell * M_SQRT1_2, (highest - lowest) / 2) + reach});
 }
 
 void RockField::IndexShadow(int index) {

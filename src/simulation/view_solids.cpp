@@ -10,18 +10,6 @@ constexpr int kTile = 8;                              ///< px
 constexpr double kVanishPx = 0.8, kFullSizePx = 1.8;  ///< radii between which a solid shrinks away
 constexpr double kNearest = 0.02;                     ///< m, before the camera
 
-/// Whether a sphere can be seen by a camera: against the five sides of its view.
-bool MayBeSeen(const StereoCamera& camera, const Eigen::Vector3d& center, double radius) {
-  if (center.z() < -radius) return false;
-  const auto outside = [&](double focal, double offset, double x, double low, double high) {
-    const double left = (low - offset) / focal, right = (high - offset) / focal;
-    return (left * center.z() - x) > radius * std::hypot(1, left) ||
-           (x - right * center.z()) > radius * std::hypot(1, right);
-  };
-  return !outside(camera.fx, camera.cx, center.x(), -1, camera.width) &&
-         !outside(camera.fy, camera.cy, center.y(), -1, camera.height);
-}
-
 }  // namespace
 
 ViewSolids::ViewSolids(const StereoCamera& camera, const Rigid3& world_from_camera,
@@ -29,11 +17,7 @@ ViewSolids::ViewSolids(const StereoCamera& camera, const Rigid3& world_from_came
     : num_tiles_u_((camera.width + kTile - 1) / kTile),
       num_tiles_v_((camera.height + kTile - 1) / kTile) {
   const Rigid3 camera_from_world = world_from_camera.Inverse();
-  rocks.VisitCells(
-      [&](const Eigen::Vector3d& center, double radius) {
-        return MayBeSeen(camera, camera_from_world * center, radius);
-      },
-      [&](const Solid& rock) { Add(rock, camera, camera_from_world); });
+  for (const Solid& rock : rocks.rocks()) Add(rock, camera, camera_from_world);
   for (const Solid& body : bodies) {
     if (body.is_visible) Add(body, camera, camera_from_world);
   }

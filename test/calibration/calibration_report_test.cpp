@@ -22,9 +22,10 @@ namespace fs = std::filesystem;
 class CalibrationFolder : public FolderTest {
  protected:
   /// Renders `count` pairs of the board into the folder.
-  void Render(const TrueRig& rig, const Chessboard& board, int count, uint32_t seed) {
+  void Render(const BoardRig& rig, const Chessboard& board, int count, uint32_t seed) {
     RandomEngine engine(seed);
-    const BoardCamera left(rig.left, board), right(rig.right, board);
+    const BoardCamera left(rig.left, rig.image_size, board);
+    const BoardCamera right(rig.right, rig.image_size, board);
     int i = 10;
     for (const Rigid3& pose : RandomBoardPoses(rig, board, count, 0.7, engine)) {
       const std::string name = std::to_string(i++) + ".png";
@@ -118,9 +119,10 @@ TEST(Calibration, AgreesWithTheReferenceOfOpenCvsPairs) {
 /// where ARFM_VO_LONG is set, else 12 to save time.
 TEST(Calibration, RecoversTheTruthFromThePapersBoard) {
   const Chessboard board;
-  const TrueRig rig = MakeRig();
+  const BoardRig rig = MakeRig();
   RandomEngine engine(63);
-  const BoardCamera left(rig.left, board), right(rig.right, board);
+  const BoardCamera left(rig.left, rig.image_size, board);
+  const BoardCamera right(rig.right, rig.image_size, board);
   const int count = std::getenv("ARFM_VO_LONG") ? 63 : 12;
   std::vector<CornerPair> pairs;
   for (const Rigid3& pose : RandomBoardPoses(rig, board, count, 0.7, engine)) {
@@ -130,7 +132,7 @@ TEST(Calibration, RecoversTheTruthFromThePapersBoard) {
     if (l && r)
       pairs.push_back({std::to_string(pairs.size()), *l, AlignOrder(*l, *r, board.Size())});
   }
-  const StereoCalibration calibration = CalibrateStereo(pairs, board, rig.left.size);
+  const StereoCalibration calibration = CalibrateStereo(pairs, board, rig.image_size);
   EXPECT_EQ(static_cast<int>(calibration.pairs.size()), count);
   for (const auto& [side, truth] :
        {std::pair(calibration.left, rig.left), {calibration.right, rig.right}}) {

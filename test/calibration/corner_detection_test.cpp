@@ -17,10 +17,10 @@ struct SeenBoard {
   BoardCorners corners, truth;
 
   explicit SeenBoard(uint32_t seed, double scale = 0.5, double tilt = 0.2) {
-    const TrueRig rig = MakeRig(scale);
+    const BoardRig rig = MakeRig(scale);
     RandomEngine engine(seed);
     const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, tilt, engine)[0];
-    image = BoardCamera(rig.left, kCornerBoard).Render(pose, 0.8, 2, engine);
+    image = BoardCamera(rig.left, rig.image_size, kCornerBoard).Render(pose, 0.8, 2, engine);
     corners = DetectCorners(image, kCornerBoard.Size()).value_or(BoardCorners());
     const BoardCorners projected = ProjectBoard(rig.left, kCornerBoard, pose);
     EXPECT_EQ(corners.size(), projected.size());
@@ -33,9 +33,9 @@ double Rms(const BoardCorners& a, const BoardCorners& b) {
 }
 
 TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
-  const TrueRig rig = MakeRig(0.5);
+  const BoardRig rig = MakeRig(0.5);
   RandomEngine engine(11);
-  const BoardCamera renderer(rig.left, kCornerBoard);
+  const BoardCamera renderer(rig.left, rig.image_size, kCornerBoard);
   for (const Rigid3& pose : RandomBoardPoses(rig, kCornerBoard, 4, 0.7, engine)) {
     const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kCornerBoard.Size());
     ASSERT_TRUE(corners);
@@ -45,8 +45,8 @@ TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
   }
 }
 
-TEST(CornerDetection, SearchInASmallerImageKeepsTheSubPixelPlace) {
-  const SeenBoard seen(12, 1, 0.3);  // wider than the search's image
+TEST(CornerDetection, ALargeImageKeepsTheSubPixelPlace) {
+  const SeenBoard seen(12, 1, 0.3);
   EXPECT_LT(Rms(seen.corners, seen.truth), 0.06);
   cv::Point2f mean(0, 0);
   for (size_t i = 0; i < seen.truth.size(); ++i)

@@ -12,37 +12,25 @@
 
 namespace arfm_vo {
 
-/// A camera with known truth, for rendered boards.
-struct TrueCamera {
-  cv::Matx33d matrix;
-  cv::Mat distortion;  ///< [1 x 5] plumb bob
-  cv::Size size;
-};
-
-struct TrueRig {
-  TrueCamera left, right;
-  Rigid3 right_from_left;
-};
-
 /// The paper's size of image and a rig with small known faults of mounting.
-inline TrueRig MakeRig(double scale = 1) {
+inline BoardRig MakeRig(double scale = 1) {
   const auto camera = [&](double f, double cx, double cy, double k1, double k2) {
-    return TrueCamera{{f * scale, 0, cx * scale, 0, f * 1.001 * scale, cy * scale, 0, 0, 1},
-                      (cv::Mat_<double>(1, 5) << k1, k2, 4e-4, -3e-4, 0.01),
-                      cv::Size(int(1624 * scale), int(1234 * scale))};
+    return SingleCamera{{f * scale, 0, cx * scale, 0, f * 1.001 * scale, cy * scale, 0, 0, 1},
+                        (cv::Mat_<double>(1, 5) << k1, k2, 4e-4, -3e-4, 0.01)};
   };
-  return {camera(1420, 820.3, 611.8, -0.18, 0.09), camera(1431, 803.6, 622.4, -0.17, 0.08),
+  return {cv::Size(int(1624 * scale), int(1234 * scale)), camera(1420, 820.3, 611.8, -0.18, 0.09),
+          camera(1431, 803.6, 622.4, -0.17, 0.08),
           Rigid3(ExpSO3({0.004, -0.012, 0.003}), Eigen::Vector3d(-0.24, 0.0012, -0.0015))};
 }
 
 /// Random poses of a board that fills a good part of both images and is tilted up to
 /// `max_tilt_rad`, wholly in sight of both cameras.
-inline std::vector<Rigid3> RandomBoardPoses(const TrueRig& rig, const Chessboard& board, int count,
+inline std::vector<Rigid3> RandomBoardPoses(const BoardRig& rig, const Chessboard& board, int count,
                                             double max_tilt_rad, RandomEngine& engine) {
   const auto uniform = [&](double low, double high) {
     return low + RandomUnit(engine) * (high - low);
   };
-  const auto is_seen = [&](const TrueCamera& camera, const Rigid3& pose) {
+  const auto is_seen = [&](const SingleCamera& camera, const Rigid3& pose) {
     for (const int u : {-1, board.columns})
       for (const int v : {-1, board.rows}) {
         const Eigen::Vector3d x = pose * Eigen::Vector3d(u * board.square_m, v * board.square_m, 0);
@@ -50,8 +38,8 @@ inline std::vector<Rigid3> RandomBoardPoses(const TrueRig& rig, const Chessboard
         std::vector<cv::Point2d> pixel;
         cv::projectPoints(std::vector<cv::Point3d>{{x.x(), x.y(), x.z()}}, cv::Vec3d(0, 0, 0),
                           cv::Vec3d(0, 0, 0), camera.matrix, camera.distortion, pixel);
-        if (pixel[0].x < 6 || pixel[0].y < 6 || pixel[0].x > camera.size.width - 7 ||
-            pixel[0].y > camera.size.height - 7)
+        if (pixel[0].x < 6 || pixel[0].y < 6 || pixel[0].x > rig.image_size.width - 7 ||
+            pixel[0].y > rig.image_size.height - 7)
           return false;
       }
     return true;
@@ -59,7 +47,7 @@ inline std::vector<Rigid3> RandomBoardPoses(const TrueRig& rig, const Chessboard
   const Eigen::Vector3d centre((board.columns - 1) * board.square_m / 2,
                                (board.rows - 1) * board.square_m / 2, 0);
   const double distance = board.columns * board.square_m * rig.left.matrix(0, 0) /
-                          rig.left.size.width;  // at which the board would fill the width
+                          rig.image_size.width;  // at which the board would fill the width
   std::vector<Rigid3> poses;
   while (static_cast<int>(poses.size()) < count) {
     const double heading = uniform(0, 2 * M_PI),
@@ -77,7 +65,7 @@ inline std::vector<Rigid3> RandomBoardPoses(const TrueRig& rig, const Chessboard
 }
 
 /// Where a camera at `camera_from_board` sees the corners: the truth without noise.
-inline std::vector<cv::Point2f> ProjectBoard(const TrueCamera& camera, const Chessboard& board,
+inline std::vector<cv::Point2f> ProjectBoard(const SingleCamera& camera, const Chessboard& board,
                                              const Rigid3& camera_from_board) {
   const Eigen::Vector3d omega = LogSO3(camera_from_board.rotation);
   const Eigen::Vector3d& t = camera_from_board.translation;
@@ -90,8 +78,8 @@ inline std::vector<cv::Point2f> ProjectBoard(const TrueCamera& camera, const Che
 /// Takes pictures of a board with a camera.
 class BoardCamera {
  public:
-  BoardCamera(const TrueCamera& camera, const Chessboard& board)
-      : renderer_(ToDistorted(camera), {board.columns, board.rows, board.square_m}) {}
+  BoardCamera(const SingleCamera& camera, cv::Size image_size, const Chessboard& board)
+      : renderer_(camera, image_size, board) {}
 
   cv::Mat Render(const Rigid3& camera_from_board, double blur_px, double noise_levels,
                  RandomEngine& engine) const {
@@ -102,13 +90,6 @@ class BoardCamera {
   }
 
  private:
-  static DistortedCamera ToDistorted(const TrueCamera& camera) {
-    const cv::Matx33d& k = camera.matrix;
-    const auto* d = camera.distortion.ptr<double>();
-    return {k(0, 0), k(1, 1), k(0, 2),           k(1, 2),           d[0], d[1], d[2],
-            d[3],    d[4],    camera.size.width, camera.size.height};
-  }
-
   BoardRenderer renderer_;
 };
 

@@ -20,7 +20,7 @@ const Chessboard kBoard{9, 6, 0.1};
 /// Corners as the true rig would see them, with Gaussian noise.
 class SyntheticPairs {
  public:
-  explicit SyntheticPairs(uint32_t seed, TrueRig rig = MakeRig(0.5)) : rig(rig), engine_(seed) {}
+  explicit SyntheticPairs(uint32_t seed, BoardRig rig = MakeRig(0.5)) : rig(rig), engine_(seed) {}
 
   std::vector<Rigid3> Poses(int count, double max_tilt_rad = 0.7) {
     return RandomBoardPoses(rig, kBoard, count, max_tilt_rad, engine_);
@@ -40,24 +40,24 @@ class SyntheticPairs {
     return corners;
   }
 
-  TrueRig rig;
+  BoardRig rig;
 
  private:
   RandomEngine engine_;
 };
 
-StereoCalibration Calibrate(const std::vector<CornerPair>& pairs, const TrueRig& rig) {
-  return CalibrateStereo(pairs, kBoard, rig.left.size);
+StereoCalibration Calibrate(const std::vector<CornerPair>& pairs, const BoardRig& rig) {
+  return CalibrateStereo(pairs, kBoard, rig.image_size);
 }
 
-std::string MessageOf(const std::vector<CornerPair>& pairs, const TrueRig& rig) {
+std::string MessageOf(const std::vector<CornerPair>& pairs, const BoardRig& rig) {
   return RefusalOf<CalibrationError>([&] { Calibrate(pairs, rig); });
 }
 
 TEST(StereoCalibration, ExactCornersGiveTheTrueRig) {
   SyntheticPairs synthetic(1);
   const auto calibration = Calibrate(synthetic.See(synthetic.Poses(10), 0), synthetic.rig);
-  const TrueRig& truth = synthetic.rig;
+  const BoardRig& truth = synthetic.rig;
   EXPECT_LT(calibration.stereo_rms_px, 1e-3);
   EXPECT_NEAR(calibration.left.matrix(0, 0), truth.left.matrix(0, 0), 0.05);
   EXPECT_NEAR(calibration.right.matrix(1, 1), truth.right.matrix(1, 1), 0.05);
@@ -102,7 +102,7 @@ TEST(StereoCalibration, SkewIsReported) {
 }
 
 TEST(StereoCalibration, CamerasOfDifferentFocalLength) {
-  TrueRig rig = MakeRig(0.5);
+  BoardRig rig = MakeRig(0.5);
   rig.right.matrix(0, 0) = rig.right.matrix(1, 1) = 600;
   SyntheticPairs synthetic(4, rig);
   const auto calibration = Calibrate(synthetic.See(synthetic.Poses(15), 0.1), rig);
@@ -158,7 +158,7 @@ TEST(StereoCalibration, PairsThatAreNotOfTwoCamerasAtOneMomentAreRefused) {
        }},
       {"one camera is mirrored",
        [](auto& pairs) {
-         const int width = MakeRig(0.5).left.size.width;
+         const int width = MakeRig(0.5).image_size.width;
          for (CornerPair& pair : pairs)
            pair.right = AlignOrder(pair.left, MirrorCorners(pair.right, kBoard.Size(), width),
                                    kBoard.Size());
@@ -188,7 +188,7 @@ TEST(StereoCalibration, ParallelViewsAreRefused) {
 }
 
 TEST(StereoCalibration, CamerasAboveEachOtherAreRefused) {
-  TrueRig rig = MakeRig(0.5);
+  BoardRig rig = MakeRig(0.5);
   rig.right_from_left.translation = {0.01, -0.2, 0};
   SyntheticPairs synthetic(12, rig);
   EXPECT_THAT(MessageOf(synthetic.See(synthetic.Poses(8), 0.1), rig),

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "arfm_vo/simulation/board_set.h"
@@ -9,27 +10,13 @@ namespace arfm_vo {
 namespace {
 
 /// 100 px a square at a distance of 1 m; corner (0, 0) at pixel (50.3, 40.8).
-const DistortedCamera kPlain{1000, 1000, 50.3, 40.8, 0, 0, 0, 0, 0, 420, 320};
-const BoardPattern kPattern{4, 3, 0.1};
+const SingleCamera kPlain{{1000, 0, 50.3, 0, 1000, 40.8, 0, 0, 1}, cv::Mat1d::zeros(1, 5)};
+const cv::Size kSize(420, 320);
+const Chessboard kBoard{4, 3, 0.1};
 const Rigid3 kOneMetreAhead(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 1));
 
-TEST(DistortedCamera, ProjectIsTheFormulaAndUnprojectItsInverse) {
-  DistortedCamera camera = kPlain;
-  camera.k1 = -0.2;
-  camera.k2 = 0.1;
-  camera.p1 = 1e-3;
-  camera.p2 = -2e-3;
-  camera.k3 = 0.05;
-  // x = 0.3, y = 0.4, r^2 = 0.25: radial 1 - 0.05 + 0.00625 + 0.00078125 = 0.95703125;
-  // x_d = 0.287109375 + 2.4e-4 - 2e-3 * 0.43, y_d = 0.3828125 - 4.8e-4 + 1e-3 * 0.57.
-  const Eigen::Vector2d pixel = camera.Project({0.3, 0.4});
-  EXPECT_NEAR(pixel.x(), 50.3 + 1000 * (0.287109375 + 0.00024 - 0.00086), 1e-9);
-  EXPECT_NEAR(pixel.y(), 40.8 + 1000 * (0.3828125 - 0.00048 + 0.00057), 1e-9);
-  EXPECT_NEAR((camera.Unproject(pixel) - Eigen::Vector2d(0.3, 0.4)).norm(), 0, 1e-11);
-}
-
 TEST(BoardRenderer, PixelsOnAnEdgeAreMixedByTheirArea) {
-  const cv::Mat image = BoardRenderer(kPlain, kPattern).Trace(kOneMetreAhead);
+  const cv::Mat image = BoardRenderer(kPlain, kSize, kBoard).Trace(kOneMetreAhead);
   // The edge at u = 150.3 cuts pixel 150 (149.5 .. 150.5) at 0.8 of its width. The light falls off
   // slowly along the row; compare with the neighbours.
   const double black_or_white = image.at<float>(90, 149), other = image.at<float>(90, 151);
@@ -41,36 +28,30 @@ TEST(BoardRenderer, PixelsOnAnEdgeAreMixedByTheirArea) {
 }
 
 TEST(BoardRenderer, SquaresBorderAndRoomHaveTheirPlaces) {
-  const cv::Mat image = BoardRenderer(kPlain, kPattern).Trace(kOneMetreAhead);
+  const cv::Mat image = BoardRenderer(kPlain, kSize, kBoard).Trace(kOneMetreAhead);
   const float black = image.at<float>(90, 100);  // the square right below corner (0, 0)
   EXPECT_LT(black, 0.1);
   EXPECT_GT(image.at<float>(90, 200), 0.6);   // the next one
   EXPECT_LT(image.at<float>(190, 200), 0.1);  // diagonal to the first
-  DistortedCamera far = kPlain;
-  far.fx = far.fy = 500;
-  far.cx = far.cy = 150;
-  const cv::Mat whole = BoardRenderer(far, kPattern).Trace(kOneMetreAhead);
+  const SingleCamera far{{500, 0, 150, 0, 500, 150, 0, 0, 1}, kPlain.distortion};
+  const cv::Mat whole = BoardRenderer(far, kSize, kBoard).Trace(kOneMetreAhead);
   EXPECT_GT(whole.at<float>(75, 225), 0.6);           // border, above the upper row of squares
   EXPECT_NEAR(whole.at<float>(20, 225), 0.29, 0.02);  // room
 }
 
 TEST(BoardRenderer, CornersAreFoundWhereTheyWereProjected) {
   const BoardRig rig = BoardRig::Make(812);
-  const BoardPattern pattern;
-  const Rigid3 pose = DrawBoardPoses(rig, pattern, 3, 30, 7)[2];
+  const Chessboard board;
+  const Rigid3 pose = DrawBoardPoses(rig, board, 3, 30, 7)[2];
   SensorOptions sensor;
   sensor.blur_px = 0.7;
   sensor.noise_grey_levels = 0;
-  const cv::Mat image = BoardRenderer(rig.left, pattern).Render(pose, sensor, 0);
+  const cv::Mat image = BoardRenderer(rig.left, rig.image_size, board).Render(pose, sensor, 0);
+  const Eigen::Vector3d turn = LogSO3(pose.rotation), &shift = pose.translation;
   std::vector<cv::Point2f> expected;
-  for (int row = 0; row < pattern.rows; ++row) {
-    for (int column = 0; column < pattern.columns; ++column) {
-      const Eigen::Vector3d x =
-          pose * Eigen::Vector3d(column * pattern.square_m, row * pattern.square_m, 0);
-      const Eigen::Vector2d pixel = rig.left.Project(x.head<2>() / x.z());
-      expected.emplace_back(pixel.x(), pixel.y());
-    }
-  }
+  cv::projectPoints(board.Corners(), cv::Vec3d(turn.x(), turn.y(), turn.z()),
+                    cv::Vec3d(shift.x(), shift.y(), shift.z()), rig.left.matrix,
+                    rig.left.distortion, expected);
   std::vector<cv::Point2f> found = expected;
   for (cv::Point2f& corner : found) corner += cv::Point2f(0.4f, -0.3f);
   cv::cornerSubPix(image, found, {4, 4}, {-1, -1},
@@ -87,7 +68,7 @@ TEST(BoardRenderer, CornersAreFoundWhereTheyWereProjected) {
 }
 
 TEST(BoardRenderer, SameBytesOnAnyNumberOfThreads) {
-  const BoardRenderer renderer(kPlain, kPattern);
+  const BoardRenderer renderer(kPlain, kSize, kBoard);
   EXPECT_EQ(cv::norm(renderer.Render(kOneMetreAhead, {}, 3, 1),
                      renderer.Render(kOneMetreAhead, {}, 3, 3), cv::NORM_INF),
             0);

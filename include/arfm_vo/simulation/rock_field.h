@@ -30,8 +30,7 @@ struct RockBed {
   std::function<double(double x, double y)> max_radius_m;
 };
 
-/// Rocks strewn over a square of `side_m` around the origin, in cells, and where their shadows
-/// fall.
+/// Rocks strewn over a square of `side_m` around the origin, and where their shadows fall.
 class RockField {
  public:
   RockField() = default;
@@ -41,30 +40,15 @@ class RockField {
   const std::vector<Solid>& rocks() const { return rocks_; }
   /// Whether a rock stands between the point and the sun.
   bool IsShadowed(const Eigen::Vector3d& point) const;
-  /// Calls visit(rock) for all rocks of every cell that accept(center, radius_m) lets pass, a
-  /// sphere around the cell's rocks.
-  template <class Accept, class Visit>
-  void VisitCells(const Accept& accept, const Visit& visit) const {
-    for (const Cell& cell : cells_) {
-      if (cell.begin == cell.end || !accept(cell.center, cell.radius_m)) continue;
-      for (int i = cell.begin; i < cell.end; ++i) visit(rocks_[i]);
-    }
-  }
 
  private:
-  struct Cell {
-    int begin, end;  ///< of rocks_
-    Eigen::Vector3d center;
-    double radius_m;
-  };
   void FillCell(const RockOptions& options, const RockBed& bed, int i, int j, uint32_t seed);
   /// Adds a rock to the cells that its shadow may reach.
   void IndexShadow(int index);
 
   double side_m_ = 0;
   Eigen::Vector3d to_sun_ = Eigen::Vector3d::UnitZ();
-  std::vector<Solid> rocks_;  ///< sorted by cell
-  std::vector<Cell> cells_;
+  std::vector<Solid> rocks_;
   int shadow_side_ = 0;                         ///< shadow cells along a side
   std::vector<std::vector<int>> shadow_rocks_;  ///< [cells] indices of rocks_
 };
