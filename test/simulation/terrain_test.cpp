@@ -56,24 +56,6 @@ TEST(Terrain, CorridorIsClearOfLargeRocks) {
   EXPECT_GT(num_on_way, 20);
 }
 
-TEST(Terrain, LevelGroundIsFullyLitAndASlopeByItsAngle) {
-  TerrainOptions options = SmallOptions();
-  options.relief_m = options.hills_m = 0;
-  options.rocks.density_per_m2 = 0;
-  EXPECT_DOUBLE_EQ(Terrain(options).Sunlight(1, 2), 1);
-  EXPECT_DOUBLE_EQ(Terrain(options).Height(1, 2), 0);
-}
-
-TEST(Terrain, RaysCrossFromTheDetailedSquareToTheLandAround) {
-  TerrainOptions options = SmallOptions();
-  options.relief_m = options.hills_m = 0;
-  const Terrain terrain(options);
-  // 2 m down over 40 m: the square ends at 12.8 m.
-  EXPECT_NEAR(terrain.Intersect({{0, 0, 2}, {1, 0.2, -0.05}}, 0, 1000), 40, 1e-3);
-  // From outside, into the square.
-  EXPECT_NEAR(terrain.Intersect({{-40, 0, 2}, {1, 0, -0.05}}, 0, 1000), 40, 1e-3);
-}
-
 TEST(Terrain, CheckNamesTheBadOption) {
   TerrainOptions options = SmallOptions();
   EXPECT_NO_THROW(Terrain{options});
