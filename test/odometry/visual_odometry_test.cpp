@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
-#include <stdexcept>
 
 #include "base/held_memory.h"
 #include "image/image_noise.h"

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/core.hpp>
 #include <thread>
 
 namespace arfm_vo {
