@@ -8,42 +8,9 @@
 #include <random>
 
 #include "arfm_vo/base/whole_file.h"
-#include "base/folder_test.h"
-#include "base/refusal.h"
 
 namespace arfm_vo {
 namespace {
-
-class NumberRowsTest : public FolderTest {
- protected:
-  std::string ErrorOf(const std::string& text) {
-    WriteWholeFile(path_, text);
-    return RefusalBehind(path_, [&] { ReadNumberRows(path_, 2); });
-  }
-  const std::string path_ = folder_ / "test.txt";
-};
-
-TEST_F(NumberRowsTest, ReadsRowsAndKeepsTheirLineNumbers) {
-  WriteWholeFile(path_, "# a comment\n1 2\n\n  -3e2\t+.5\r\n");
-  const auto rows = ReadNumberRows(path_, 2);
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].values, (std::vector<double>{1, 2}));
-  EXPECT_EQ(rows[1].values, (std::vector<double>{-300, 0.5}));
-  EXPECT_EQ(rows[1].line, 4);
-}
-
-TEST_F(NumberRowsTest, NamesFileLineAndWord) {
-  EXPECT_EQ(ErrorOf("1 2\n3 4x\n"), ":2: '4x' is not a number");
-  EXPECT_EQ(ErrorOf("1 nan\n"), ":1: 'nan' is not finite");
-  EXPECT_EQ(ErrorOf("inf 1\n"), ":1: 'inf' is not finite");
-  EXPECT_EQ(ErrorOf("1 1e999\n"), ":1: '1e999' is not a number");
-  EXPECT_EQ(ErrorOf("1\n"), ":1: holds 1 numbers instead of 2");
-  EXPECT_EQ(ErrorOf(""), "");
-}
-
-TEST_F(NumberRowsTest, MissingFileIsAnError) {
-  EXPECT_THROW(ReadNumberRows(path_, 2), std::invalid_argument);
-}
 
 TEST(ParseNumber, ReadsDecimalNumbersOnly) {
   double number = 7;

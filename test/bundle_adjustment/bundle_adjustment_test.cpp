@@ -219,15 +219,6 @@ TEST(BundleAdjustment, StopsWhereIterationsOrTimeRunOut) {
   EXPECT_LE(result.num_iterations, 1);
 }
 
-TEST(BundleAdjustment, GivesTheSameBytesAgain) {
-  CorridorScene scene = MakeCorridor({});
-  scene.problem.correction_prior = CorrectionBelief::Isotropic(0.5);
-  const BundleResult one = AdjustBundle(scene.problem, {}), two = AdjustBundle(scene.problem, {});
-  for (size_t i = 0; i < one.camera_from_world.size(); ++i)
-    EXPECT_EQ(one.camera_from_world[i].Matrix(), two.camera_from_world[i].Matrix());
-  EXPECT_EQ(one.correction_covariance, two.correction_covariance);
-}
-
 TEST(BundleAdjustment, LeavesPointsAndPosesThatNothingPlaces) {
   CorridorScene scene = MakeCorridor({});
   BundleProblem& problem = scene.problem;

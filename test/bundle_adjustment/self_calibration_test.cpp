@@ -120,21 +120,6 @@ TEST(SelfCalibration, StatesAnHonestCovarianceWithAndWithoutADisplacement) {
   }
 }
 
-TEST(SelfCalibration, IgnoringADisplacementBiasesTheMotionAndFindingItDoesNot) {
-  Coefficients displacement = Coefficients::Zero();
-  displacement[0] = 0.7;
-  const CorridorOptions corridor = MakeOptions(displacement);
-  const CorridorScene scene = MakeCorridor(corridor);
-  const double length = scene.camera_from_world.back().translation.norm();
-  const auto length_error = [&](const BundleResult& result) {
-    return std::abs(result.camera_from_world.back().translation.norm() / length - 1);
-  };
-  const double with = length_error(Calibrate(corridor));
-  const double without = length_error(AdjustBundle(scene.problem, {}));
-  EXPECT_GT(without, 0.005);
-  EXPECT_LT(with, 0.002);
-}
-
 TEST(SelfCalibration, AFrozenCorrectionStaysWhereItStartsAndIsUsed) {
   const CorridorOptions corridor = MakeOptions(MakeDisplacement());
   BundleProblem problem = MakeCorridor(corridor).problem;

@@ -16,11 +16,10 @@ struct SeenBoard {
   cv::Mat image;
   BoardCorners corners, truth;
 
-  explicit SeenBoard(uint32_t seed, double scale = 0.5, double tilt = 0.2) {
-    const BoardRig rig = MakeRig(scale);
-    RandomEngine engine(seed);
-    const Rigid3 pose = RandomBoardPoses(rig, kCornerBoard, 1, tilt, engine)[0];
-    image = BoardCamera(rig.left, rig.image_size, kCornerBoard).Render(pose, 0.8, 2, engine);
+  explicit SeenBoard(int seed, int width = 812, double tilt_deg = 12) {
+    const BoardRig rig = BoardRig::Make(width);
+    const Rigid3 pose = DrawBoardPoses(rig, kCornerBoard, 1, tilt_deg, seed)[0];
+    image = RenderBoard(rig, rig.left, kCornerBoard, pose, seed);
     corners = DetectCorners(image, kCornerBoard.Size()).value_or(BoardCorners());
     const BoardCorners projected = ProjectBoard(rig.left, kCornerBoard, pose);
     EXPECT_EQ(corners.size(), projected.size());
@@ -33,11 +32,10 @@ double Rms(const BoardCorners& a, const BoardCorners& b) {
 }
 
 TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
-  const BoardRig rig = MakeRig(0.5);
-  RandomEngine engine(11);
-  const BoardCamera renderer(rig.left, rig.image_size, kCornerBoard);
-  for (const Rigid3& pose : RandomBoardPoses(rig, kCornerBoard, 4, 0.7, engine)) {
-    const auto corners = DetectCorners(renderer.Render(pose, 0.8, 2, engine), kCornerBoard.Size());
+  const BoardRig rig = BoardRig::Make(812);
+  for (const Rigid3& pose : DrawBoardPoses(rig, kCornerBoard, 4, 40, 11)) {
+    const auto corners =
+        DetectCorners(RenderBoard(rig, rig.left, kCornerBoard, pose, 11), kCornerBoard.Size());
     ASSERT_TRUE(corners);
     const BoardCorners truth =
         AlignOrder(*corners, ProjectBoard(rig.left, kCornerBoard, pose), kCornerBoard.Size());
@@ -46,7 +44,7 @@ TEST(CornerDetection, FindsRenderedCornersToASmallPartOfAPixel) {
 }
 
 TEST(CornerDetection, ALargeImageKeepsTheSubPixelPlace) {
-  const SeenBoard seen(12, 1, 0.3);
+  const SeenBoard seen(12, 1624, 17);
   EXPECT_LT(Rms(seen.corners, seen.truth), 0.06);
   cv::Point2f mean(0, 0);
   for (size_t i = 0; i < seen.truth.size(); ++i)
@@ -57,7 +55,7 @@ TEST(CornerDetection, ALargeImageKeepsTheSubPixelPlace) {
 /// The detector guesses some corners that it does not see.
 TEST(CornerDetection, ABoardWithAHiddenCornerIsNotSeenWhole) {
   EXPECT_FALSE(DetectCorners(cv::Mat(480, 640, CV_8U, cv::Scalar(128)), kCornerBoard.Size()));
-  const SeenBoard seen(15);
+  const SeenBoard seen(14);
   const double square_px = cv::norm(seen.corners[1] - seen.corners[0]);
   for (const int hidden : {0, 4, 9, 22, 31, 53}) {
     cv::Mat covered = seen.image.clone();

@@ -10,22 +10,6 @@ bool IsRed(const cv::Scalar& bgr) { return bgr[2] > 200 && bgr[1] < 100 && bgr[0
 bool IsGreen(const cv::Scalar& bgr) { return bgr[1] > 150 && bgr[0] < 120 && bgr[2] < 120; }
 bool IsGrey(const cv::Scalar& bgr) { return bgr[0] == bgr[1] && bgr[1] == bgr[2]; }
 
-TEST(DepthColors, NearIsBlueAndFarIsRed) {
-  std::vector<float> depths_m(21, 8);  // of which the nearest and the farthest do not count
-  depths_m[0] = 0.1f, depths_m[1] = 2, depths_m[19] = 32, depths_m[20] = 1000;
-  const DepthColors colors(depths_m);
-  EXPECT_TRUE(IsBlue(colors.BgrOf(2)));
-  EXPECT_TRUE(IsRed(colors.BgrOf(64)));
-  EXPECT_LT(colors.BgrOf(6)[2], colors.BgrOf(20)[2]);
-  EXPECT_NEAR(colors.BgrOf(8)[0], 255, 1e-6) << "half way from 2 to 32";
-  EXPECT_NEAR(colors.BgrOf(8)[2], 255, 1e-6);
-}
-
-TEST(DepthColors, OneDepthOrNoneIsNoTrouble) {
-  EXPECT_TRUE(IsBlue(DepthColors({5}).BgrOf(5)));
-  DepthColors({}).BgrOf(5);
-}
-
 TEST(MatchPicture, ShowsNearBlueFarRedMatchedGreen) {
   const cv::Mat left(100, 300, CV_8UC1, cv::Scalar(90));
   StereoFrame frame;

@@ -23,7 +23,5 @@ TEST(KeypointBudgetTest, TakesTheStrongestFirstWithoutCells) {
   EXPECT_EQ(ResponsesOf(RankSpread(kMaxima, 10, 20, 0)), (std::vector<float>{7, 6, 5, 1}));
 }
 
-TEST(KeypointBudgetTest, RanksNothing) { EXPECT_TRUE(RankSpread({}, 10, 20, 10).empty()); }
-
 }  // namespace
 }  // namespace arfm_vo

@@ -49,12 +49,6 @@ TEST_F(KeypointMaskTest, DropsWhatIsUnderItAndWhatIsNearerThanAPatch) {
   EXPECT_EQ(shown.descriptors.at<float>(1, 0), 99);
 }
 
-TEST_F(KeypointMaskTest, WhereAllIsHiddenNothingIsLeft) {
-  const Features shown = KeypointMask(Write(40), {100, 60}).WithoutHidden(FeaturesAt({3, 5}));
-  EXPECT_EQ(shown.size(), 0);
-  EXPECT_TRUE(shown.descriptors.empty());
-}
-
 TEST_F(KeypointMaskTest, NoFileHidesNothing) {
   EXPECT_EQ(KeypointMask("", {100, 60}).WithoutHidden(FeaturesAt({0, 50})).size(), 2);
 }

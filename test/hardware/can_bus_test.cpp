@@ -72,17 +72,5 @@ TEST(CanAddress, AnInterfaceThatIsNotThereIsNamedInTheError) {
               testing::HasSubstr("nocan7"));
 }
 
-TEST(CanFrame, HoldsEightBytesAndIsWrittenAsCanDumpDoes) {
-  EXPECT_EQ(ToString(MakeCanFrame(0x111, {0, 100, 0, 0, 0, 0, 0, 0})), "111#0064000000000000");
-  EXPECT_EQ(ToString(MakeCanFrame(0x7, {})), "007#");
-  EXPECT_THROW(MakeCanFrame(1, {0, 1, 2, 3, 4, 5, 6, 7, 8}), std::invalid_argument);
-}
-
-TEST(CanBusState, EachHasANameOfItsOwn) {
-  EXPECT_STREQ(ToString(CanBusState::kUp), "up");
-  EXPECT_STREQ(ToString(CanBusState::kBusOff), "bus-off");
-  EXPECT_STREQ(ToString(CanBusState::kDown), "down");
-}
-
 }  // namespace
 }  // namespace arfm_vo

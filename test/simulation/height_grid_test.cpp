@@ -15,21 +15,6 @@ HeightGrid MakeGrid(int num_cells, double cell_m, double (*height)(double, doubl
   return HeightGrid(raster);
 }
 
-TEST(HeightGrid, RayMeetsALevelPlaneWhereArithmeticSays) {
-  const HeightGrid grid = MakeGrid(64, 0.5, [](double, double) { return 1.0; });
-  // From 4 m up, falling 3 m over 6 m: parameter 6 of a direction with x = 1, z = -0.5.
-  const Ray ray{{-8, 0.3, 4}, {1, 0, -0.5}};
-  EXPECT_NEAR(grid.Intersect(ray, 0, 100), 6, 1e-9);
-  EXPECT_TRUE(std::isinf(grid.Intersect(ray, 0, 5.9)));
-}
-
-TEST(HeightGrid, RayMeetsASlope) {
-  const HeightGrid grid = MakeGrid(64, 0.5, [](double x, double) { return 0.25 * x; });
-  // 2 - 0.25 t = 0.25 t at t = 4.
-  EXPECT_NEAR(grid.Intersect({{0, 1, 2}, {1, 0.1, -0.25}}, 0, 100), 4, 1e-9);
-  EXPECT_NEAR(grid.Normal(1, 1).x() / grid.Normal(1, 1).z(), -0.25, 1e-6);
-}
-
 TEST(HeightGrid, VerticalAndUpwardRays) {
   const HeightGrid grid = MakeGrid(16, 1, [](double, double) { return 1.0; });
   EXPECT_NEAR(grid.Intersect({{0.25, 0.25, 5}, {0, 0, -1}}, 0, 100), 4, 1e-9);

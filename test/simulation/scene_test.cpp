@@ -10,45 +10,6 @@
 namespace arfm_vo {
 namespace {
 
-TEST(Scene, SlopesReachButDoNotPassWhatARoverClimbs) {
-  SceneOptions options;
-  options.path = "slopes";
-  options.num_pairs = 200;
-  options.margin_m = 5;
-  const Scene scene(options);
-  double steepest = 0, length = 0;
-  for (int i = 0; i < scene.num_pairs(); ++i) {
-    const Eigen::Vector3d up =
-        scene.WorldFromLeft(i) * (BaseFromLeftCamera({}).Inverse() * Eigen::Vector3d(0, 0, 1)) -
-        scene.WorldFromLeft(i) * (BaseFromLeftCamera({}).Inverse() * Eigen::Vector3d(0, 0, 0));
-    steepest = std::max(steepest, std::acos(up.z()) * 180 / M_PI);
-    if (i > 0) {
-      const double step =
-          (scene.WorldFromLeft(i).translation - scene.WorldFromLeft(i - 1).translation).norm();
-      EXPECT_LT(step, 0.2) << i;
-      length += step;
-    }
-  }
-  EXPECT_GT(steepest, 10);
-  EXPECT_LT(steepest, 22);
-  EXPECT_NEAR(length, 20, 2);
-}
-
-TEST(Scene, WideTurnTurnsFifteenDegreesInFivePairs) {
-  SceneOptions options;
-  options.path = "wide_turn";
-  options.num_pairs = 100;
-  options.step_m = 0.8;
-  const Scene scene(options);
-  double widest = 0;
-  for (int i = 5; i < scene.num_pairs(); ++i) {
-    const Rigid3 motion = scene.WorldFromLeft(i - 5).Inverse() * scene.WorldFromLeft(i);
-    widest = std::max(widest, motion.Angle() * 180 / M_PI);
-  }
-  EXPECT_GT(widest, 20);
-  EXPECT_NEAR(scene.FirstFromLeft(99).Angle() * 180 / M_PI, 98, 5);
-}
-
 SceneOptions TinyOptions(const std::string& path) {
   SceneOptions options;
   options.path = path;

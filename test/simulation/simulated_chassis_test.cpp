@@ -69,16 +69,6 @@ TEST_F(SimulatedChassisTest, SendsItsFeedbackAtTheManualsRates) {
   EXPECT_NEAR(num_frames_[0x361], 100, 2);
 }
 
-TEST(TrackedPlant, SlipsAsItIsTold) {
-  TrackedPlantOptions options;
-  options.slip_variation = 0;
-  options.forward_slip = 0.1;
-  TrackedPlant plant(options, {0, 0, M_PI / 2});
-  for (int i = 0; i < 10000; ++i) plant.Step({0.1, 0.1}, 0.01);
-  EXPECT_NEAR(plant.Ways().left_m, 10, 0.02);
-  EXPECT_NEAR(plant.Pose().y_m, 0.9 * plant.Ways().left_m, 1e-9);
-}
-
 TEST(TrackedPlant, SkidsInTurns) {
   TrackedPlantOptions options;
   options.turn_slip_factor = 1.5;
@@ -87,12 +77,6 @@ TEST(TrackedPlant, SkidsInTurns) {
   const double track_turn_rad = (plant.Ways().right_m - plant.Ways().left_m) / 0.583;
   EXPECT_NEAR(plant.Pose().heading_rad, track_turn_rad / 1.5, 1e-9);
   EXPECT_NEAR(plant.Pose().x_m, 0, 1e-9);
-}
-
-TEST(TrackedPlant, VariesItsSlipAboutTheMean) {
-  TrackedPlant plant({}, {});
-  for (int i = 0; i < 100000; ++i) plant.Step({0.1, 0.1}, 0.01);
-  EXPECT_NEAR(plant.DrivenDistance() / plant.Ways().left_m, 0.9, 0.02);
 }
 
 TEST(TrackedPlant, ClimbsAlongTheSlopeAndSlidesDownIt) {
@@ -111,24 +95,6 @@ TEST(TrackedPlant, ClimbsAlongTheSlopeAndSlidesDownIt) {
   for (int i = 0; i < 1000; ++i) across.Step({0.1, 0.1}, 0.01);
   EXPECT_LT(across.Pose().x_m, -0.01);
   EXPECT_NEAR(across.Pose().y_m, across.Ways().left_m, 1e-6);
-}
-
-TEST(ClosedLoop, StopLookGoReachesTheGoalAndLooksAtRest) {
-  PilotOptions options;
-  options.stop_look_go.is_on = true;
-  SimulatedDrive drive(options);
-  drive.DriveAlong({{1.5, 1, 0.0}});
-  int num_stops = 0;
-  bool was_moving = false;
-  drive.each_tick_ = [&] {
-    const bool is_moving = !drive.Commanded().IsZero();
-    num_stops += was_moving && !is_moving;
-    was_moving = is_moving;
-  };
-  ASSERT_TRUE(drive.RunUntil(600, [&] { return !drive.HasGoal(); }));
-  EXPECT_GE(num_stops, 8);
-  const RoverPose& pose = drive.plant().Pose();
-  EXPECT_LT(std::hypot(pose.x_m - 1.5, pose.y_m - 1), 0.045);
 }
 
 TEST(ClosedLoop, StopLookGoDrivesBySightThatComesOncePerMinute) {

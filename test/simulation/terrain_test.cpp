@@ -15,31 +15,6 @@ TerrainOptions SmallOptions() {
   return options;
 }
 
-TEST(Terrain, SameSeedSameGroundOtherSeedOther) {
-  TerrainOptions other = SmallOptions();
-  other.seed = 2;
-  const Terrain a(SmallOptions(), {}, 1), b(SmallOptions(), {}, 2), c(other);
-  EXPECT_EQ(a.Height(1.23, -4.5), b.Height(1.23, -4.5));
-  EXPECT_NE(a.Height(1.23, -4.5), c.Height(1.23, -4.5));
-  ASSERT_EQ(a.rocks().rocks().size(), b.rocks().rocks().size());
-  EXPECT_NE(a.rocks().rocks().size(), c.rocks().rocks().size());
-}
-
-TEST(Terrain, RocksStandOnTheGroundWithinTheirSizes) {
-  const Terrain terrain(SmallOptions());
-  const std::vector<Solid>& rocks = terrain.rocks().rocks();
-  ASSERT_GT(rocks.size(), 300u);
-  int num_large = 0;
-  for (const Solid& rock : rocks) {
-    EXPECT_LE(rock.bounding_radius_m, 1.3 * terrain.options().rocks.max_radius_m);
-    EXPECT_LT(std::abs(rock.center.z() - terrain.Height(rock.center.x(), rock.center.y())),
-              rock.bounding_radius_m);
-    num_large += rock.bounding_radius_m > 0.1;
-  }
-  // The number above 0.1 m is (0.1 / 0.02)^-1.9 = 5 % of all.
-  EXPECT_NEAR(static_cast<double>(num_large) / rocks.size(), 0.05, 0.03);
-}
-
 TEST(Terrain, CorridorIsClearOfLargeRocks) {
   Corridor corridor;
   corridor.points = {{-10, 0}, {0, 2}, {10, 0}};
@@ -54,24 +29,6 @@ TEST(Terrain, CorridorIsClearOfLargeRocks) {
     EXPECT_LE(rock.bounding_radius_m, 1.3 * 0.05);
   }
   EXPECT_GT(num_on_way, 20);
-}
-
-TEST(Terrain, LevelGroundIsFullyLitAndASlopeByItsAngle) {
-  TerrainOptions options = SmallOptions();
-  options.relief_m = options.hills_m = 0;
-  options.rocks.density_per_m2 = 0;
-  EXPECT_DOUBLE_EQ(Terrain(options).Sunlight(1, 2), 1);
-  EXPECT_DOUBLE_EQ(Terrain(options).Height(1, 2), 0);
-}
-
-TEST(Terrain, RaysCrossFromTheDetailedSquareToTheLandAround) {
-  TerrainOptions options = SmallOptions();
-  options.relief_m = options.hills_m = 0;
-  const Terrain terrain(options);
-  // 2 m down over 40 m: the square ends at 12.8 m.
-  EXPECT_NEAR(terrain.Intersect({{0, 0, 2}, {1, 0.2, -0.05}}, 0, 1000), 40, 1e-3);
-  // From outside, into the square.
-  EXPECT_NEAR(terrain.Intersect({{-40, 0, 2}, {1, 0, -0.05}}, 0, 1000), 40, 1e-3);
 }
 
 TEST(Terrain, CheckNamesTheBadOption) {
