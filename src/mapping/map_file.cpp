@@ -22,7 +22,7 @@ namespace {
 
 constexpr char kMagic[] = "arfm_vo map\n";
 constexpr size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr size_t kHeaderSize = kMagicSize + 2 * sizeof(uint32_t) + sizeof(uint64_t);
 constexpr size_t kPointSize = 3 * sizeof(float) + sizeof(Appearance);
 constexpr size_t kKeyframeSize =
@@ -198,7 +198,9 @@ KnownMap ParseMap(const std::string& bytes, const std::string& path) {
   file.Take(version);
   file.Check(version <= kVersion, "is of version " + std::to_string(version) +
                                       ", newer than this program's, " + std::to_string(kVersion));
-  file.Check(version == kVersion, "is of version " + std::to_string(version) + ", which is none");
+  file.Check(version == kVersion, "is of version " + std::to_string(version) +
+                                      ", older than this program's, " + std::to_string(kVersion) +
+                                      ": its cameras have another model; make the map anew");
   file.Take(checksum);
   file.Take(size);
   file.Check(size == bytes.size() - kHeaderSize,

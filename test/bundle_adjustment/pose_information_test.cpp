@@ -66,7 +66,8 @@ TEST(PoseInformation, TellsHowThePosesMoveWithTheCorrection) {
   const PoseInformation information = FindPoseInformation(scene.problem, held, options);
   StereoCorrection::Coefficients step = StereoCorrection::Coefficients::Zero();
   step.head<4>() << 0.02, -0.01, 0.01, 0.015;
-  step.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 0.02, 0.03, -0.02;
+  step.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 0.02, 0.03, -0.02, 0.02,
+      -0.03;
   scene.problem.correction.coefficients_px = step;
   const BundleResult moved = AdjustBundle(scene.problem, options);
   constexpr int kFirst = 2, kSize = 6 * 4;  // two poses are held

@@ -19,7 +19,8 @@ Coefficients MakeDisplacement() {
   coefficients[0] = 0.2;
   coefficients[3] = 0.15;
   coefficients[6] = -0.1;
-  coefficients.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 2, -1, 0.5;
+  coefficients.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 2, -1, 0.5, 0.4,
+      -0.3;
   constexpr int kRows = StereoCorrection::kNumPlacing;
   coefficients[kRows] = -0.3;
   coefficients[kRows + 1] = 0.2;

@@ -104,7 +104,8 @@ TEST(CorrectionBelief, ThatOfAnEarlierDriveLeavesOpenWhetherTheCamerasHaveTurned
   const auto& turned = yaw.coefficients_px;
   EXPECT_NEAR(turned.dot(now.Information() * turned), 1, 0.01) << "one standard deviation";
   EXPECT_LT((1e-3 * CorrectionBelief::ByTurn(kCamera).col(1) - turned).norm(), 0.01);
-  EXPECT_NEAR(std::sqrt(now.covariance(11, 11)), 0.01, 0.01) << "radial: the lens is the same";
+  constexpr int kLens = StereoCorrection::kNumField;
+  EXPECT_NEAR(std::sqrt(now.covariance(kLens, kLens)), 0.01, 0.01) << "the lens is the same";
 }
 
 /// A roll of 1 mrad: rows by 0.6 px at the edges, columns by 0.2 px at top and bottom.

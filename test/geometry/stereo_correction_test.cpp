@@ -73,19 +73,33 @@ TEST(StereoCorrection, RadialTermsMoveBothImagesAwayFromTheCentre) {
   EXPECT_NEAR(correction.AtLeft(kCamera, centre - to_corner / 2).norm(), 2.0 / 8 * 3 / 4, 1e-12);
 }
 
-TEST(StereoCorrection, SlopesOfRadialTermsAgreeWithNumericOnes) {
-  constexpr double kRadius = 0.7, kStep = 1e-6;
-  const auto gains = [](double r) { return LensBasis::Gains(r * r); };
-  const Eigen::Vector3d numeric =
-      (gains(kRadius + kStep) - gains(kRadius - kStep)) / (2 * kStep * kRadius);
-  EXPECT_LT((LensBasis::Slopes(kRadius * kRadius) - numeric).norm(), 1e-8);
+TEST(StereoCorrection, TangentialTermsAreBrowns) {
+  const Eigen::Vector2d p(0.6, -0.3);
+  const double r2 = p.squaredNorm(), across = 2 * p.x() * p.y();
+  const LensBasis::Values values = LensBasis::At(p);
+  const Eigen::Vector2d p1(across, r2 + 2 * p.y() * p.y()), p2(r2 + 2 * p.x() * p.x(), across);
+  EXPECT_LT((3 * values.col(3) - p1).norm(), 1e-12);
+  EXPECT_LT((3 * values.col(4) - p2).norm(), 1e-12);
+  EXPECT_NEAR(LensBasis::At({1, 0}).col(4).norm(), 1, 1e-12);
+}
+
+TEST(StereoCorrection, SlopesOfTheLensAgreeWithNumericOnes) {
+  const Eigen::Vector2d p(0.6, -0.3);
+  LensBasis::Coefficients coefficients;
+  coefficients << 2, -1, 0.5, 0.7, -0.4;
+  const auto numeric = NumericDerivative<2, 2>(
+      [&](const Eigen::Vector2d& step) -> Eigen::Vector2d {
+        return LensBasis::At(p + step) * coefficients;
+      },
+      1e-4);
+  EXPECT_LT((LensBasis::Slope(p, coefficients) - numeric).norm(), 1e-7);
 }
 
 TEST(StereoCorrection, NominalPixelsUndoTheDisplacement) {
   StereoCorrection correction;
   correction.coefficients_px.setLinSpaced(-0.5, 0.6);
   correction.coefficients_px.segment<StereoCorrection::kNumLens>(StereoCorrection::kNumField) << 2,
-      -1, 0.5;
+      -1, 0.5, 0.4, -0.3;
   for (const double z : {2.0, 10.0, 1000.0}) {
     const Eigen::Vector3d x(0.5 * z, -0.1 * z, z);
     const Eigen::Vector4d seen = ProjectStereo4(kCamera, correction, x);
