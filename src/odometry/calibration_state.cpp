@@ -10,11 +10,13 @@
 namespace arfm_vo {
 namespace {
 
-/// No window is trusted more than an observation (LandmarkAlignerOptions::min_sigma_px).
+/// The correction is found where its columns are known better than this all over the image, so that
+/// windows can tell a turn of the camera: no observation is trusted more, nor is a window
+/// (LandmarkAlignerOptions::min_sigma_px).
 constexpr double kObservationSigmaPx = 0.1;
 
-/// No coefficient is known better: a lens is not quite what its model says. The correction is known
-/// where its columns are, all over the image.
+/// No coefficient is known better: a lens is not quite what its model says. Where the columns are
+/// known as well, there is nothing more to learn.
 constexpr double kModelSigmaPx = 0.05;
 
 /// What an adjustment holds, px.
@@ -76,8 +78,9 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
   if (result.correction_covariance.isZero(0)) return false;
   learnt_ = {result.correction, result.correction_covariance};
   TakeNews(learnt_);
-  is_open_ = learnt_.MaxColumnSigma(camera_) > kModelSigmaPx;
-  is_found_ |= !is_open_;
+  const double sigma_px = learnt_.MaxColumnSigma(camera_);
+  is_open_ = sigma_px > kModelSigmaPx;
+  is_found_ |= sigma_px <= kObservationSigmaPx;
   num_learnt_ = num_keyframes;
   turn_covariance_.setZero();
   turned_rad_ = 0;
@@ -166,7 +169,8 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
   const Eigen::Matrix3d noise = scatter_.value() * newest.covariance +
                                 kObservationSigmaPx * kObservationSigmaPx * px2_by_turn.inverse();
-  const double ratio = Square(off, turn_covariance_ + noise);
+  const Eigen::Matrix3d known = turn_of * correction_.covariance * turn_of.transpose();
+  const double ratio = Square(off, known + noise);
   // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
   is_turning_ = ratio > limit;

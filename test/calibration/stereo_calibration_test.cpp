@@ -64,7 +64,7 @@ TEST(StereoCalibration, ExactCornersGiveTheTrueRig) {
   EXPECT_NEAR(calibration.left.matrix(0, 0), truth.left.matrix(0, 0), 0.05);
   EXPECT_NEAR(calibration.right.matrix(1, 1), truth.right.matrix(1, 1), 0.05);
   EXPECT_NEAR(calibration.left.matrix(0, 2), truth.left.matrix(0, 2), 0.05);
-  EXPECT_NEAR(calibration.left.distortion.at<double>(0), truth.left.k1, 2e-3);
+  EXPECT_NEAR(calibration.left.distortion.at<double>(0), truth.left.distortion.at<double>(0), 2e-3);
   EXPECT_LT((calibration.right_from_left.translation - truth.right_from_left.translation).norm(),
             2e-5);
   EXPECT_LT((calibration.right_from_left.rotation.conjugate() * truth.right_from_left.rotation)

@@ -104,11 +104,12 @@ TEST(CalibrationState, AdjustmentsThatMoveByMoreThanTheySayWidenTheCovariance) {
     state.Learn(Found(px, 0.1), 4);
     return state.correction().covariance(0, 0);
   };
-  // It moves by sqrt(0.2^2 - 0.1^2) as a rule: so of 3 squares that count 3 and 3/4 of 13 that
+  // It moves by sqrt(0.2^2 - 0.1^2) as a rule: so of 3 squares that count 3 and 3/4 of all that
   // count 1, and of as many that count 16.
-  const double usual_px = std::sqrt(0.03), model_px2 = 0.05 * 0.05, num = 3 + 0.75 * 13;
-  EXPECT_NEAR(known(usual_px), 0.1 * 0.1 * (9 + 0.75 * 13) / num + model_px2, 1e-9);
-  EXPECT_NEAR(known(4 * usual_px), 0.1 * 0.1 * (9 + 16 * 0.75 * 13) / num + model_px2, 1e-9);
+  const double usual_px = std::sqrt(0.03), model_px2 = 0.05 * 0.05;
+  const double num_news = 0.75 * StereoCorrection::kNumPlacing, num = 3 + num_news;
+  EXPECT_NEAR(known(usual_px), 0.1 * 0.1 * (9 + num_news) / num + model_px2, 1e-9);
+  EXPECT_NEAR(known(4 * usual_px), 0.1 * 0.1 * (9 + 16 * num_news) / num + model_px2, 1e-9);
   EXPECT_LT(known(0), known(usual_px));
 }
 
@@ -187,7 +188,7 @@ TEST(CalibrationState, WhatAnEarlierDriveFoundStandsAsLongAsThisOneAllowsIt) {
   EXPECT_EQ(state.Prior()->covariance, kCalibration.covariance) << "of this drive alone";
   EXPECT_FALSE(state.Learn(Found(Yaw(0.7), 0.3), 3)) << "poses are to be of what stands";
   EXPECT_EQ(state.correction().mean.coefficients_px, Yaw(0.3));
-  EXPECT_FALSE(state.Learn(Found(Yaw(0.33), 0.02), 6));
+  EXPECT_FALSE(state.Learn(Found(Yaw(0.33), 0.01), 6));
   EXPECT_EQ(state.correction().mean.coefficients_px, Yaw(0.3));
   EXPECT_FALSE(state.Prior());
   EXPECT_LT(state.correction().covariance(0, 0), 0.1 * 0.1);

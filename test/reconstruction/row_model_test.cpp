@@ -58,7 +58,7 @@ TEST(RowModel, LearnsATurnedCameraFromOnePair) {
   RowModel model(kCamera, kCalibration);
   model.Update(Samples(400, 0.2, 0, 1));
   EXPECT_TRUE(model.IsLearnt());
-  EXPECT_LT(LargestError(model), 0.15);
+  EXPECT_LT(LargestError(model), 0.165);  // 0.2 px in 400 rows, twelve terms
   EXPECT_GT(model.spread_px(), 0.09);
   EXPECT_LT(model.spread_px(), 0.2);
 }
