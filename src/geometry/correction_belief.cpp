@@ -20,7 +20,7 @@ constexpr double kErrorSigma[kNumErrors] = {0.02, 0.02, 0.005, 0.01, 0.001, 20, 
 /// What no such error explains, and the size of the whole field, px a coefficient.
 constexpr double kUnmodelledSigmaPx = 0.1, kFieldSigmaPx = 1;
 /// Of both images' radial and tangential coefficients, px in the corners.
-constexpr double kRadialSigmaPx = 3, kTangentialSigmaPx = 1;
+constexpr double kRadialSigmaPx = 3, kTangentialSigmaPx = 0.5;
 /// Of both images' focal length: what calibrations after Zhang say of themselves.
 constexpr double kFocalLengthSigma = 1e-3;
 /// The pixels above are of a camera with this focal length: what a calibration is off by are
