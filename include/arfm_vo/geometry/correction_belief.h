@@ -35,8 +35,8 @@ struct CorrectionBelief {
   /// Brown and Conrady (k1..k3, p1, p2), which move columns and rows together, so that rows tell
   /// of columns; 0.1 px a coefficient is left for what that model does not know, and the whole
   /// field is no more than about a pixel, as a calibration makes it. Where a board seldom comes, in
-  /// the corners, both images may be off radially by some pixels and tangentially by one (at a
-  /// focal length of 700 px; others in proportion), and the focal length of both by 0.1 %.
+  /// the corners, both images may be off radially by some pixels and tangentially by half of one
+  /// (at a focal length of 700 px; others in proportion), and the focal length of both by 0.1 %.
   static CorrectionBelief OfCalibration(const StereoCamera& camera);
   /// Of a calibration that is right: within a thousandth of a pixel, so that it can be inverted.
   static CorrectionBelief OfExactCalibration() { return Isotropic(kExactSigmaPx); }
