@@ -154,11 +154,19 @@ class CeresBundle {
     result.num_iterations = static_cast<int>(summary.iterations.size()) - 1;
     result.initial_cost = 2 * summary.initial_cost;
     result.final_cost = 2 * summary.final_cost;
-    result.status = summary.termination_type == ceres::CONVERGENCE ? BundleStatus::kConverged
-                    : summary.termination_type == ceres::NO_CONVERGENCE
-                        ? BundleStatus::kNotConverged
-                    : summary.termination_type == ceres::USER_SUCCESS ? BundleStatus::kCancelled
-                                                                      : BundleStatus::kFailed;
+    switch (summary.termination_type) {
+      case ceres::CONVERGENCE:
+        result.status = BundleStatus::kConverged;
+        break;
+      case ceres::NO_CONVERGENCE:
+        result.status = BundleStatus::kNotConverged;
+        break;
+      case ceres::USER_SUCCESS:
+        result.status = BundleStatus::kCancelled;
+        break;
+      default:
+        result.status = BundleStatus::kFailed;
+    }
     return result;
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
-#include <cstring>
 #include <map>
 #include <set>
 
@@ -37,9 +36,15 @@ std::string LastNumber(const std::string& name) {
   return name.substr(first, last + 1 - first);
 }
 
-/// Numbers in names compare as numbers: 2 before 10.
+/// Numbers in names compare as numbers: 2 before 10, and 07 is 7.
 bool ComesBefore(const std::string& a, const std::string& b) {
-  return strverscmp(a.c_str(), b.c_str()) < 0;
+  const auto is_number = [](const std::string& text) {
+    return !text.empty() && text.size() < 18 &&
+           text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (is_number(a) && is_number(b) && std::stoll(a) != std::stoll(b))
+    return std::stoll(a) < std::stoll(b);
+  return a < b;
 }
 
 using Files = std::map<std::string, fs::path, decltype(&ComesBefore)>;

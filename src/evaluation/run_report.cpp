@@ -22,6 +22,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Fills `folder`; returns why there is no picture, if so.
+std::string WriteFiles(const OdometryRun& run, const fs::path& folder) {
+  WriteWholeFile(folder / "poses.txt", FormatKitti(run.trajectory));
+  WriteWholeFile(folder / "tracked.txt", FormatTracked(run.trajectory));
+  WriteWholeFile(folder / "poses_online.txt", FormatKitti(run.online));
+  WriteWholeFile(folder / "trajectory.tum", FormatTum(run.trajectory));
+  WriteWholeFile(folder / "timing.csv", FormatTiming(run));
+  const PathComparison comparison = CompareWithTruth(run, run.trajectory);
+  try {
+    PlotTrajectory({comparison.estimate, comparison.is_tracked, comparison.truth},
+                   folder / "trajectory.png");
+  } catch (const std::runtime_error& error) {
+    return std::string("no trajectory.png: ") + error.what();
+  }
+  return "";
+}
+
 double ComputePathLength(const Trajectory& trajectory) {
   std::vector<Rigid3> path;
   for (const TrajectoryPose& pose : trajectory) path.push_back(pose.world_from_camera);
@@ -85,22 +102,22 @@ void CheckCanWriteRun(const std::string& folder) {
 }
 
 std::string WriteRun(const OdometryRun& run, const std::string& folder) {
-  fs::create_directories(folder);
-  const fs::path path(folder);
-  WriteWholeFile(path / "poses.txt", FormatKitti(run.trajectory));
-  WriteWholeFile(path / "tracked.txt", FormatTracked(run.trajectory));
-  WriteWholeFile(path / "poses_online.txt", FormatKitti(run.online));
-  WriteWholeFile(path / "trajectory.tum", FormatTum(run.trajectory));
-  WriteWholeFile(path / "timing.csv", FormatTiming(run));
-  const PathComparison comparison = CompareWithTruth(run, run.trajectory);
+  const bool was_there = fs::exists(folder);
+  const fs::path partial = fs::path(folder) / (".partial." + std::to_string(getpid()));
   try {
-    PlotTrajectory({comparison.estimate, comparison.is_tracked, comparison.truth},
-                   path / "trajectory.png");
-  } catch (const std::runtime_error& error) {
-    fs::remove(path / "trajectory.png");  // of another run
-    return std::string("no trajectory.png: ") + error.what();
+    fs::create_directories(partial);
+    const std::string complaint = WriteFiles(run, partial);
+    if (!complaint.empty()) fs::remove(fs::path(folder) / "trajectory.png");  // of another run
+    for (const auto& entry : fs::directory_iterator(partial)) {
+      fs::rename(entry.path(), fs::path(folder) / entry.path().filename());
+    }
+    fs::remove(partial);
+    return complaint;
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(was_there ? partial : fs::path(folder), ignored);
+    throw;
   }
-  return "";
 }
 
 }  // namespace arfm_vo

@@ -69,6 +69,21 @@ OdometryRun RunFakes(int num_pairs, bool has_truth = true) {
   return RunOdometry(sequence, odometry, [](int, int) {});
 }
 
+TEST(RunOdometry, TakesEveryPairAndReportsProgress) {
+  FakeSequence sequence(5);
+  FakeOdometry odometry;
+  std::vector<int> reported;
+  const OdometryRun run = RunOdometry(sequence, odometry, [&](int done, int all) {
+    EXPECT_EQ(all, 5);
+    reported.push_back(done);
+  });
+  EXPECT_EQ(reported, (std::vector<int>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(run.trajectory.size(), 5u);
+  EXPECT_EQ(run.pair_ms.size(), 5u);
+  EXPECT_EQ(run.CountLost(), 1);
+  EXPECT_GE(run.cpu_s, 0);
+}
+
 TEST(RunOdometry, HoldsTheLastPoseWhereAPairIsLost) {
   const OdometryRun run = RunFakes(5);
   EXPECT_NEAR(run.online[1].world_from_camera.translation.z(), 1.01, 1e-12);
@@ -122,7 +137,26 @@ TEST(FormatTiming, HasAColumnAStage) {
       "to\",-1.0,30,0,2.000,5.250\n");
 }
 
-using RunFilesTest = FolderTest;
+class RunFilesTest : public FolderTest {
+ protected:
+  std::vector<std::string> List(const fs::path& folder) const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+      names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(RunFilesTest, FillsTheFolderAndNothingElse) {
+  const std::string complaint = WriteRun(RunFakes(20), folder_ / "deep's" / "out");
+  std::vector<std::string> expected = {"poses.txt", "poses_online.txt", "timing.csv"};
+  expected.push_back("tracked.txt");
+  if (complaint.empty()) expected.push_back("trajectory.png");
+  expected.push_back("trajectory.tum");
+  EXPECT_EQ(List(folder_ / "deep's" / "out"), expected);
+  EXPECT_EQ(ReadKittiPoses(folder_ / "deep's" / "out" / "poses.txt").size(), 20u);
+}
 
 TEST_F(RunFilesTest, KeepsWhatElseIsInTheFolder) {
   WriteWholeFile(folder_ / "notes", "mine");

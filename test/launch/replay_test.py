@@ -158,6 +158,12 @@ class CameraTest(ReplayCase):
     def test_a_realsense_is_replayed_by_its_topics_with_base_from_camera_alone(self):
         self.replay_renamed("/camera/infra1", "/camera/infra2", "image_rect_raw", "camera_infra1_optical_frame")
 
+    def test_a_zed_is_replayed_by_its_topics(self):
+        self.replay_renamed("/zed/zed_node/left", "/zed/zed_node/right", "image_rect_gray", "zed_left_camera_optical_frame")
+
+    def test_a_bag_of_kitti2bag_is_replayed_by_its_topics(self):
+        self.replay_renamed("/kitti/camera_gray_left", "/kitti/camera_gray_right", "image_raw", "camera_gray_left")
+
     def test_stamps_that_differ_are_told_and_paired_on_demand(self):
         def delay_right(topic, message):
             if "/right/" in topic:

@@ -108,6 +108,23 @@ TEST_F(MapFileTest, IsRefusedWithItsReason) {
   EXPECT_THROW(ReadMap(folder_ / "none.map"), std::invalid_argument);
 }
 
+TEST_F(MapFileTest, AThousandDamagedFilesAreRefused) {
+  const std::string good = FormatMap(MakeMap(4), 1000000);
+  RandomEngine engine(3);
+  const auto at = [&](size_t size) { return static_cast<size_t>(RandomUnit(engine) * size); };
+  for (int i = 0; i < 1000; ++i) {
+    std::string bytes = good;
+    if (i % 3 == 0) {
+      bytes.resize(at(bytes.size()));
+    } else if (i % 3 == 1) {
+      bytes[at(bytes.size())] ^= static_cast<char>(1 << at(8));
+    } else {
+      for (char& byte : bytes) byte = static_cast<char>(at(256));
+    }
+    EXPECT_NE(Refusal(bytes), "") << i;
+  }
+}
+
 TEST_F(MapFileTest, NamesTheValueOfAnotherCamera) {
   StereoCamera other = kCamera;
   EXPECT_NO_THROW(CheckSameCamera(MakeMap(1), other));

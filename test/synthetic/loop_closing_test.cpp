@@ -79,6 +79,22 @@ void FillInTwoRounds(double noise_px, Map& map, const std::function<void()>& adj
   RunSimulated(kCamera, TwoRounds(), simulation, OnlineOnly());
 }
 
+/// Adjustments that only loops call for.
+TEST(LoopClosing, LoopsThatAgreeWithThePathCallForNoAdjustment) {
+  for (const double noise_px : {0.05, 1.5}) {
+    const GlobalMapOptions options = WithLoops();
+    GlobalMap map(kCamera, options, {});
+    int num_unplanned = 0, planned = 2;
+    FillInTwoRounds(noise_px, map, [&] {
+      num_unplanned += map.num_keyframes() < planned;
+      planned = NextAdjustment(map.num_keyframes(), options.max_keyframes);
+      EXPECT_TRUE(map.Adjust());
+    });
+    EXPECT_GT(map.num_loops(), 2);
+    EXPECT_EQ(num_unplanned > 0, noise_px > 1);
+  }
+}
+
 TEST(LoopClosing, FindsNoLoopOnANewWay) {
   EXPECT_EQ(RunSimulated(kCamera, NewWay(60), {}, OdometryOptions()).num_loops, 0);
 }

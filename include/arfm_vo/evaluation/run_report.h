@@ -28,8 +28,8 @@ void CheckCanWriteRun(const std::string& folder);
 
 /// Writes poses.txt, poses_online.txt (KITTI), tracked.txt (1 where a pose is not interpolated),
 /// trajectory.tum, timing.csv and trajectory.png into
-/// `folder`, made where it is not there, each whole or not at all. Returns why there is no picture
-/// (no gnuplot), if so, else nothing. Throws std::system_error.
+/// `folder`, made where it is not there: all or nothing, but for the picture, whose absence (no
+/// gnuplot) is what the returned text says; it is empty otherwise. Throws std::system_error.
 std::string WriteRun(const OdometryRun& run, const std::string& folder);
 
 }  // namespace arfm_vo

@@ -10,12 +10,12 @@
 namespace arfm_vo {
 
 /// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
-/// until its columns are known as well as the model is right. From then on the newest
-/// keyframes alone (a window) tell how the right camera has turned since, in a Kalman filter whose
-/// process noise is what the innovation asks for, and none where that is within its covariance
-/// (Jazwinski, Adaptive filtering, Automatica 1969). The covariance is as wide as what comes says
-/// out of sample, not as the residuals say: by how far each adjustment moves what the one before
-/// has found, and how windows that share no keyframe scatter.
+/// until its columns are known as well as the model is right. Once they are known better than any
+/// single observation, the newest keyframes alone (a window) tell how the right camera has turned
+/// since, in a Kalman filter whose process noise is what the innovation asks for, and none where
+/// that is within its covariance (Jazwinski, Adaptive filtering, Automatica 1969). The covariance
+/// is as wide as what comes says out of sample, not as the residuals say: by how far each
+/// adjustment moves what the one before has found, and how windows that share no keyframe scatter.
 class CalibrationState {
  public:
   static constexpr int kWindow = 4;  ///< keyframes

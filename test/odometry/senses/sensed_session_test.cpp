@@ -52,6 +52,26 @@ class SensedSession : public testing::Test {
   Eigen::Vector3d force_m_s2_ = 9.81 * Eigen::Vector3d(0.1, 0, std::sqrt(0.99));  // it goes uphill
 };
 
+TEST_F(SensedSession, GoesOnInTheDarkByTheTracksForABoundedWay) {
+  const double from_m = way_m_ + kStep_m;
+  SessionUpdate pose;
+  for (int i = 0; i < 30; ++i) pose = Step(false);
+  ASSERT_TRUE(pose.IsTracked()) << pose.text;
+  double variance = pose.covariance(0, 0);
+  for (int i = 0; i < 38; ++i) {
+    pose = Step(true);
+    ASSERT_EQ(pose.update.pose.status, PoseStatus::kDegraded) << i << ": " << pose.text;
+    EXPECT_FALSE(pose.update.pose.IsMeasured());
+    EXPECT_THAT(pose.text, HasSubstr(", the tracks tell the motion"));
+    ExpectIsWhereItDrove(pose, from_m);
+    EXPECT_GT(pose.covariance(0, 0), variance);
+    variance = pose.covariance(0, 0);
+  }
+  for (int i = 0; i < 4; ++i) pose = Step(true);  // beyond 2 m
+  EXPECT_FALSE(pose.HasPose()) << pose.text;
+  EXPECT_EQ(pose.covariance(0, 0), kUnknownVariance);
+}
+
 TEST_F(SensedSession, AMapBegunAfterTheDarkBeginsWhereTheTracksTold) {
   const double from_m = way_m_ + kStep_m;
   for (int i = 0; i < 30; ++i) Step(false);
@@ -65,6 +85,22 @@ TEST_F(SensedSession, AMapBegunAfterTheDarkBeginsWhereTheTracksTold) {
   EXPECT_EQ(pose.epoch, 2u);
   ExpectIsWhereItDrove(pose, from_m);
   EXPECT_GE(pose.covariance(0, 0), dark.covariance(0, 0) - 1e-9);
+}
+
+TEST_F(SensedSession, OdomIsLevelFromTheStart) {
+  has_imu_ = true;
+  SessionUpdate pose = Step(false);
+  EXPECT_TRUE(pose.odom_from_base.translation.isZero(1e-9));
+  const double from_m = way_m_;
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Matrix3d odom_from_base = pose.odom_from_base.RotationMatrix();
+    EXPECT_NEAR(odom_from_base(2, 0), 0.1, 0.005) << i;  // x of the base goes up..
+    EXPECT_NEAR(odom_from_base(1, 0), 0, 0.005);         // ..and straight ahead in odom
+    EXPECT_NEAR(odom_from_base(2, 1), 0, 0.005);
+    pose = Step(false);
+  }
+  EXPECT_EQ(pose.text, "tracked");
+  EXPECT_NEAR(pose.odom_from_base.translation.z(), 0.1 * (way_m_ - from_m), 0.02);
 }
 
 TEST_F(SensedSession, GravityThatComesLateTurnsOdomSlowlyAboutTheBase) {
