@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "arfm_vo/matching/flann_matcher.h"
+#include "matching/exact_kernel.h"
 #include "matching/random_features.h"
 
 namespace arfm_vo {
@@ -74,6 +75,48 @@ TEST_P(ExactMatcherSizes, AgreesWithTheDefinitionBothWays) {
 INSTANTIATE_TEST_SUITE_P(AroundTileBorders, ExactMatcherSizes,
                          testing::Combine(testing::Values(1, 2, 6, 7, 97),
                                           testing::Values(1, 15, 16, 17, 130)));
+
+/// What a kernel finds for one-row-a-descriptor `first` among `second`, packed into panels.
+struct KernelScores {
+  std::vector<float> row_best, row_second, column_best, column_second;
+  std::vector<int32_t> row_index, column_index;
+
+  template <class Kernel>
+  KernelScores(const Kernel& kernel, const cv::Mat& first, const cv::Mat& second) {
+    const int num_panels = (second.rows + kPanelColumns - 1) / kPanelColumns;
+    std::vector<float> panels(num_panels * kPanelColumns * kDescriptorSize);
+    for (int i = 0; i < second.rows; ++i) {
+      for (int k = 0; k < kDescriptorSize; ++k) {
+        panels[(i / kPanelColumns * kDescriptorSize + k) * kPanelColumns + i % kPanelColumns] =
+            second.at<float>(i, k);
+      }
+    }
+    std::vector<const float*> rows;
+    for (int i = 0; i < first.rows; ++i) rows.push_back(first.ptr<float>(i));
+    for (auto* scores : {&row_best, &row_second}) scores->resize(first.rows);
+    for (auto* scores : {&column_best, &column_second}) scores->resize(num_panels * kPanelColumns);
+    row_index.resize(first.rows);
+    column_index.resize(num_panels * kPanelColumns);
+    kernel({rows.data(),
+            first.rows,
+            panels.data(),
+            second.rows,
+            {row_best.data(), row_second.data(), row_index.data()},
+            {column_best.data(), column_second.data(), column_index.data()}});
+  }
+  auto All() const {
+    return std::tie(row_best, row_second, row_index, column_best, column_second, column_index);
+  }
+};
+
+TEST_P(ExactMatcherSizes, BothKernelsGiveTheSameBits) {
+  if (!CanSearchExactlyAvx2()) GTEST_SKIP() << "this CPU has one kernel";
+  const auto [num_first, num_second] = GetParam();
+  const cv::Mat first = RandomFeatures(num_first, 1).descriptors;
+  const cv::Mat second = RandomFeatures(num_second, 2).descriptors;
+  EXPECT_EQ(KernelScores(SearchExactlyBaseline, first, second).All(),
+            KernelScores(SearchExactlyAvx2, first, second).All());
+}
 
 /// What holds of both searches.
 class NeighbourSearch

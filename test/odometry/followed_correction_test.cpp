@@ -47,6 +47,19 @@ std::vector<CorrectionBelief> Follow(const std::vector<PlacedKeyframe>& keyframe
   return told;
 }
 
+TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenLeavesIt) {
+  const auto told = Follow(MakeDisplacedKeyframes(Shift(0.3, -0.3)), kCalibration);
+  ASSERT_GE(told.size(), 6u);
+  for (const int k : {0, kFirstRow}) {
+    const double truth = k == 0 ? 0.3 : -0.3;
+    const double sigma = std::sqrt(told.back().covariance(k, k));
+    EXPECT_NEAR(told.back().mean.coefficients_px[k], truth, 4 * sigma) << k;
+    EXPECT_LT(sigma, std::sqrt(told.front().covariance(k, k))) << k;
+  }
+  EXPECT_LT(told.back().MaxColumnSigma(kBundleCamera), 0.25);
+  EXPECT_EQ(told.back().mean.coefficients_px, told[told.size() - 2].mean.coefficients_px);
+}
+
 TEST(GlobalMap, WhatAnEarlierDriveHasToldIsAPriorThatThisOneRefutes) {
   const auto keyframes = MakeDisplacedKeyframes(Shift(0.3, -0.3));
   for (const double earlier_px : {0.3, -0.4}) {
@@ -118,6 +131,22 @@ TEST(GlobalMap, ACancelledAdjustmentLeavesNoPosesOfACorrectionThatIsNotTold) {
   const auto after = cancelled.Adjust(), expected = whole.Adjust();
   ASSERT_TRUE(after && expected);
   ExpectSameEnd(*after, *expected);
+}
+
+TEST(GlobalMap, WithoutLearningWhatIsKnownIsToldFromFirstToLast) {
+  CorrectionBelief known = CorrectionBelief::Isotropic(0.03);
+  known.mean.coefficients_px = Shift(0.2, -0.1);
+  GlobalMapOptions options;
+  options.learn_correction = false;
+  GlobalMap map(kBundleCamera, options, known);
+  for (const PlacedKeyframe& placed : MakeDisplacedKeyframes(Shift(0.3, -0.3))) {
+    map.Add(placed.keyframe, placed.landmarks);
+    if (!map.IsAdjustmentDue()) continue;
+    const auto update = map.Adjust();
+    ASSERT_TRUE(update);
+    EXPECT_EQ(update->correction.mean.coefficients_px, known.mean.coefficients_px);
+    EXPECT_EQ(update->correction.covariance, known.covariance);
+  }
 }
 
 }  // namespace

@@ -162,5 +162,14 @@ TEST(PlacedMap, WithoutLearningTheCalibrationIsTakenAsExact) {
   EXPECT_LT(map.correction()->MaxColumnSigma(kCamera), 0.01);
 }
 
+TEST(PlacedMap, CanBeCancelled) {
+  PlacedMap map{GlobalMapOptions()};
+  EXPECT_FALSE(map.Adjust({}));
+  AddEpoch(map, 1, 0, 0.5, 0.55);
+  int calls = 0;
+  map.Adjust([&](const BundleProgress&) { return ++calls < 1; });
+  EXPECT_EQ(calls, 1);
+}
+
 }  // namespace
 }  // namespace arfm_vo

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "arfm_vo/geometry/kitti_poses.h"
 #include "arfm_vo/odometry/absolute_trajectory_error.h"
@@ -101,6 +102,37 @@ TEST(TrajectoryError, GivesThePublishedFiguresOfOrbSlam2AndSptam) {
   EXPECT_NEAR(100 * orb.kitti.rotation_deg_per_m, 0.25, 0.005);
   const auto sptam = CompareFiles(truth, FindShared("data/trajectories/evo_KITTI_00_SPTAM.txt"));
   EXPECT_NEAR(sptam.kitti.translation_percent, 1.49, 0.005);
+}
+
+/// What a command prints.
+std::string ReadOutputOf(const std::string& command) {
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string text;
+  for (char buffer[4096]; std::fgets(buffer, sizeof(buffer), pipe);) text += buffer;
+  pclose(pipe);
+  return text;
+}
+
+TEST(TrajectoryError, AgreesWithTheIndependentEvaluator) {
+  const std::string evaluator = FindShared("tools/kitti_eval.py");
+  if (evaluator.empty()) GTEST_SKIP() << "no shared/tools beside the package";
+  const std::string truth = FindShared("data/kitti/ground_truth_poses/09.txt");
+  const std::string estimate = FindShared("data/trajectories/kitti-odom-eval_example_1_09.txt");
+  const auto error = CompareFiles(truth, estimate);
+  const std::string json =
+      ReadOutputOf("/usr/bin/python3 " + evaluator + " --json " + truth + " " + estimate);
+  const auto expected = [&](const std::string& key) {
+    const size_t at = json.find("\"" + key + "\": ");
+    return at == std::string::npos ? NAN : std::stod(json.substr(at + key.size() + 4));
+  };
+  // The evaluator takes angles from the cosine of matrices with 7 digits, we from quaternions.
+  EXPECT_NEAR(error.kitti.translation_percent / expected("t_rel_pct"), 1, 1e-4);
+  EXPECT_NEAR(error.kitti.rotation_deg_per_m / expected("r_rel_deg_per_m"), 1, 1e-3);
+  EXPECT_NEAR(error.brief.translation_percent / expected("short_t_pct"), 1, 1e-4);
+  EXPECT_NEAR(error.brief.rotation_deg_per_m / expected("short_r_deg_per_m"), 1, 1e-3);
+  EXPECT_NEAR(error.ate_rmse_m / expected("ate_rmse_m"), 1, 1e-4);
+  EXPECT_NEAR(error.end_error_percent / expected("end_err_pct"), 1, 1e-4);
+  EXPECT_NEAR(error.length_ratio / expected("length_ratio"), 1, 1e-5);
 }
 
 }  // namespace

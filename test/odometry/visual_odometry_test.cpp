@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <stdexcept>
 
 #include "base/held_memory.h"
 #include "image/image_noise.h"
@@ -20,6 +21,9 @@ class VisualOdometryTest : public ::testing::Test {
     return {ExpSO3({0, 0.005 * i, 0}), Eigen::Vector3d(-0.1 * i, 0, 0.01 * i)};
   }
   PoseEstimate See(int i) { return odometry_.Process(wall_.Render(0.1 * i, Truth(i))).update.pose; }
+  PoseEstimate SeeNothing(int i) {
+    return odometry_.Process(wall_.RenderDark(0.1 * i)).update.pose;
+  }
 
   static double ErrorIn(const Rigid3& camera_from_world, double i) {
     return (camera_from_world * Truth(i).Inverse()).translation.norm();
@@ -28,6 +32,18 @@ class VisualOdometryTest : public ::testing::Test {
   TexturedWall wall_;
   VisualOdometry odometry_;
 };
+
+TEST_F(VisualOdometryTest, FollowsADrive) {
+  for (int i = 0; i < 15; ++i) {
+    const SessionUpdate seen = odometry_.Process(wall_.Render(0.1 * i, Truth(i)));
+    const PoseEstimate pose = seen.update.pose;
+    ASSERT_TRUE(pose.IsTracked()) << i << ": " << seen.text;
+    EXPECT_LT(ErrorIn(pose.camera_from_world, i), 0.02) << i;
+  }
+  const Trajectory trajectory = odometry_.Finish();
+  ASSERT_EQ(trajectory.size(), 15u);
+  EXPECT_LT(ErrorIn(trajectory.back().world_from_camera.Inverse(), 14), 0.02);
+}
 
 TEST_F(VisualOdometryTest, ASlowDriveNeedsTheFeaturesOfKeyframesAndOfItsFirstPairs) {
   StereoFrontend frontend(wall_.camera(), {});
@@ -63,6 +79,19 @@ TEST_F(VisualOdometryTest, WithoutLearningPosesAreAsSureAsWithAnExactCalibration
   EXPECT_LT(exact_sigma2, 0.5 * sigma2);
 }
 
+TEST_F(VisualOdometryTest, FindsItsWayAgainAfterTenBlackPairs) {
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(See(i).IsTracked());
+  for (int i = 5; i < 15; ++i) EXPECT_FALSE(SeeNothing(i).IsTracked()) << i;
+  for (int i = 15; i < 18; ++i) {  // a metre further on
+    const PoseEstimate pose = See(i);
+    ASSERT_TRUE(pose.IsTracked()) << i;
+    EXPECT_LT(ErrorIn(pose.camera_from_world, i), 0.03) << i;
+  }
+  const Trajectory trajectory = odometry_.Finish();
+  EXPECT_FALSE(trajectory[9].is_tracked);
+  EXPECT_LT(ErrorIn(trajectory[9].world_from_camera.Inverse(), 9), 0.1);  // between the neighbours
+}
+
 TEST_F(VisualOdometryTest, FindsItsWayAfterItWasCarriedBackInTheDark) {
   for (int i = 0; i < 12; ++i) ASSERT_TRUE(See(i).IsTracked());
   const PoseEstimate pose = odometry_.Process(wall_.Render(6, Truth(3))).update.pose;
@@ -86,6 +115,13 @@ TEST_F(VisualOdometryTest, DoesNotWalkAtRest) {
     }
     last = pose.camera_from_world;
   }
+}
+
+TEST_F(VisualOdometryTest, RefusesImagesThatDoNotFitTheCamera) {
+  StereoImages images = wall_.Render(0, Rigid3());
+  images.left = images.left.colRange(0, 100).clone();
+  images.right = images.right.colRange(0, 100).clone();
+  EXPECT_THROW(odometry_.Process(images), std::invalid_argument);
 }
 
 TEST(StereoFrontend, MemoryDoesNotGrowWithTheNumberOfPairs) {

@@ -86,6 +86,16 @@ TEST(KittiOdometry, FollowsADrawnSequenceTheSameEachTime) {
     EXPECT_EQ(ReadWholeFile(first + "/" + name), ReadWholeFile(second + "/" + name)) << name;
 }
 
+TEST(KittiOdometry, TakesStrideAndPairs) {
+  const SequenceFolder folder(0);
+  DrawSequence(folder, 6);
+  const Outcome outcome = RunOdometry(folder, "out", " --stride 2 --pairs 2");
+  auto lines = ReadLines(outcome.out);
+  EXPECT_EQ(lines["pairs"], 2);
+  EXPECT_NEAR(lines["path_length_m"], 0.5, 0.05);
+  EXPECT_NEAR(lines["length_ratio"], 1, 0.1);
+}
+
 TEST(KittiOdometry, ASequenceWithNothingToSeeIsLostAndSaidSo) {
   const SequenceFolder folder(4);
   const std::string output = folder.Root() + "/out";
@@ -116,6 +126,14 @@ TEST(KittiOdometry, RefusesDamageWithOneLineAndWritesNothing) {
   ExpectRefused(folder, program, folder.Right(3) + ": PNG file is truncated");
   folder.Write("calib.txt", folder.Calibration("350"));
   ExpectRefused(folder, program, "baseline");
+}
+
+TEST(KittiOdometry, NamesAMistypedConfigKey) {
+  const SequenceFolder folder(2);
+  folder.Write("config.yaml", "frontend:\n  no_such_key: 3\n");
+  ExpectRefused(folder,
+                "kitti_odometry " + folder.Path() + " --config " + folder.File("config.yaml"),
+                "config.yaml:2: frontend.no_such_key: unknown key");
 }
 
 TEST(KittiOdometry, PrintsAConfigThatItReads) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
 #include <thread>
 
 namespace arfm_vo {
@@ -86,6 +87,48 @@ TEST(Rehearsal, StopsOnTheWayAreCounted) {
   RehearsalOptions options = ShortDrive().options;
   options.pilot.pose.max_pose_age_s = 0.9;  // a pair each 0.75 s is told 0.2 s late
   EXPECT_GT(Rehearse(NearScene(), options).num_stops, 0);
+}
+
+TEST(GoalScene, KeepsDistanceAndSlopeWithinTheirLimits) {
+  ClosedLoop loop(1);
+  loop.scene.terrain.rocks.density_per_m2 = 0;
+  for (int seed = 1; seed <= 3; ++seed) {
+    loop.scene.seed = seed;
+    const GoalScene scene(loop.scene, loop.options.shape);
+    const double distance_m = Distance(scene.start(), scene.goal());
+    EXPECT_GE(distance_m, 5);
+    EXPECT_LE(distance_m, 20);
+    EXPECT_GE(scene.SteepestSlope(), 5);
+    EXPECT_LE(scene.SteepestSlope(), 10);
+  }
+}
+
+TEST(GoalScene, WrongOptionsAreNamed) {
+  GoalSceneOptions options;
+  options.max_slope_deg = options.min_slope_deg;
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+  options = {};
+  options.max_distance_m = options.terrain.side_m;
+  EXPECT_THROW(options.Check(), std::invalid_argument);
+}
+
+TEST(DrawDrive, ShowsBothWays) {
+  const GoalScene& scene = NearScene();
+  Drive drive;
+  drive.goal = scene.GoalInMap();
+  for (int i = 0; i < 20; ++i) {
+    TrackPoint point;
+    point.truth = {0.05 * i, 0, 0};
+    point.sight = {0.05 * i, 0.4, 0};
+    point.is_tracked = true;
+    drive.track.push_back(point);
+  }
+  const cv::Mat with = DrawDrive(scene.terrain(), scene.start(), drive);
+  for (TrackPoint& point : drive.track) point.is_tracked = false;
+  const cv::Mat without = DrawDrive(scene.terrain(), scene.start(), drive);
+  EXPECT_EQ(with.type(), CV_8UC3);
+  ASSERT_EQ(with.size(), without.size());
+  EXPECT_GT(cv::countNonZero(cv::Mat(with != without).reshape(1)), 100);
 }
 
 }  // namespace
