@@ -12,10 +12,11 @@ constexpr int kFirstRow = StereoCorrection::kNumPlacing;
 const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kBundleCamera);
 
 /// Keyframes of a drive in which the right image is displaced.
-std::vector<PlacedKeyframe> MakeDisplacedKeyframes(const StereoCorrection::Coefficients& px) {
+std::vector<PlacedKeyframe> MakeDisplacedKeyframes(const StereoCorrection::Coefficients& px,
+                                                   int points_per_keyframe = 80) {
   CorridorOptions corridor;
   corridor.num_poses = kNumKeyframes;
-  corridor.num_points = 80 * kNumKeyframes;
+  corridor.num_points = points_per_keyframe * kNumKeyframes;
   corridor.num_fixed = 1;
   corridor.noise_px = 0.2;
   corridor.correction.coefficients_px = px;
@@ -48,7 +49,7 @@ std::vector<CorrectionBelief> Follow(const std::vector<PlacedKeyframe>& keyframe
 }
 
 TEST(GlobalMap, LearnsTheCorrectionUntilItIsKnownAndThenLeavesIt) {
-  const auto told = Follow(MakeDisplacedKeyframes(Shift(0.3, -0.3)), kCalibration);
+  const auto told = Follow(MakeDisplacedKeyframes(Shift(0.3, -0.3), 400), kCalibration);
   ASSERT_GE(told.size(), 6u);
   for (const int k : {0, kFirstRow}) {
     const double truth = k == 0 ? 0.3 : -0.3;
