@@ -84,7 +84,7 @@ TABLE = (
         ("a jammed track stops", "return FindJam();", "return std::nullopt;"))),
     ("src/driving/goal_limits.cpp", BASIC, (
         ("a goal's distance is limited", "!(distance_m <= options_.max_distance_m)", "false"),
-        ("a goal lies inside the fence", 'if (!IsInsideFence(to.x_m, to.y_m)) return NameOf(i, route.size()) + " is outside the fence";', ""),
+        ("a goal lies inside the fence", 'if (!bg::covered_by(to, fence)) return NameOf(i, route.size()) + " is outside the fence";', ""),
         ("the way stays inside the fence", "!bg::covered_by(bg::model::linestring<Place>{from, to}, fence)", "false"),
         ("a path's length is limited", "route.size() > static_cast<size_t>(options_.max_waypoints)", "false"))),
     ("src/driving/speed_limiter.cpp", BASIC, (
