@@ -13,10 +13,10 @@ def tables(rows):
                "| faults, as promised | %d, %d |" % (len(rows), sum(row["kept"] for row in rows)),
                "| false arrivals | %d |" % sum(row["arrived"] for row in rows),
                "| motions without command or warning | %d |" % sum(row["unwarned"] for row in rows),
-               "| way on a wrong pose, worst, m | %.2f |" % max(row["wrong_way_m"] for row in rows)]
+               "| distance by a wrong pose, worst, m | %.2f |" % max(row["wrong_way_m"] for row in rows)]
     if stops:
         summary.append("| stop after the fault or its limit, median and worst, ms | %.0f, %.0f |" % (statistics.median(stops), max(stops)))
-    lines = ["| fault | promised | told | limit, s | stop, ms | way, m | wrong way, m | to go on | as promised |", "|" + "---|" * 9]
+    lines = ["| fault | promised | reported | limit, s | stop, ms | distance, m | by a wrong pose, m | resumes | as promised |", "|" + "---|" * 9]
     for row in rows:
         drives_on = row["drives_on"]
         lines.append("| %s | %s | %s | %s | %s | %.2f | %.2f | %s | %s |" % (
