@@ -184,12 +184,7 @@ TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
   EXPECT_EQ(world_->Call("clear_errors").message, "not sent: the rover moves");
   EXPECT_FALSE(world_->Call("set_datum").success);
   world_->Call("stop");
-  bool is_cleared = false;  // not called on end: connections that come and go so fast may fail
-  for (int i = 0; i < 20 && !is_cleared; ++i) {
-    world_->Run(0.25);
-    is_cleared = world_->Call("clear_errors").success;
-  }
-  EXPECT_TRUE(is_cleared);
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("clear_errors").success; }));
   EXPECT_TRUE(world_->Call("set_datum").success);
 }
 

@@ -11,6 +11,13 @@
 
 namespace arfm_vo {
 
+/// Calls a service over a connection that stays until the answer is read; that of
+/// ros::service::call may end before (ros_comm #1976).
+template <typename Service>
+bool CallService(const std::string& name, Service& call) {
+  return ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true).call(call);
+}
+
 /// Spins until `condition` holds; a failure that names what was waited for after 60 s.
 inline void WaitUntil(const std::function<bool()>& condition, const std::string& what) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60);

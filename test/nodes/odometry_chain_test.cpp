@@ -82,7 +82,7 @@ class OdometryChain : public testing::Test {
   std_srvs::Trigger::Response Call(const std::string& service) {
     std_srvs::Trigger trigger;
     EXPECT_TRUE(ros::service::waitForService(service, 10000)) << service;
-    EXPECT_TRUE(ros::service::call(service, trigger)) << service;
+    EXPECT_TRUE(CallService(service, trigger)) << service;
     return trigger.response;
   }
 

@@ -121,8 +121,7 @@ TEST_F(PanTiltNodeTest, HomesWhenItIsAskedToAndNotWhileTheRoverDrives) {
           DriveStatus message;
           message.state = state;
           status.publish(message);
-          return ros::service::call("/head/pan_tilt_node/home", home) &&
-                 home.response.message == reply;
+          return CallService("/head/pan_tilt_node/home", home) && home.response.message == reply;
         },
         reply);
   };

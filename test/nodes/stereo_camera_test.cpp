@@ -77,7 +77,7 @@ class StereoCameraNodeTest : public testing::Test {
     ros::AsyncSpinner spinner(1);
     spinner.start();
     if (!ros::service::waitForService(name, ros::Duration(30))) return "no " + name;
-    if (!ros::service::call(name, call)) return "no answer";
+    if (!CallService(name, call)) return "no answer";
     return call.response.success ? "" : "refused: " + call.response.status_message;
   }
   /// Waits until a camera_info with this P[3] comes, or one more where there is none.

@@ -65,14 +65,10 @@ std::string Describe(const DriveStatus& status) {
 }
 
 DrivePanel::DrivePanel(ros::NodeHandle node, ros::NodeHandle private_node)
-    : options_(ReadParameters<DrivePanelOptions>(private_node)),
-      start_(node.serviceClient<std_srvs::Trigger>("chassis_node/start")),
-      stop_(node.serviceClient<std_srvs::Trigger>("chassis_node/stop")),
-      home_(node.serviceClient<std_srvs::Trigger>("chassis_node/drive_home")),
-      server_(kName) {
-  status_ = node.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
+    : options_(ReadParameters<DrivePanelOptions>(private_node)), node_(node), server_(kName) {
+  status_ = node_.subscribe("drive_status", 10, &DrivePanel::TakeStatus, this);
   Show(state_);
-  timer_ = node.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
+  timer_ = node_.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
     if (heard_.isZero() || ros::WallTime::now() - heard_ < kMaxSilence) return;
     heard_ = {};
     Show("chassis_node is silent");
@@ -87,10 +83,12 @@ void DrivePanel::TakeStatus(const DriveStatus& status) {
 void DrivePanel::TakeClick(const InteractiveMarkerFeedback& feedback) {
   const std::string& name = feedback.control_name;
   if (name != "stop" && name != "start" && name != "home") return;
-  ros::ServiceClient& service = name == "stop" ? stop_ : name == "home" ? home_ : start_;
+  // Persistent, as roscpp may close another connection before the answer is read (ros_comm #1976).
+  ros::ServiceClient service = node_.serviceClient<std_srvs::Trigger>(
+      "chassis_node/" + (name == "home" ? "drive_home" : name), /*persistent=*/true);
   std_srvs::Trigger call;
   const bool is_answered = service.call(call);
-  answer_ = feedback.control_name + ": " +
+  answer_ = name + ": " +
             (is_answered ? call.response.message : "no answer from " + service.getService());
   ROS_INFO("%s", answer_.c_str());
   Show(state_);

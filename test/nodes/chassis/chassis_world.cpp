@@ -11,6 +11,7 @@
 
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/messages/transforms.h"
+#include "nodes/inbox.h"
 
 namespace arfm_vo {
 
@@ -31,7 +32,7 @@ World::World(const std::string& name_space, const std::string& can)
 
 std_srvs::Trigger::Response World::Call(const std::string& service) {
   std_srvs::Trigger trigger;
-  EXPECT_TRUE(ros::service::call(node_.resolveName("chassis_node/" + service), trigger)) << service;
+  EXPECT_TRUE(CallService(node_.resolveName("chassis_node/" + service), trigger)) << service;
   return trigger.response;
 }
 

@@ -39,7 +39,7 @@ class SensesOfTheGraph : public testing::Test {
     for (time_s_ = -1; time_s_ < 0; time_s_ += 0.01) SendReadings();
     time_s_ = 0;
     std_srvs::Trigger save;  // answered after what was sent before
-    EXPECT_TRUE(ros::service::call("/pose_node/save_trajectory", save));
+    EXPECT_TRUE(CallService("/pose_node/save_trajectory", save));
     const auto is_answered = [&] {
       return status_.size() > 0 && status_.last().header.stamp.toSec() >= stamp_s &&
              status_.last().header.stamp.toSec() < stamp_s + 1;
@@ -97,7 +97,7 @@ class SensesOfTheGraph : public testing::Test {
     // On a busy machine a dark pair, which is soon worked on, overtakes readings: this is answered
     // after what pose_node was sent before.
     std_srvs::Trigger save;
-    EXPECT_TRUE(ros::service::call("/pose_node/save_trajectory", save));
+    EXPECT_TRUE(CallService("/pose_node/save_trajectory", save));
     SendPair(is_dark);
     const auto is_of_now = [&](const std_msgs::Header& header) {
       return std::abs((header.stamp - Stamp()).toSec()) < 1e-4;

@@ -24,7 +24,7 @@ struct DrivePanelOptions {
 std::string Describe(const DriveStatus& status);
 
 /// A panel above the rover in rviz (display InteractiveMarkers, tool Interact): what the rover does
-/// in words, and a button each to start and to stop it.
+/// in words, and a button each to start it, to stop it and to drive it home.
 class DrivePanel {
  public:
   /// Throws std::invalid_argument naming a wrong parameter.
@@ -39,7 +39,7 @@ class DrivePanel {
   const DrivePanelOptions options_;
   std::string state_ = "no drive_status", answer_;
   ros::WallTime heard_;  // the last drive_status
-  ros::ServiceClient start_, stop_, home_;
+  ros::NodeHandle node_;
   interactive_markers::InteractiveMarkerServer server_;
   ros::Subscriber status_;
   ros::WallTimer timer_;
