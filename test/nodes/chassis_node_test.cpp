@@ -184,7 +184,7 @@ TEST_F(ChassisNodeTest, ErrorsAreClearedAtRestOnly) {
   EXPECT_EQ(world_->Call("clear_errors").message, "not sent: the rover moves");
   EXPECT_FALSE(world_->Call("set_datum").success);
   world_->Call("stop");
-  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("clear_errors").success; }));
+  EXPECT_TRUE(world_->RunUntil([] { return world_->Call("clear_errors").success; }, 5));
   EXPECT_TRUE(world_->Call("set_datum").success);
 }
 
