@@ -131,6 +131,10 @@ void Pilot::ObserveEpoch(uint32_t epoch, double taken_s) {
   predicted_.reset();
 }
 
+bool Pilot::ObserveUncertainty(double now_s, const PoseUncertainty& uncertainty) {
+  return pose_.Observe(now_s, uncertainty);
+}
+
 void Pilot::ObserveTracks(double now_s, int left_mm, int right_mm) {
   tracks_.Add(now_s, left_mm, right_mm);
   motion_watch_.ObserveWays(*tracks_.At(now_s));

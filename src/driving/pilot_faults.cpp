@@ -27,6 +27,10 @@ void Pilot::ObserveClockSet(double now_s, double step_s) {
   Distrust({StopReason::kClockSet, Format("by %+.2f s", step_s)});
 }
 
+void Pilot::ObserveHalt(double now_s) {
+  if (state_ == DriveState::kDriving) Pause(now_s, StopReason::kHeldUp);
+}
+
 std::vector<CheckLine> Pilot::Check(double now_s, const std::string& released) const {
   const auto chassis = chassis_.FindFault(now_s);
   const bool is_free = emergency_sources_.size() == emergency_sources_.count(released);

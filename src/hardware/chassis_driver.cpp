@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arfm_vo/base/format.h"
+#include "arfm_vo/hardware/guard/guard_message.h"
 
 namespace arfm_vo {
 namespace {
@@ -96,6 +97,15 @@ void ChassisDriver::Take(double now_s, const ChassisFeedback& feedback) {
   }
 }
 
+void ChassisDriver::ObserveGuard(double now_s) {
+  const auto stop = link_.StandingStop();
+  const bool is_halt = stop == GuardStop::kSilence;
+  if (stop) pilot_.SetEmergencyStop(kGuard, !is_halt && *stop != GuardStop::kNone);
+  if (!is_halt) return;
+  pilot_.ObserveHalt(now_s);
+  link_.ReleaseGuard();
+}
+
 void ChassisDriver::Tick(double now_s) {
   for (const ChassisFeedback& feedback : link_.Receive()) Take(now_s, feedback);
   const ChassisTraffic& traffic = link_.Traffic();
@@ -106,7 +116,7 @@ void ChassisDriver::Tick(double now_s) {
   const CanBusState bus = link_.BusState();
   pilot_.chassis_watch().ObserveBus(link_.IsBusUp(),
                                     bus == CanBusState::kUp ? "" : Format("(%s)", ToString(bus)));
-  ObserveGuard();
+  ObserveGuard(now_s);
   link_.Send(now_s, pilot_.Tick(now_s));
 }
 

@@ -98,6 +98,20 @@ TEST_F(PilotTest, APilotThatWasHeldUpNeedsAStart) {
   EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
 }
 
+TEST_F(PilotTest, AHaltByTheGuardIsAPause) {
+  StartDriving();
+  pilot_.ObserveHalt(now_s_);
+  EXPECT_TRUE(Run(0.9).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kPaused);
+  EXPECT_EQ(Reason(), StopReason::kHeldUp);
+  EXPECT_TRUE(Run(1.9).chassis_motion.IsZero());
+  EXPECT_EQ(State(), DriveState::kWarning);
+  EXPECT_GT(Run(2).chassis_motion.forward_mps, 0.09);
+  pilot_.Stop();
+  pilot_.ObserveHalt(now_s_);
+  EXPECT_EQ(State(), DriveState::kStandby) << "nothing has moved";
+}
+
 TEST_F(PilotTest, CommandsOfAnotherDriverBlock) {
   StartDriving();
   pilot_.chassis_watch().ObserveForeignCommand(now_s_);

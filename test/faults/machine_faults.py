@@ -70,7 +70,7 @@ def machine_faults():
                   promise="drives on or chassis_node was held up or clock was set or odometry has started anew or pose is stale or no pose or " + UNCERTAIN)
             for seconds in (1, -1, 3600, -3600)]
     return rows + [
-        *(Fault(name, inject, "drives on or pose is stale", unburden, 3, is_load=True, may_go_on=True) for name, inject in (
+        *(Fault(name, inject, "drives on or pose is stale or chassis_node was held up", unburden, 3, is_load=True, may_go_on=True) for name, inject in (
             ("8 busy loops", lambda c: spawn(c, "while True: pass", 8)), ("memory is short", press_memory))),
         Fault("disk of the black box is full", fill_disk, "drives on", free_disk),
         Fault("terminal is frozen", freeze_terminal, "- or drives on",

@@ -90,6 +90,22 @@ TEST_F(GuardedNodeTest, ANodeThatIsKilledOrHangsIsStoppedByTheGuard) {
   Drive();
 }
 
+TEST_F(GuardedNodeTest, ANodeThatIsHeldUpForAMomentGoesOnWithAWarning) {
+  Drive();
+  node_->Signal(SIGSTOP);
+  EXPECT_TRUE(RunUntil([this] { return world_.log_.last.IsZero(); }));
+  node_->Signal(SIGCONT);
+  EXPECT_TRUE(RunUntil([this] { return world_.status_.state != DriveStatus::DRIVING; }));
+  EXPECT_EQ(world_.status_.reason, "chassis_node was held up");
+  world_.log_.fastest_mps = 0;
+  const bool is_going_on =
+      RunUntil([this] { return world_.status_.state == DriveStatus::WARNING; });
+  // After more than 0.5 s on a busy machine it needs a start.
+  EXPECT_TRUE(is_going_on || world_.status_.state == DriveStatus::BLOCKED);
+  EXPECT_EQ(world_.log_.fastest_mps, 0) << "before the warning";
+  if (is_going_on) EXPECT_TRUE(RunUntil([this] { return Speed() > 0.09; }));
+}
+
 TEST_F(GuardedNodeTest, AGuardThatIsKilledOrHangsIsABusThatIsDownAndTheNodeSendsZero) {
   Drive();
   guard_->Signal(SIGKILL);

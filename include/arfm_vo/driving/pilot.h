@@ -48,12 +48,12 @@ class Pilot {
   void ObservePose(double now_s, const PoseObservation& pose) { pose_.Observe(now_s, pose); }
   void ObserveNoPose(StopReason reason = StopReason::kPoseMissing) { pose_.ObserveNone(reason); }
   /// Says whether it was taken: one from the future is not.
-  bool ObserveUncertainty(double now_s, const PoseUncertainty& uncertainty) {
-    return pose_.Observe(now_s, uncertainty);
-  }
+  bool ObserveUncertainty(double now_s, const PoseUncertainty& uncertainty);
   /// Of the odometry, with a pair of `taken_s`. Another than before drops the goal and blocks.
   void ObserveEpoch(uint32_t epoch, double taken_s);
   void ObserveTracks(double now_s, int left_mm, int right_mm);
+  /// Commands came late and chassis_guard has halted the rover: a drive pauses.
+  void ObserveHalt(double now_s);
   /// The computer's clock was set by `step_s`: drops the goal and blocks.
   void ObserveClockSet(double now_s, double step_s);
   PictureWatch& picture_watch() { return pictures_; }

@@ -26,6 +26,8 @@ enum class CanSendStatus {
   kDown,  ///< the bus is not up: dropped
 };
 
+enum class GuardStop : uint32_t;  // guard/guard_message.h
+
 /// One end of a CAN bus. Neither call blocks, and none throws for what the bus does: a bus that
 /// goes away is a state, and the same object works again when it is back.
 class CanBus {
@@ -40,9 +42,9 @@ class CanBus {
 
   virtual CanBusState State() const = 0;
 
-  /// Nothing where no chassis_guard stands between; else why it lets nothing move, empty where it
-  /// does not stop the rover. A stop stands until ReleaseGuard(), which releases those told so far.
-  virtual std::optional<std::string> GuardStop() const { return std::nullopt; }
+  /// Nothing where no chassis_guard stands between; else the stop of its that stands, until
+  /// ReleaseGuard(), which releases those told so far.
+  virtual std::optional<GuardStop> StandingStop() const { return std::nullopt; }
   virtual void ReleaseGuard() {}
 };
 

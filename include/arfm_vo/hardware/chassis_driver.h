@@ -25,7 +25,7 @@ class ChassisDriver {
   /// The operator starts the rover anew: what chassis_guard has stopped may move again.
   void ReleaseGuard() {
     link_.ReleaseGuard();
-    ObserveGuard();
+    pilot_.SetEmergencyStop(kGuard, false);
   }
 
   Pilot& pilot() { return pilot_; }
@@ -35,9 +35,7 @@ class ChassisDriver {
 
  private:
   void Take(double now_s, const ChassisFeedback& feedback);
-  void ObserveGuard() {
-    if (const auto stop = link_.GuardStop()) pilot_.SetEmergencyStop(kGuard, !stop->empty());
-  }
+  void ObserveGuard(double now_s);
 
   Pilot pilot_;
   ChassisLink link_;

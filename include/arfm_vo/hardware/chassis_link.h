@@ -70,7 +70,7 @@ class ChassisLink {
   /// Whether commands get through: the bus is up, takes frames, and its queue is not stuck.
   bool IsBusUp() const;
   CanBusState BusState() const { return bus_->State(); }
-  std::optional<std::string> GuardStop() const { return bus_->GuardStop(); }
+  std::optional<GuardStop> StandingStop() const { return bus_->StandingStop(); }
   void ReleaseGuard() { bus_->ReleaseGuard(); }
   const ChassisReadings& Readings() const { return readings_; }
   const ChassisTraffic& Traffic() const { return traffic_; }

@@ -50,7 +50,9 @@ void ChassisGuard::Take(double now_s, const GuardMessage& message) {
   } else if (command.index() != 0) {
     Send(message.frame);
     const auto* mode = std::get_if<ControlModeCommand>(&command);
-    if (mode && mode->mode == ControlMode::kStandby) has_spoken_ = false;
+    if (!mode || mode->mode != ControlMode::kStandby) return;
+    has_spoken_ = false;
+    if (stop_ == GuardStop::kSilence) stop_ = GuardStop::kNone;
   }
 }
 
@@ -62,8 +64,7 @@ void ChassisGuard::Stop(GuardStop reason) {
 
 GuardStop ChassisGuard::FindStop(double now_s) const {
   if (stop_ != GuardStop::kNone || !has_spoken_) return stop_;
-  if (now_s - foreign_s_ <= kForeign_s) return GuardStop::kForeign;
-  return now_s - commanded_s_ > kMaxCommandAge_s ? GuardStop::kSilence : GuardStop::kNone;
+  return now_s - foreign_s_ <= kForeign_s ? GuardStop::kForeign : GuardStop::kNone;
 }
 
 void ChassisGuard::SendMotion(double now_s) {
@@ -106,6 +107,8 @@ std::vector<GuardMessage> ChassisGuard::Tick(double now_s) {
     told.push_back(message);
   }
   Watch(now_s);
+  const bool is_silent = has_spoken_ && now_s - commanded_s_ > kMaxCommandAge_s;
+  if (is_silent && stop_ == GuardStop::kNone) Stop(GuardStop::kSilence);
   const GuardStop stop = FindStop(now_s);
   if (stop != GuardStop::kNone && now_s - sent_s_ >= kPeriod_s) SendMotion(now_s);
   const bool brakes = stop_ == GuardStop::kMotion;
@@ -118,7 +121,7 @@ std::vector<GuardMessage> ChassisGuard::Tick(double now_s) {
   said_ = stop;
   if (now_s - told_s_ < kPeriod_s) return told;
   told_s_ = now_s;
-  told.push_back({1, 0, now_s, num_stops_, 0, {}, bus_->State(), last_send_, stop_});
+  told.push_back({message.version, 0, now_s, num_stops_, 0, {}, bus_->State(), last_send_, stop_});
   return told;
 }
 

@@ -9,8 +9,8 @@ namespace arfm_vo {
 
 const char* ToString(GuardStop stop) {
   constexpr const char* kTexts[] = {"chassis_node commands", "a UDP packet",
-                                    "motion without a command: brake", "another driver's command",
-                                    "chassis_node is silent"};
+                                    "motion without a command: brake", "chassis_node is silent",
+                                    "another driver's command"};
   return kTexts[static_cast<size_t>(stop)];
 }
 
@@ -19,7 +19,7 @@ std::optional<GuardMessage> ReadGuardMessage(const void* bytes, size_t size) {
   if (size != sizeof(message)) return std::nullopt;
   std::memcpy(&message, bytes, sizeof(message));
   const bool is_known = message.version == GuardMessage().version && message.frame.dlc <= 8 &&
-                        message.bus <= CanBusState::kNoGuard && message.stop <= GuardStop::kMotion;
+                        message.bus <= CanBusState::kNoGuard && message.stop <= GuardStop::kSilence;
   return is_known ? std::optional(message) : std::nullopt;
 }
 

@@ -32,9 +32,8 @@ std::optional<CanFrame> GuardedBus::Receive() {
   return std::nullopt;
 }
 
-std::optional<std::string> GuardedBus::GuardStop() const {
-  const bool stands = status_.stop != GuardStop::kNone && status_.num_stops != num_released_;
-  return stands ? ToString(status_.stop) : "";
+std::optional<GuardStop> GuardedBus::StandingStop() const {
+  return status_.num_stops != num_released_ ? status_.stop : GuardStop::kNone;
 }
 
 CanSendStatus GuardedBus::Send(const CanFrame& frame) {
@@ -48,7 +47,11 @@ CanSendStatus GuardedBus::Send(const CanFrame& frame) {
     return CanSendStatus::kDown;
   }
   has_moved_ |= std::holds_alternative<MotionCommand>(DecodeCommand(frame));
-  const GuardMessage message{1, ++number_, MonotonicNow(), num_released_, 1, frame, {}, {}, {}};
+  GuardMessage message;
+  message.number = ++number_;
+  message.sent_s = MonotonicNow();
+  message.num_stops = num_released_;
+  message.frame = frame;
   return SendMessage(socket_, message) ? status_.last_send : CanSendStatus::kBusy;
 }
 

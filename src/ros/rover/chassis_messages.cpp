@@ -1,6 +1,7 @@
 #include <iterator>
 #include <limits>
 
+#include "arfm_vo/hardware/guard/guard_message.h"
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/messages/copy_fields.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
@@ -148,8 +149,11 @@ void FillDiagnostics(const PilotStatus& status, const ChassisLink& link, Diagnos
   diagnostics.summary(LevelOf(status), summary);
   if (status.is_tilt_near_limit) diagnostics.mergeSummary(Diagnostics::WARN, "rover is tilted");
   diagnostics.add("bus", ToString(link.BusState()));
-  const auto stop = link.GuardStop();
-  diagnostics.add("chassis_guard", !stop ? "none" : stop->empty() ? "watches" : "stops: " + *stop);
+  const auto stop = link.StandingStop();
+  const bool stands = stop.value_or(GuardStop::kNone) != GuardStop::kNone;
+  diagnostics.add("chassis_guard", stands ? std::string("stops: ") + ToString(*stop)
+                                   : stop ? "watches"
+                                          : "none");
   if (link.BusState() != CanBusState::kUp)
     diagnostics.mergeSummaryf(Diagnostics::ERROR, "CAN bus is %s", ToString(link.BusState()));
   if (const auto& system = link.Readings().system) {

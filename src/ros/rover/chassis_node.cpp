@@ -44,7 +44,7 @@ ChassisNode::ChassisNode(ros::NodeHandle node, ros::NodeHandle private_node)
       updater_(node, private_node) {
   updater_.setHardwareID("chassis on " + options_.can);
   updater_.add("driving", [this](auto& diagnostics) { Report(diagnostics); });
-  if (!driver_.link().GuardStop())
+  if (!driver_.link().StandingStop())
     ROS_WARN(
         "no chassis_guard: where this process is killed or hangs, the last command stands "
         "until the chassis' own time-out");

@@ -97,6 +97,7 @@ TEST_F(ChassisGuardTest, IsSilentBeforeTheFirstMotionAndAfterAFarewell) {
   EXPECT_EQ(Sent(), std::vector<std::string>{kZeroText}) << "a stop always speaks";
   num_released_ = 1;
   Command(kZero);
+  Run(0.2, std::nullopt);  // a farewell ends a silence too
   Command(EncodeFrame(ControlModeCommand{}));
   Sent();
   guard_->Disconnect();
@@ -104,7 +105,7 @@ TEST_F(ChassisGuardTest, IsSilentBeforeTheFirstMotionAndAfterAFarewell) {
   EXPECT_TRUE(Sent().empty());
 }
 
-TEST_F(ChassisGuardTest, SendsZeroWhereTheNodeIsSilentFor100MsUntilItSpeaksAgain) {
+TEST_F(ChassisGuardTest, SendsZeroWhereTheNodeIsSilentFor100MsUntilItHasTakenNotice) {
   Run(1, kAhead, 0.1);
   Sent();
   for (int i = 0; i < 4; ++i, now_s_ += 0.02) Tick();  // the last command is 80 ms old then
@@ -115,24 +116,23 @@ TEST_F(ChassisGuardTest, SendsZeroWhereTheNodeIsSilentFor100MsUntilItSpeaksAgain
   now_s_ += 0.02;
   Run(0.2, std::nullopt, 0);
   EXPECT_EQ(Sent().size(), 11) << "every 20 ms";
+  EXPECT_EQ(status_.stop, GuardStop::kSilence);
+  Command(kAhead);
+  EXPECT_EQ(Sent(), std::vector<std::string>{kZeroText});
+  num_released_ = status_.num_stops;
   Command(kAhead);
   EXPECT_EQ(Sent(), std::vector<std::string>{kAheadText});
   EXPECT_EQ(said_, GuardStop::kNone);
 }
 
-TEST_F(ChassisGuardTest, SendsZeroAtOnceWhereTheConnectionEnds) {
+TEST_F(ChassisGuardTest, SendsZeroAtOnceWhereTheConnectionEndsAndCountsTheNextOneAnew) {
   Run(1, kAhead, 0.1);
   Sent();
   now_s_ += 0.02;
   guard_->Disconnect();
   EXPECT_EQ(Sent(), std::vector<std::string>{kZeroText});
-}
-
-TEST_F(ChassisGuardTest, ANewNodeCountsFromOne) {
-  Run(1, kAhead, 0.1);
-  guard_->Disconnect();
   number_ = 0;
-  Sent();
+  num_released_ = status_.num_stops;
   Command(kAhead);
   EXPECT_EQ(Sent(), std::vector<std::string>{kAheadText});
 }

@@ -23,13 +23,13 @@ TEST(GuardMessage, WhatIsNoneIsRefused) {
   };
   EXPECT_TRUE(reads());
   EXPECT_FALSE(reads(sizeof(message) - 1));
-  message.version = 2;
-  EXPECT_FALSE(reads());
   message.version = 1;
+  EXPECT_FALSE(reads());
+  message.version = 2;
   message.frame.dlc = 9;
   EXPECT_FALSE(reads());
   message.frame.dlc = 8;
-  message.stop = GuardStop::kSilence;
+  message.stop = GuardStop::kForeign;
   EXPECT_FALSE(reads());
 }
 
@@ -86,7 +86,7 @@ TEST_P(GuardedBusTest, CarriesFramesBothWaysOnceTheGuardIsThere) {
   const CanFrame state = EncodeFrame(MotionState{{0.1, 0}});
   chassis_->Send(state);
   EXPECT_TRUE(RunUntil([&] { return told_ == state; }));
-  EXPECT_EQ(bus_->GuardStop(), "");
+  EXPECT_EQ(bus_->StandingStop(), GuardStop::kNone);
 }
 
 TEST_P(GuardedBusTest, AGuardThatEndsOrHangsIsABusThatIsDownAndOnlyZeroGoesOut) {
@@ -115,6 +115,17 @@ TEST_P(GuardedBusTest, WhatAGuardFindsOldWhenItWakesIsNotSent) {
   guard_->Signal(SIGCONT);
   RunUntil([&] { return sent_.size() >= 5; });
   for (const std::string& frame : sent_) EXPECT_EQ(frame, "111#0000000000000000");
+}
+
+TEST_P(GuardedBusTest, AHaltIsToldAndStandsUntilItIsReleased) {
+  StartGuard();
+  ASSERT_TRUE(IsUp());
+  ASSERT_TRUE(Sends(kCommand, "111#0064000000000000"));
+  ASSERT_TRUE(RunUntil([this] { return bus_->StandingStop() == GuardStop::kSilence; }));
+  EXPECT_TRUE(Sends(kCommand, "111#0000000000000000"));
+  bus_->ReleaseGuard();
+  EXPECT_EQ(bus_->StandingStop(), GuardStop::kNone);
+  EXPECT_TRUE(Sends(kCommand, "111#0064000000000000"));
 }
 
 TEST_P(GuardedBusTest, ASecondNodeWaitsUntilTheFirstIsGone) {

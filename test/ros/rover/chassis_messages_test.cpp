@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "arfm_vo/hardware/guard/guard_message.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 #include "simulation/can_memory_bus.h"
 
@@ -88,17 +89,19 @@ TEST_F(ChassisMessagesTest, ABusThatIsOffIsAnErrorWhateverThePilotDoes) {
 
 /// As chassis_guard passes it on.
 struct GuardedEnd : CanBus {
-  explicit GuardedEnd(std::optional<std::string> stop) : stop_(std::move(stop)) {}
+  explicit GuardedEnd(std::optional<GuardStop> stop) : stop_(stop) {}
   CanSendStatus Send(const CanFrame&) override { return CanSendStatus::kSent; }
   std::optional<CanFrame> Receive() override { return std::nullopt; }
   CanBusState State() const override { return CanBusState::kUp; }
-  std::optional<std::string> GuardStop() const override { return stop_; }
-  std::optional<std::string> stop_;
+  std::optional<GuardStop> StandingStop() const override { return stop_; }
+  std::optional<GuardStop> stop_;
 };
 
 TEST(ChassisDiagnosis, SaysWhetherThereIsAGuardAndWhyItStops) {
-  const std::pair<std::optional<std::string>, std::string> rows[] = {
-      {std::nullopt, "none"}, {"", "watches"}, {"a UDP packet", "stops: a UDP packet"}};
+  const std::pair<std::optional<GuardStop>, std::string> rows[] = {
+      {std::nullopt, "none"},
+      {GuardStop::kNone, "watches"},
+      {GuardStop::kPacket, "stops: a UDP packet"}};
   for (const auto& [stop, text] : rows) {
     const ChassisLink link(std::make_unique<GuardedEnd>(stop));
     diagnostic_updater::DiagnosticStatusWrapper diagnostics;

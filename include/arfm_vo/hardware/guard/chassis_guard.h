@@ -12,8 +12,8 @@ namespace arfm_vo {
 
 /// Stands between chassis_node and the bus, and is the only one to write to it. Passes on commands
 /// of the protocol that are fresh and numbered rightly, with no speed above the limits. Sends zero,
-/// every 20 ms, where the last motion command is older than 100 ms, where another driver has
-/// commanded the chassis within 1 s, and from a stop until it is released; brakes (0x131) where the
+/// every 20 ms, where another driver has commanded the chassis within 1 s, and from a stop until it
+/// is released; a last motion command older than 100 ms is one; brakes (0x131) where the
 /// rover moves otherwise than commanded. Sends nothing before the first motion command or stop, and
 /// nothing after chassis_node's farewell (standby). `now_s` is CLOCK_MONOTONIC; has no clock of its
 /// own.

@@ -9,15 +9,15 @@
 namespace arfm_vo {
 
 /// Why chassis_guard lets nothing move. The first two stand until the operator starts the rover
-/// anew.
-enum class GuardStop : uint32_t { kNone, kPacket, kMotion, kForeign, kSilence };
+/// anew, a silence until chassis_node has taken notice, and another driver's command for 1 s.
+enum class GuardStop : uint32_t { kNone, kPacket, kMotion, kSilence, kForeign };
 
 /// In words, such as "a UDP packet".
 const char* ToString(GuardStop stop);
 
 /// One message between chassis_node and chassis_guard, on one machine: its bytes are what is sent.
 struct GuardMessage {
-  uint32_t version = 1;
+  uint32_t version = 2;
   uint32_t number = 0;     ///< of chassis_node's messages on this connection, counts from 1
   double sent_s = 0;       ///< CLOCK_MONOTONIC, which both share
   uint32_t num_stops = 0;  ///< of the guard: so far; of chassis_node: those that were released

@@ -20,7 +20,7 @@ class GuardedBus : public CanBus {
   CanSendStatus Send(const CanFrame& frame) override;
   std::optional<CanFrame> Receive() override;
   CanBusState State() const override;
-  std::optional<std::string> GuardStop() const override;
+  std::optional<GuardStop> StandingStop() const override;
   void ReleaseGuard() override { num_released_ = status_.num_stops; }
 
  private:
