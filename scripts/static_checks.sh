@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Reads the sources without running them: shellcheck and pyflakes over the scripts, what a layer may use, the sizes of files
-# and folders (test/static_checks/sizes_test.py), cppcheck over src and nodes, and with
-# --tidy clang-tidy's checks of .clang-tidy over FOLDER ... (default: src and nodes; five seconds of CPU a source). Fails
-# with the first finding. Needs: apt-get install shellcheck pyflakes3 cppcheck [clang-tidy]
+# Reads the sources without running them: shellcheck, pyflakes, what a layer may use, the sizes of files and folders
+# (test/static_checks/sizes_test.py), cppcheck, and with --tidy clang-tidy over FOLDER ... (default: src and nodes). Fails with
+# the first finding. Needs: apt-get install shellcheck pyflakes3 cppcheck [clang-tidy]
 # Usage: scripts/static_checks.sh [--tidy [FOLDER ...]]
 set -euo pipefail
 [[ ${1-} != @(-h|--help) ]] || { sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"; exit; }
@@ -28,14 +27,16 @@ cppcheck -q -j"$(nproc)" --std=c++17 --language=c++ --enable=warning,performance
   '-DPLUGINLIB_EXPORT_CLASS(a,b)=' '-DBOOST_PP_SEQ_FOR_EACH(a,b,c)=' '-Dtimercmp(a,b,compare)=((a)->tv_sec compare (b)->tv_sec)' src nodes
 echo "cppcheck: src and nodes, no finding"
 
-[[ ${1-} == --tidy ]] || exit 0
-shift
+[[ ${1-} == --tidy ]] && shift || exit 0
 folders=("$@")
 [ $# -gt 0 ] || folders=(src nodes)
-build=${BUILD_DIR:-_b_tidy}  # apart: clang does not read gcc's precompiled headers
+# Apart, as clang does not read gcc's precompiled headers; sources in groups, as headers take most of the time.
+build=${BUILD_DIR:-_b_tidy}
 [ -f "$build/compile_commands.json" ] || cmake -S . -B "$build" -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DARFM_VO_UNITY=OFF > /dev/null
+  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 > /dev/null
 ninja -C "$build" arfm_vo_generate_messages_cpp > /dev/null
-mapfile -t sources < <(find "${folders[@]}" -name '*.cpp' | sort)
-printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2> /dev/null
-echo "clang-tidy: ${#sources[@]} sources, no finding"
+inside="$PWD/($(IFS='|'; echo "${folders[*]}"))/"
+sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/compile_commands.json" | sort -u |
+  while read -r group; do if (echo "$group"; cat "$group") | grep -qE "^(#include \")?$inside"; then echo "$group"; fi; done |
+  xargs -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2> /dev/null
+echo "clang-tidy: ${folders[*]}: no finding"
