@@ -35,6 +35,12 @@ constexpr double kSameProbability = 0.95;
 /// so much of it the correction is learnt anew from all keyframes.
 constexpr double kTellingTurn_rad = 0.5;
 
+/// The tangential distortion that calibrations leave has no one size: a prior that is contradicted
+/// gives way as Student's t of so many degrees of freedom would (Lange, Little, Taylor, Robust
+/// statistical modeling using the t distribution, JASA 1989).
+constexpr double kTangentialFreedom = 2;
+
+constexpr int kTangential = StereoCorrection::kNumField + LensBasis::kNumRadial;
 constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
 
 /// Of a vector of three with this covariance; 1 in the mean.
@@ -69,6 +75,12 @@ void CalibrationState::AddTurn(double turn_rad) {
 std::optional<CorrectionBelief> CalibrationState::Prior() const {
   if (!is_open_) return std::nullopt;
   CorrectionBelief prior = prior_;
+  constexpr int kNum = LensBasis::kNumTangential;
+  auto variances = prior.covariance.diagonal().segment<kNum>(kTangential);
+  const auto off = (learnt_.mean.coefficients_px - prior.mean.coefficients_px).eval();
+  const double squares =
+      (off.segment<kNum>(kTangential).array().square() / variances.array()).sum();
+  variances *= std::max(1.0, (kTangentialFreedom + squares) / (kTangentialFreedom + kNum));
   prior.covariance.row(kFocalLength) *= std::sqrt(kScatter / scatter_of_windows_.value());
   prior.covariance.col(kFocalLength) *= std::sqrt(kScatter / scatter_of_windows_.value());
   return prior;
@@ -107,9 +119,8 @@ void CalibrationState::Tell() {
 }
 
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
-  const bool is_first_found = !is_open_ || is_found_;
   const bool is_news = num_keyframes > num_learnt_ && num_keyframes >= first_telling_ + kWindow;
-  if (!may_learn_ || !is_first_found || !is_news) return std::nullopt;
+  if (!may_learn_ || !is_news) return std::nullopt;
   return OpenToATurn();
 }
 
@@ -120,7 +131,7 @@ void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
   learnt_.mean.coefficients_px += by_turn_ * turn.turn_rad;
   turn_covariance_ += turn.covariance;
   first_telling_ = keyframe;
-  is_open_ = false;
+  is_open_ &= !is_found_;
   Tell();
   prior_ = OpenToATurn();
   prior_.covariance += correction_.covariance;
@@ -179,8 +190,8 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
     found_.reset();
     turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();
     first_telling_ = num_keyframes - kWindow;
-    is_open_ = false;
-  } else {
+    is_open_ &= !is_found_;
+  } else if (is_found_) {
     TakeScatter(newest);
   }
   const Eigen::Matrix3d gain = turn_covariance_ * (turn_covariance_ + noise).inverse();

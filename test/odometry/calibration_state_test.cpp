@@ -7,6 +7,7 @@
 namespace arfm_vo {
 namespace {
 
+constexpr int kTangential = StereoCorrection::kNumField + LensBasis::kNumRadial;
 constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
 const StereoCamera kCamera{700, 700, 320, 240, 0.3, 640, 480};
 const CorrectionBelief kCalibration = CorrectionBelief::OfCalibration(kCamera);
@@ -38,7 +39,7 @@ CalibrationState Known() {
 TEST(CalibrationState, IsFoundOnceAndThenLeft) {
   CalibrationState state(kCamera, true, kCalibration);
   EXPECT_TRUE(state.Prior());
-  EXPECT_FALSE(state.WindowPrior(6)) << "there is nothing to compare with";
+  EXPECT_FALSE(state.WindowPrior(3)) << "too few keyframes";
   EXPECT_TRUE(state.Learn(Found(Yaw(0.2), 0.2), 4));
   EXPECT_TRUE(state.Prior()) << "0.2 px are not known well";
   EXPECT_TRUE(state.Learn(Found(Yaw(0.3), 0.01), 6));
@@ -46,6 +47,34 @@ TEST(CalibrationState, IsFoundOnceAndThenLeft) {
   EXPECT_EQ(state.correction().mean.coefficients_px, Yaw(0.3));
   EXPECT_FALSE(state.WindowPrior(6)) << "no news";
   EXPECT_TRUE(state.WindowPrior(7));
+}
+
+TEST(CalibrationState, AnEarlyKnockIsFollowedAndWhatIsNotKnownYetStaysOpen) {
+  CalibrationState by_window(kCamera, true, kCalibration);
+  by_window.Learn(Found(Yaw(0), 0.2), 4);
+  ASSERT_TRUE(by_window.WindowPrior(5));
+  by_window.Follow(Window(3, 5), 5);
+  EXPECT_TRUE(by_window.IsTurning());
+  CalibrationState by_pair(kCamera, true, kCalibration);
+  by_pair.Learn(Found(Yaw(0), 0.2), 4);
+  by_pair.Turn({{0, 3e-3, 0}, 1e-8 * Eigen::Matrix3d::Identity()}, 5);
+  for (const CalibrationState* state : {&by_window, &by_pair}) {
+    ASSERT_TRUE(state->Prior());
+    EXPECT_NEAR(state->Prior()->mean.coefficients_px[0], Yaw(3)[0], 0.2 * Yaw(3)[0]);
+  }
+}
+
+TEST(CalibrationState, ThePriorOfTheTangentialDistortionGivesWayWhereItIsContradicted) {
+  const auto variance = [](double found_px) {
+    CalibrationState state(kCamera, true, kCalibration);
+    StereoCorrection::Coefficients px = Yaw(0);
+    px[kTangential] = found_px;
+    state.Learn(Found(px, 0.2), 4);
+    return state.Prior()->covariance(kTangential, kTangential);
+  };
+  const double calibrated = kCalibration.covariance(kTangential, kTangential);
+  EXPECT_EQ(variance(std::sqrt(calibrated)), calibrated);
+  EXPECT_NEAR(variance(4 * std::sqrt(calibrated)), (2 + 16) / 4. * calibrated, 1e-9);
 }
 
 TEST(CalibrationState, ATurnThatAPairHasToldEndsWhatEarlierKeyframesTell) {

@@ -34,7 +34,8 @@ struct ImageBasis {
 /// corners along the radius for each px of its coefficient: by r^3 (k1), by r^5 - r^3 (k2, mostly;
 /// zero there), by r, which is another focal length, and tangentially (p1, p2).
 struct LensBasis {
-  static constexpr int kNumTerms = 5, kNumRadial = 3;
+  static constexpr int kNumRadial = 3, kNumTangential = 2;
+  static constexpr int kNumTerms = kNumRadial + kNumTangential;
   static constexpr int kFocalLength = 2;  ///< the term by r
   using Values = Eigen::Matrix<double, 2, kNumTerms>;
   using Coefficients = Eigen::Matrix<double, kNumTerms, 1>;
