@@ -117,7 +117,7 @@ class CeresBundle {
 
   void AddPrior() {
     if (selection_.correction_directions.cols() == 0) {
-      ceres_problem_.AddParameterBlock(correction_.data(), kMaxCoefficients);
+      ceres_problem_.AddParameterBlock(correction_.data(), StereoCorrection::kSize);
       ceres_problem_.SetParameterBlockConstant(correction_.data());
       return;
     }

@@ -11,7 +11,7 @@ namespace arfm_vo::ceres_terms {
 
 // A pose is a parameter block of six numbers: the step of BoxPlus from where the adjustment starts,
 // so that it needs no manifold.
-constexpr int kPoseSize = 6, kMaxCoefficients = StereoCorrection::kSize;
+constexpr int kPoseSize = 6;
 using Coefficients = StereoCorrection::Coefficients;
 using PoseStep = Eigen::Matrix<double, kPoseSize, 1>;
 template <int N, int M>
@@ -32,7 +32,7 @@ inline Eigen::Matrix<double, 6, 6> Further(const double* step) {
 
 /// ReprojectionTerm; without a right pixel its last two rows are zero. Parameters: pose, point,
 /// correction.
-class ReprojectionCost : public ceres::SizedCostFunction<4, kPoseSize, 3, kMaxCoefficients> {
+class ReprojectionCost : public ceres::SizedCostFunction<4, kPoseSize, 3, StereoCorrection::kSize> {
  public:
   ReprojectionCost(const StereoCamera& camera, const BundleObservation& observation,
                    const Rigid3& start)
@@ -53,7 +53,7 @@ class ReprojectionCost : public ceres::SizedCostFunction<4, kPoseSize, 3, kMaxCo
     if (jacobians[1] != nullptr)
       Eigen::Map<RowMajor<4, 3>>(jacobians[1] + 0) = term.ByPoint(rotation);
     if (jacobians[2] != nullptr)
-      Eigen::Map<RowMajor<4, kMaxCoefficients>>(jacobians[2] + 0) = term.ByCorrection();
+      Eigen::Map<RowMajor<4, StereoCorrection::kSize>>(jacobians[2] + 0) = term.ByCorrection();
     return true;
   }
 

@@ -11,7 +11,7 @@
 namespace arfm_vo {
 namespace {
 
-constexpr double kProbability = 0.99;  ///< that a place agrees with a statement that is right
+constexpr double kStatedProbability = 0.99;  ///< that a place agrees with a statement that is right
 
 }  // namespace
 
@@ -117,7 +117,8 @@ bool Localiser::Contradicts(const Rigid3& map_from_odom) const {
   const Eigen::Vector3d moved = found.translation - stated_->map_from_base.translation;
   const double turned = LogSO3(found.rotation * stated_->map_from_base.rotation.conjugate()).z();
   const Eigen::Vector3d error(moved.x(), moved.y(), turned);
-  return error.dot(stated_->covariance.ldlt().solve(error)) > ChiSquareQuantile(3, kProbability);
+  return error.dot(stated_->covariance.ldlt().solve(error)) >
+         ChiSquareQuantile(3, kStatedProbability);
 }
 
 void Localiser::MoveFrame(int from, int to, const Rigid3& to_from_from) {

@@ -10,7 +10,7 @@ namespace arfm_vo {
 namespace {
 
 constexpr size_t kMaxSightings = 8;
-constexpr double kProbability = 0.99;  ///< that sightings of one map agree
+constexpr double kSightingProbability = 0.99;  ///< that sightings of one map agree
 
 /// How sure the motion between two views is, and that between two places of the map: 1 % of the
 /// way, and the directions of ways in proportion.
@@ -38,7 +38,7 @@ bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest) {
   const double sigma_m = kSigma_m + kSigmaShare * newest_from_earlier.translation.norm();
   covariance.diagonal().head<3>().array() += kSigma_rad * kSigma_rad;
   covariance.diagonal().tail<3>().array() += sigma_m * sigma_m;
-  return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kProbability);
+  return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kSightingProbability);
 }
 
 std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
-#include "arfm_vo/base/check.h"
 #include "exact_kernel.h"
 
 namespace arfm_vo {
@@ -85,19 +84,11 @@ void SearchGroup(const cv::Mat& first, const Group& first_group, const cv::Mat& 
   Scatter(of_columns, second_group, first_group, neighbours.of_second);
 }
 
-void CheckDescriptors(const Features& features) {
-  Require(features.descriptors.rows == features.size(),
-          "exact matcher: as many descriptors as keypoints are needed");
-  Require(features.size() == 0 || (features.descriptors.type() == CV_32FC1 &&
-                                   features.descriptors.cols == kDescriptorSize),
-          "exact matcher: descriptors must be [N x 64] CV_32FC1");
-}
-
 }  // namespace
 
 TwoWayNeighbours FindNeighboursExactly(const Features& first, const Features& second) {
-  CheckDescriptors(first);
-  CheckDescriptors(second);
+  CheckDescriptors(first.descriptors, first.keypoints.size(), "the first image");
+  CheckDescriptors(second.descriptors, second.keypoints.size(), "the second image");
   TwoWayNeighbours neighbours;
   neighbours.of_first.resize(first.size());
   neighbours.of_second.resize(second.size());

@@ -11,8 +11,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr float kSmallestScale = 1.2f;
-
 bool IsOnRow(const Keypoint& left, const Keypoint& right, double max_row_difference_px) {
   const double scale = std::max(left.scale, right.scale) / kSmallestScale;
   return left.x >= right.x && std::abs(left.y - right.y) <= max_row_difference_px * scale;

@@ -4,8 +4,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/flann/miniflann.hpp>
 
-#include "arfm_vo/base/check.h"
-
 namespace arfm_vo {
 namespace {
 
@@ -43,18 +41,11 @@ std::vector<Neighbours> FindOneWay(const cv::Mat& queries, const cv::Mat& train)
   return neighbours;
 }
 
-void CheckDescriptors(const Features& features) {
-  Require(features.descriptors.rows == features.size() &&
-              (features.size() == 0 ||
-               (features.descriptors.type() == CV_32FC1 && features.descriptors.cols == 64)),
-          "FLANN matcher: descriptors must be [N x 64] CV_32FC1, one a keypoint");
-}
-
 }  // namespace
 
 TwoWayNeighbours FindNeighboursByFlann(const Features& first, const Features& second) {
-  CheckDescriptors(first);
-  CheckDescriptors(second);
+  CheckDescriptors(first.descriptors, first.keypoints.size(), "the first image");
+  CheckDescriptors(second.descriptors, second.keypoints.size(), "the second image");
   return {FindOneWay(first.descriptors, second.descriptors),
           FindOneWay(second.descriptors, first.descriptors)};
 }

@@ -9,8 +9,6 @@
 namespace arfm_vo {
 namespace {
 
-constexpr float kSmallestScale = 1.2f;
-
 /// Squared Euclidean distance of two descriptors of 64 floats.
 float SquaredDescriptorDistance(const float* a, const float* b) {
   constexpr int kLanes = 16;  // independent sums, so that the compiler may vectorise
@@ -38,12 +36,6 @@ void AddPair(const float* first_descriptor, int first, const cv::Mat& second_des
 
 bool IsScaleWithin(float a, float b, float max_ratio) {
   return a <= b * max_ratio && b <= a * max_ratio;
-}
-
-void CheckDescriptors(const cv::Mat& descriptors, size_t count, const char* whose) {
-  Require(static_cast<size_t>(descriptors.rows) == count &&
-              (count == 0 || (descriptors.type() == CV_32FC1 && descriptors.cols == 64)),
-          std::string("guided matcher: descriptors of ") + whose + " must be [N x 64] CV_32FC1");
 }
 
 }  // namespace

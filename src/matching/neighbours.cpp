@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "arfm_vo/base/check.h"
+#include "arfm_vo/base/format.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -11,6 +14,13 @@ constexpr float kFloatNoise = 1e-6f;
 constexpr float kMaxLoneSquaredDistance = 0.5f;
 
 }  // namespace
+
+void CheckDescriptors(const cv::Mat& descriptors, size_t count, const char* whose) {
+  const bool is_empty = count == 0;
+  Require(static_cast<size_t>(descriptors.rows) == count &&
+              (is_empty || (descriptors.type() == CV_32FC1 && descriptors.cols == 64)),
+          Format("descriptors of %s must be [%zu x 64] CV_32FC1, one a keypoint", whose, count));
+}
 
 float Neighbours::Ratio() const {
   if (nearest < 0) return 1;

@@ -37,7 +37,6 @@ class BusTap:
         self.lock = threading.Lock()
         self.num_commands = 0
         self.moving_s = 0.0  # the last frame that moves
-        self.heard_s, self.max_gap_s = 0.0, 0.0  # between motion commands
         self.stops_s, self.starts_s = [], []  # of each frame that stops it or sets it in motion
         self.is_moving = False
         self.ways_m = (0.0, 0.0)
@@ -74,7 +73,6 @@ class BusTap:
         with self.lock:
             self.num_commands += 1
             if frame.id == MOTION_COMMAND:
-                self.heard_s, self.max_gap_s = now, max(self.max_gap_s, now - self.heard_s)
                 is_moving = any(frame.bytes[:4])
                 if is_moving and not self.is_moving:
                     self.starts_s.append(now)

@@ -10,9 +10,10 @@ class NotPermitted(Exception):
 
 
 EITHER, BY_ITSELF = "drives on, or stops and says why", "by itself, with a warning"
+HELD_UP = "chassis_node was held up"
 # What pauses a drive (docs/rover.md): it goes on by itself, with a warning, where the pose is good again within 3 s.
 PAUSES = {UNCERTAIN, "pose is stale", "no pose", "pose is invalid", "camera's exposure has not settled",
-          "odometry does not tell its epoch", "map frame is no longer told", "chassis_node was held up"}
+          "odometry does not tell its epoch", "map frame is no longer told", HELD_UP}
 
 
 @dataclasses.dataclass

@@ -98,6 +98,7 @@ TABLE = (
         ("no frame before start", "if (!command.may_speak) return;", ""),
         ("each command of another driver counts", "std::count(kCommandIds.begin(), kCommandIds.end(), frame.id) > 0", "frame.id == 0x111"))),
     ("src/hardware/chassis_driver.cpp", BASIC, (
+        ("a halt by the guard pauses", "pilot_.ObserveHalt(now_s);", ""),
         ("the driver says farewell", "link_.SendFarewell();", ""),
         ("error bits are faults", "(state.error_bits & ~kErrorBitsNoFault) != 0", "false"))),
     ("src/hardware/bus_lock.cpp", BASIC, (

@@ -4,10 +4,24 @@
 
 #include <cstdio>
 
+#include "arfm_vo/hardware/guard/guard_message.h"
 #include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {
+
+/// An end of a bus as chassis_guard passes it on.
+struct GuardedEnd : CanBus {
+  GuardedEnd(std::unique_ptr<CanBus> bus, std::optional<GuardStop>& stop)
+      : bus_(std::move(bus)), stop_(stop) {}
+  CanSendStatus Send(const CanFrame& frame) override { return bus_->Send(frame); }
+  std::optional<CanFrame> Receive() override { return bus_->Receive(); }
+  CanBusState State() const override { return bus_->State(); }
+  std::optional<GuardStop> StandingStop() const override { return stop_; }
+  void ReleaseGuard() override { stop_ = GuardStop::kNone; }
+  std::unique_ptr<CanBus> bus_;
+  std::optional<GuardStop>& stop_;
+};
 
 /// A driver that hears a chassis in CAN mode, of which a test spoils a frame.
 class ChassisDriverTest : public ::testing::Test {
@@ -15,6 +29,7 @@ class ChassisDriverTest : public ::testing::Test {
   static PilotOptions Options() {
     PilotOptions options;
     options.operator_watch.is_required = false;
+    options.velocity_needs_pose = false;
     return options;
   }
   /// All kinds of feedback but those of the identifier `silent`; says what a start says.
@@ -37,7 +52,8 @@ class ChassisDriverTest : public ::testing::Test {
 
   CanMemoryBus bus_;
   std::unique_ptr<CanBus> chassis_ = bus_.OpenEnd();
-  ChassisDriver driver_{Options(), bus_.OpenEnd()};
+  std::optional<GuardStop> guard_stop_;
+  ChassisDriver driver_{Options(), std::make_unique<GuardedEnd>(bus_.OpenEnd(), guard_stop_)};
   double now_s_ = 10;
   uint16_t error_bits_ = 0;
   uint8_t motor_status_ = 0x40, count_ = 0;
@@ -71,6 +87,27 @@ TEST_F(ChassisDriverTest, ErrorsAndHeatForbidTheStartAndAreNamed) {
   EXPECT_EQ((Start(), Start()),
             "not started: motor or its driver reports a fault left: motor too hot, driver too hot, "
             "right: motor too hot, driver too hot");
+}
+
+TEST_F(ChassisDriverTest, AHaltByTheGuardIsReleasedAndPausesTheDriveAndNoOtherStopIs) {
+  const auto drive = [this] {
+    driver_.pilot().SetVelocity(now_s_, {0.1, 0}, "joystick");
+    Start();
+    driver_.pilot().SetVelocity(now_s_, {0.1, 0}, "joystick");
+    driver_.Tick(now_s_ += 0.02);
+    return driver_.pilot().Status().state;
+  };
+  ASSERT_EQ((Start(), drive()), DriveState::kDriving);
+  guard_stop_ = GuardStop::kSilence;
+  EXPECT_EQ(drive(), DriveState::kPaused);
+  EXPECT_EQ(driver_.pilot().Status().reason, StopReason::kHeldUp);
+  EXPECT_EQ(guard_stop_, GuardStop::kNone);
+  guard_stop_ = GuardStop::kPacket;
+  EXPECT_EQ(drive(), DriveState::kBlocked);
+  EXPECT_EQ(guard_stop_, GuardStop::kPacket) << "until a person starts it";
+  driver_.ReleaseGuard();
+  now_s_ += 0.2;  // nobody commands a velocity any more
+  EXPECT_EQ(Start(), "started");
 }
 
 TEST_F(ChassisDriverTest, EachCommandOfAnotherDriverForbidsTheStart) {

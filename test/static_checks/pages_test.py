@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Keeps the pages true: links lead somewhere, docs/index.md names each page, README.md is one page, the files of the table of
-equations are there and name them, the drawing has each layer of the odometry, and each row of docs/hazards.md names its test.
+equations are there and name them, the drawing has each layer of the odometry, each row of docs/hazards.md names its test, and what a mutation replaces is there.
 
 Usage: pages_test.py [PACKAGE_DIR]
 """
 import pathlib
 import re
 import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "mutation"))
+from protections import PROTECTIONS  # noqa: E402
 
 MAX_README_BYTES = 10000
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
@@ -53,8 +56,9 @@ def main():
     index = (docs / "index.md").read_text()
     faults += [f"docs/index.md does not name {page.name}" for page in pages if f"({page.name})" not in index and page.stem != "index"]
     size = len((package / "README.md").read_bytes())
-    if size > MAX_README_BYTES:
-        faults.append(f"README.md: {size} bytes, more than {MAX_README_BYTES}")
+    faults += [f"README.md: {size} bytes, more than {MAX_README_BYTES}"] * (size > MAX_README_BYTES)
+    faults += [f"protections.py: {p.name}: not once in {p.file}: {p.old}" for p in PROTECTIONS
+               if (package / p.file).read_text().count(p.old) != 1]
     work = (docs / "how_it_works.md").read_text()
     faults += find_faults_of_table(package, work)
     drawing = work.partition("```\n")[2].partition("```")[0]

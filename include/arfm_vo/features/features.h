@@ -15,6 +15,8 @@ struct Keypoint {
   int8_t laplacian_sign = 1;  ///< +1: dark blob on a bright ground (trace > 0), -1: bright on dark
 };
 
+/// Of SURF's keypoints, px: those of the filter of 9 px.
+constexpr float kSmallestScale = 1.2f;
 /// Standard deviation of a keypoint's position along each axis, in units of its scale.
 constexpr double kKeypointSigma = 0.4;
 /// Keypoints of one and the same place are no further from one another than this, px.

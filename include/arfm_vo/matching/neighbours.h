@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "arfm_vo/matching/match.h"
@@ -29,6 +30,10 @@ struct Neighbours {
   /// nearest or the two can't be told apart in float.
   float Ratio() const;
 };
+
+/// Throws std::invalid_argument where the descriptors of `whose` keypoints, such as "the left
+/// image", are not [count x 64] CV_32FC1.
+void CheckDescriptors(const cv::Mat& descriptors, size_t count, const char* whose);
 
 /// What a search in both directions found: for each keypoint of one image its neighbours in the
 /// other.

@@ -8,7 +8,7 @@ namespace arfm_vo {
 namespace {
 
 /// The first of the bias (3), of the matrix (9, row by row), and the delay.
-constexpr int kBias = 0, kMatrix = 3, kDelay = 12;
+constexpr int kBias = 0, kTurnMatrix = 3, kDelay = 12;
 
 std::vector<SenseNumber> Numbers() {
   const std::string axes[] = {"x", "y", "z"};
@@ -41,7 +41,7 @@ GyroSense::Integral GyroSense::Integrate(double from_s, double to_s) const {
   const Eigen::VectorXd& mean = state_.mean();
   const Eigen::Vector3d bias = mean.segment<3>(kBias);
   const Eigen::Matrix3d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(mean.data() + kMatrix);
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(mean.data() + kTurnMatrix);
   Integral integral;
   Jacobian& jacobian = integral.jacobian;
   Eigen::Vector3d read_rad = Eigen::Vector3d::Zero();
@@ -54,7 +54,7 @@ GyroSense::Integral GyroSense::Integrate(double from_s, double to_s) const {
     jacobian = (step.conjugate().toRotationMatrix() * jacobian).eval();
     jacobian.middleCols<3>(kBias) -= interval_s * matrix;
     for (int row = 0; row < 3; ++row) {
-      jacobian.block<1, 3>(row, kMatrix + 3 * row) += step_rad.transpose();
+      jacobian.block<1, 3>(row, kTurnMatrix + 3 * row) += step_rad.transpose();
     }
     read_rad += step_rad;
   }
@@ -66,7 +66,7 @@ GyroSense::Integral GyroSense::Integrate(double from_s, double to_s) const {
     const double unsure_rad2 =
         Variance(to_s - from_s) + std::pow(to_s - from_s, 2) * state_.covariance()(axis, axis);
     const double told = std::max(0., 1 - unsure_rad2 / std::pow(read_rad[axis], 2));
-    for (int row = 0; row < 3; ++row) jacobian.col(kMatrix + 3 * row + axis) *= told;
+    for (int row = 0; row < 3; ++row) jacobian.col(kTurnMatrix + 3 * row + axis) *= told;
   }
   return integral;
 }
