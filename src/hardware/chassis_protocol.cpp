@@ -105,7 +105,7 @@ void List(ClearErrorsCommand& command, Fields& fields) {
 
 template <class Fields>
 void List(LightCommand& command, Fields& fields) {
-  uint8_t takes_commands = 1, rear = command.is_on ? 1 : 0, reserved = 0;
+  uint16_t takes_commands = 1, rear = command.is_on ? 1 : 0, reserved = 0;
   fields.Begin(0x121);
   fields(takes_commands, uint8_t());
   fields(command.is_on, uint8_t());
