@@ -1,8 +1,8 @@
 #include "arfm_vo/matching/neighbours.h"
 
 #include <cmath>
+#include <stdexcept>
 
-#include "arfm_vo/base/check.h"
 #include "arfm_vo/base/format.h"
 
 namespace arfm_vo {
@@ -16,10 +16,10 @@ constexpr float kMaxLoneSquaredDistance = 0.5f;
 }  // namespace
 
 void CheckDescriptors(const cv::Mat& descriptors, size_t count, const char* whose) {
-  const bool is_empty = count == 0;
-  Require(static_cast<size_t>(descriptors.rows) == count &&
-              (is_empty || (descriptors.type() == CV_32FC1 && descriptors.cols == 64)),
-          Format("descriptors of %s must be [%zu x 64] CV_32FC1, one a keypoint", whose, count));
+  const bool is_well = count == 0 || (descriptors.type() == CV_32FC1 && descriptors.cols == 64);
+  if (is_well && static_cast<size_t>(descriptors.rows) == count) return;
+  throw std::invalid_argument(
+      Format("descriptors of %s must be [%zu x 64] CV_32FC1, one a keypoint", whose, count));
 }
 
 float Neighbours::Ratio() const {

@@ -10,9 +10,8 @@
 namespace arfm_vo {
 namespace {
 
-/// The correction is found where its columns are known better than this all over the image, so that
-/// windows can tell a turn of the camera: no observation is trusted more, nor is a window
-/// (LandmarkAlignerOptions::min_sigma_px).
+/// The correction is found where its columns are known better than this all over the image: no
+/// observation is trusted more, nor is a window (LandmarkAlignerOptions::min_sigma_px).
 constexpr double kObservationSigmaPx = 0.1;
 
 /// No coefficient is known better: a lens is not quite what its model says. Where the columns are
@@ -124,14 +123,18 @@ std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes)
   return OpenToATurn();
 }
 
-void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
-  if (!may_learn_) return;
+void CalibrationState::BeginTurn(const Eigen::Matrix3d& covariance, int first_telling) {
   windows_.clear();
   found_.reset();
-  learnt_.mean.coefficients_px += by_turn_ * turn.turn_rad;
-  turn_covariance_ += turn.covariance;
-  first_telling_ = keyframe;
+  turn_covariance_ += covariance;
+  first_telling_ = first_telling;
   is_open_ &= !is_found_;
+}
+
+void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
+  if (!may_learn_) return;
+  BeginTurn(turn.covariance, keyframe);
+  learnt_.mean.coefficients_px += by_turn_ * turn.turn_rad;
   Tell();
   prior_ = OpenToATurn();
   prior_.covariance += correction_.covariance;
@@ -186,11 +189,7 @@ void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
   is_turning_ = ratio > limit;
   if (is_turning_) {
-    windows_.clear();
-    found_.reset();
-    turn_covariance_ += (1 - 1 / ratio) / 3 * off * off.transpose();
-    first_telling_ = num_keyframes - kWindow;
-    is_open_ &= !is_found_;
+    BeginTurn((1 - 1 / ratio) / 3 * off * off.transpose(), num_keyframes - kWindow);
   } else if (is_found_) {
     TakeScatter(newest);
   }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "arfm_vo/hardware/can_bus.h"
+#include "arfm_vo/hardware/guard/guard_message.h"
 
 namespace arfm_vo {
 
@@ -29,12 +29,15 @@ class CanMemoryBus {
   }
   /// While set, every Send is refused with kBusy, as by a full queue.
   void SetBusy(bool is_busy) { wire_->is_busy = is_busy; }
+  /// As if chassis_guard stood before every end; nothing: as if none did.
+  void SetGuardStop(std::optional<GuardStop> stop) { wire_->stop = stop; }
 
  private:
   using Queue = std::deque<CanFrame>;
   struct Wire {
     CanBusState state = CanBusState::kUp;
     bool is_busy = false;
+    std::optional<GuardStop> stop;
     std::vector<std::weak_ptr<Queue>> queues;
 
     void Spread(const CanFrame& frame, const std::shared_ptr<Queue>& but) {
@@ -61,6 +64,10 @@ class CanMemoryBus {
       return frame;
     }
     CanBusState State() const override { return wire_->state; }
+    std::optional<GuardStop> StandingStop() const override { return wire_->stop; }
+    void ReleaseGuard() override {
+      if (wire_->stop) wire_->stop = GuardStop::kNone;
+    }
 
    private:
     std::shared_ptr<Wire> wire_;

@@ -4,24 +4,10 @@
 
 #include <cstdio>
 
-#include "arfm_vo/hardware/guard/guard_message.h"
 #include "simulation/can_memory_bus.h"
 
 namespace arfm_vo {
 namespace {
-
-/// An end of a bus as chassis_guard passes it on.
-struct GuardedEnd : CanBus {
-  GuardedEnd(std::unique_ptr<CanBus> bus, std::optional<GuardStop>& stop)
-      : bus_(std::move(bus)), stop_(stop) {}
-  CanSendStatus Send(const CanFrame& frame) override { return bus_->Send(frame); }
-  std::optional<CanFrame> Receive() override { return bus_->Receive(); }
-  CanBusState State() const override { return bus_->State(); }
-  std::optional<GuardStop> StandingStop() const override { return stop_; }
-  void ReleaseGuard() override { stop_ = GuardStop::kNone; }
-  std::unique_ptr<CanBus> bus_;
-  std::optional<GuardStop>& stop_;
-};
 
 /// A driver that hears a chassis in CAN mode, of which a test spoils a frame.
 class ChassisDriverTest : public ::testing::Test {
@@ -52,8 +38,7 @@ class ChassisDriverTest : public ::testing::Test {
 
   CanMemoryBus bus_;
   std::unique_ptr<CanBus> chassis_ = bus_.OpenEnd();
-  std::optional<GuardStop> guard_stop_;
-  ChassisDriver driver_{Options(), std::make_unique<GuardedEnd>(bus_.OpenEnd(), guard_stop_)};
+  ChassisDriver driver_{Options(), bus_.OpenEnd()};
   double now_s_ = 10;
   uint16_t error_bits_ = 0;
   uint8_t motor_status_ = 0x40, count_ = 0;
@@ -98,13 +83,13 @@ TEST_F(ChassisDriverTest, AHaltByTheGuardIsReleasedAndPausesTheDriveAndNoOtherSt
     return driver_.pilot().Status().state;
   };
   ASSERT_EQ((Start(), drive()), DriveState::kDriving);
-  guard_stop_ = GuardStop::kSilence;
+  bus_.SetGuardStop(GuardStop::kSilence);
   EXPECT_EQ(drive(), DriveState::kPaused);
   EXPECT_EQ(driver_.pilot().Status().reason, StopReason::kHeldUp);
-  EXPECT_EQ(guard_stop_, GuardStop::kNone);
-  guard_stop_ = GuardStop::kPacket;
+  EXPECT_EQ(chassis_->StandingStop(), GuardStop::kNone);
+  bus_.SetGuardStop(GuardStop::kPacket);
   EXPECT_EQ(drive(), DriveState::kBlocked);
-  EXPECT_EQ(guard_stop_, GuardStop::kPacket) << "until a person starts it";
+  EXPECT_EQ(chassis_->StandingStop(), GuardStop::kPacket) << "until a person starts it";
   driver_.ReleaseGuard();
   now_s_ += 0.2;  // nobody commands a velocity any more
   EXPECT_EQ(Start(), "started");

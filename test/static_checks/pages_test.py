@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Keeps the pages true: links lead somewhere, docs/index.md names each page, README.md is one page, the files of the table of
-equations are there and name them, the drawing has each layer of the odometry, each row of docs/hazards.md names its test, and what a mutation replaces is there.
+equations are there and name them, the drawing has each layer of the odometry, each row of docs/hazards.md names its test, and
+what a mutation replaces is there.
 
 Usage: pages_test.py [PACKAGE_DIR]
 """

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "arfm_vo/features/features.h"
 #include "arfm_vo/image/integral_image.h"
 
 namespace arfm_vo {
@@ -15,8 +16,7 @@ struct BoxHessian {
 /// Size in px (9, 15, 21, 27; 15, 27, 39, 51; ..) of the filter of a layer of an octave, from 0.
 constexpr int BoxFilterSize(int octave, int layer) { return 3 * ((layer + 1) * (2 << octave) + 1); }
 
-/// Scale s = 1.2 at the smallest filter of 9 px.
-constexpr float ScaleOfFilter(float size) { return size * (1.2f / 9.0f); }
+constexpr float ScaleOfFilter(float size) { return size * (kSmallestScale / 9.0f); }
 
 /// At the pixel (x, y), for an odd multiple `size` of 3 with size / 2 pixels on each side of it.
 BoxHessian ComputeBoxHessian(const IntegralImage& integral, int x, int y, int size);

@@ -10,12 +10,12 @@
 namespace arfm_vo {
 
 /// The stereo correction as it is followed during a drive: mean and covariance. Adjustments find it
-/// until its columns are known as well as the model is right. Once they are known better than any
-/// single observation, the newest keyframes alone (a window) tell how the right camera has turned
-/// since, in a Kalman filter whose process noise is what the innovation asks for, and none where
-/// that is within its covariance (Jazwinski, Adaptive filtering, Automatica 1969). The covariance
-/// is as wide as what comes says out of sample, not as the residuals say: by how far each
-/// adjustment moves what the one before has found, and how windows that share no keyframe scatter.
+/// until its columns are known as well as the model is right. The newest keyframes alone (a window)
+/// tell how the right camera has turned since, in a Kalman filter whose process noise is what the
+/// innovation asks for, and none where that is within its covariance (Jazwinski, Adaptive
+/// filtering, Automatica 1969). The covariance is as wide as what comes says out of sample, not as
+/// the residuals say: by how far each adjustment moves what the one before has found, and how
+/// windows that share no keyframe scatter.
 class CalibrationState {
  public:
   static constexpr int kWindow = 4;  ///< keyframes
@@ -37,15 +37,16 @@ class CalibrationState {
   /// What is known without the keyframes from first_telling() on, for an adjustment of these that
   /// is to find the correction; nothing where it stays as it is. The focal length of both images is
   /// told by no straight way and bent by all that the model does not know, so its prior counts in
-  /// full, against observations that count by their scatter.
+  /// full, against observations that count by their scatter. That of the tangential distortion
+  /// gives way to what contradicts it.
   std::optional<CorrectionBelief> Prior() const;
   /// Takes what such an adjustment, of all `num_keyframes`, has found: what an earlier drive found
   /// stands as long as that allows it. False where its poses are not of the correction that is told
   /// then.
   bool Learn(const BundleResult& result, int num_keyframes);
 
-  /// For an adjustment of the newest kWindow of `num_keyframes` alone; nothing where the correction
-  /// is not found yet, or was learnt from all of them.
+  /// For an adjustment of the newest kWindow of `num_keyframes` alone; nothing where there are
+  /// fewer since the last turn, or the correction was learnt from all of them.
   std::optional<CorrectionBelief> WindowPrior(int num_keyframes) const;
   /// Takes what that has found.
   void Follow(const BundleResult& window, int num_keyframes);
@@ -76,6 +77,8 @@ class CalibrationState {
   void TakeNews(const CorrectionBelief& newest);
   /// Takes the scatter of a window and the newest that shares no keyframe with it.
   void TakeScatter(const Window& newest);
+  /// A turn of this covariance, rad^2. What was not found before it stays open.
+  void BeginTurn(const Eigen::Matrix3d& covariance, int first_telling);
   void Tell();
   /// As it is but for a turn of the right camera.
   CorrectionBelief OpenToATurn() const;

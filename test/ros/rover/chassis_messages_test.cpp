@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "arfm_vo/hardware/guard/guard_message.h"
 #include "arfm_vo/ros/rover/chassis_publisher.h"
 #include "simulation/can_memory_bus.h"
 
@@ -87,23 +86,15 @@ TEST_F(ChassisMessagesTest, ABusThatIsOffIsAnErrorWhateverThePilotDoes) {
   EXPECT_NE(status.message.find("CAN bus is bus-off"), std::string::npos) << status.message;
 }
 
-/// As chassis_guard passes it on.
-struct GuardedEnd : CanBus {
-  explicit GuardedEnd(std::optional<GuardStop> stop) : stop_(stop) {}
-  CanSendStatus Send(const CanFrame&) override { return CanSendStatus::kSent; }
-  std::optional<CanFrame> Receive() override { return std::nullopt; }
-  CanBusState State() const override { return CanBusState::kUp; }
-  std::optional<GuardStop> StandingStop() const override { return stop_; }
-  std::optional<GuardStop> stop_;
-};
-
 TEST(ChassisDiagnosis, SaysWhetherThereIsAGuardAndWhyItStops) {
   const std::pair<std::optional<GuardStop>, std::string> rows[] = {
       {std::nullopt, "none"},
       {GuardStop::kNone, "watches"},
       {GuardStop::kPacket, "stops: a UDP packet"}};
   for (const auto& [stop, text] : rows) {
-    const ChassisLink link(std::make_unique<GuardedEnd>(stop));
+    CanMemoryBus bus;
+    bus.SetGuardStop(stop);
+    const ChassisLink link(bus.OpenEnd());
     diagnostic_updater::DiagnosticStatusWrapper diagnostics;
     FillDiagnostics(PilotStatus(), link, diagnostics);
     const auto is_guard = [](const auto& value) { return value.key == "chassis_guard"; };
