@@ -104,7 +104,7 @@ class ReplayTest(ReplayCase):
         self.assertIn("[master] killing on exit", console)
 
     def test_a_bag_in_a_loop_begins_anew_each_time_and_saves_each(self):
-        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "trajectory_dir:=out", limit_s=30)
+        _, console = self.launch("replay.launch", "rviz:=false", "bag:=" + FIXTURE, "loop:=true", "rate:=0.5", "trajectory_dir:=out", limit_s=36)
         self.assertIn("time jumped back", console)
         for name in "trajectory.tum", "trajectory_2.tum":
             with open(os.path.join(self.folder, "out", name)) as file:
