@@ -22,7 +22,7 @@ void PathDoubt::Advance(double interval_s) {
 void PathDoubt::Follow(double stamp_s, const Rigid3& pose, const std::optional<Rigid3>& predicted,
                        double log_odds) {
   if (last_) Advance(std::max(0., stamp_s - last_->stamp_s));
-  if (!IsLikely()) {
+  if (!IsLikely() || !before_.KnowsSpeed()) {
     before_.Reset();
     if (predicted && last_ && stamp_s > last_->stamp_s) {
       before_.Add(last_->stamp_s, last_->camera_from_world);

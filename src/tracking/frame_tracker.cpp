@@ -74,14 +74,16 @@ void FrameTracker::WeighSmooth(const StereoImages& images, const LocalMap& map,
   const auto& predicted = expected.predicted;
   const Rigid3 pose = tracked.pose.camera_from_world;
   if (!predicted || predicted->LogOdds(pose) >= 0) return;
+  const auto is_same = [&](const TrackedFrame& other) {
+    return IsSame(camera_, other.matches.landmarks, other.pose.camera_from_world, pose);
+  };
   std::optional<TrackedFrame> smooth = by_patches;
-  if (!smooth) {
-    const int level = patches_.LevelFor(map, *predicted).value_or(0);
-    smooth = TrackByPatches(images, map, expected, level);
+  if (!smooth || is_same(*smooth)) {
+    smooth = patches_.At(images, map, expected, predicted->camera_from_world);
   }
-  if (!smooth) return;
+  if (!smooth || is_same(*smooth)) return;
   const Rigid3& smooth_pose = smooth->pose.camera_from_world;
-  if (IsSame(camera_, smooth->matches.landmarks, smooth_pose, pose)) return;
+  if (predicted->LogOdds(smooth_pose) <= predicted->LogOdds(pose)) return;
   const auto rough = patches_.At(images, map, expected, pose);
   if (!rough) return;
   const double log_ratio = smooth->log_odds - rough->log_odds;

@@ -61,6 +61,13 @@ TEST_F(PathDoubtTest, EndsInTimeAndStaysForThePathBefore) {
   EXPECT_LT(Error(), 3 * sigma_m);
 }
 
+/// A drive may begin in doubt, before a motion is known: later doubts must not be lost in it.
+TEST_F(PathDoubtTest, ADoubtFromTheStartGrowsFromTheFirstMotionThatIsKnown) {
+  doubt_.Follow(stamp_s_, At(0), std::nullopt, 0.5);
+  for (int i = 0; i < 5; ++i) EXPECT_LT(Follow(false, 6), 1e-9) << i;
+  for (int i = 0; i < 10; ++i) EXPECT_LT(Error(), 2 * Follow(true, 0.5)) << i;
+}
+
 TEST_F(PathDoubtTest, TellsNothingWhereTheMotionBeforeIsNotKnown) {
   doubt_.Follow(10, At(0), std::nullopt, 0);
   doubt_.Follow(11, At(3), std::nullopt, 0);

@@ -14,7 +14,8 @@ namespace arfm_vo {
 /// scene that the whole odometry can be run on.
 class TexturedWall {
  public:
-  explicit TexturedWall(int seed = 1) {
+  /// `period_m`: after so much downwards it repeats itself; 0: it does not.
+  explicit TexturedWall(int seed = 1, double period_m = 0) {
     cv::RNG random(seed);
     texture_.create(1600, 2400, CV_8UC1);
     texture_ = 110;
@@ -22,6 +23,10 @@ class TexturedWall {
       cv::circle(texture_, {random.uniform(0, texture_.cols), random.uniform(0, texture_.rows)},
                  random.uniform(4, 24), cv::Scalar(random.uniform(20, 235)), cv::FILLED);
     cv::GaussianBlur(texture_, texture_, {}, 1.5);
+    const int period = static_cast<int>(period_m * kTexelsPerMetre);
+    for (int y = period; period > 0 && y < texture_.rows; ++y) {
+      texture_.row(y - period).copyTo(texture_.row(y));
+    }
   }
 
   const StereoCamera& camera() const { return camera_; }
@@ -48,8 +53,10 @@ class TexturedWall {
   }
 
  private:
+  static constexpr double kTexelsPerMetre = 100;
+
   cv::Mat RenderSide(const Rigid3& camera_from_world) const {
-    constexpr double kDistance_m = 6, kTexelsPerMetre = 100;
+    constexpr double kDistance_m = 6;
     // The homography from the wall's (x, y) to pixels, after that from texels to (x, y).
     Eigen::Matrix3d intrinsics;
     intrinsics << camera_.fx, 0, camera_.cx, 0, camera_.fy, camera_.cy, 0, 0, 1;

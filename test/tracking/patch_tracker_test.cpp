@@ -140,23 +140,37 @@ TEST_F(PatchTrackerTest, KeypointsTakeOverWhatPatchesHaveMeasured) {
   ExpectNear(corrected.pose.camera_from_world, truth_.Inverse(), 0.01);
 }
 
-/// Patches have found the pose that was predicted, keypoints find another one, as where the ground
-/// repeats itself: both may be.
+/// The ground repeats itself, and the search in small images has slipped by a period.
 TEST_F(PatchTrackerTest, OfPosesThatThePatchesFitTheOneAsPredictedIsLikelierAndTheOtherItsRival) {
-  CountAllSeen(map_);
+  constexpr double kPeriod_m = 0.8;
+  const TexturedWall wall(1, kPeriod_m);
+  LocalMap map(camera_, LocalMapOptions());
+  const StereoImages first = wall.Render(0, Rigid3());
+  map.AddKeyframe(frontend_.Process(first), first.left, Rigid3(), {});
+  CountAllSeen(map);
   const FrameTracker tracker(camera_, {});
-  const Expectation expected = ExpectedWithin(truth_, 0.001);
-  const auto by_patches = tracker.TrackByPatches(wall_.Render(1, truth_), map_, expected, 0);
+  const Rigid3 slipped =
+      truth_ * Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, kPeriod_m, 0));
+  const StereoImages images = wall.Render(1, truth_);
+  const StereoFrame frame = frontend_.Process(images);
+  const auto by_patches = tracker.TrackByPatches(images, map, ExpectedWithin(slipped, 0.001), 0);
   ASSERT_TRUE(by_patches);
-  const StereoImages elsewhere = wall_.Render(2, truth_.Inverse());
-  const StereoFrame frame = frontend_.Process(elsewhere);
-  const TrackedFrame tracked = tracker.Track(frame, elsewhere, map_, expected, by_patches);
+  ExpectNear(by_patches->pose.camera_from_world, slipped, 0.01);
+  const TrackedFrame tracked =
+      tracker.Track(frame, images, map, ExpectedWithin(truth_, 0.001), by_patches);
   ExpectNear(tracked.pose.camera_from_world, truth_, 0.01);
   ASSERT_TRUE(tracked.pose.rival);
-  ExpectNear(*tracked.pose.rival, truth_.Inverse(), 0.01);
+  ExpectNear(*tracked.pose.rival, slipped, 0.01);
   EXPECT_GT(tracked.log_odds, tracked.log_odds_of_rival + 2);
-  // What patches do not find where it is predicted is no rival.
-  const TrackedFrame jumped = tracker.Track(frame, elsewhere, map_, expected);
+}
+
+/// What patches do not find where it is predicted is no rival.
+TEST_F(PatchTrackerTest, AJumpHasNoRivalWherePatchesDoNotFitThePrediction) {
+  CountAllSeen(map_);
+  const FrameTracker tracker(camera_, {});
+  const StereoImages elsewhere = wall_.Render(2, truth_.Inverse());
+  const TrackedFrame jumped =
+      tracker.Track(frontend_.Process(elsewhere), elsewhere, map_, ExpectedWithin(truth_, 0.001));
   ExpectNear(jumped.pose.camera_from_world, truth_.Inverse(), 0.01);
   EXPECT_FALSE(jumped.pose.rival);
 }
