@@ -58,6 +58,7 @@ class Campaign:
     def begin(self):
         """The fault begins now; one that takes time to prepare says so itself."""
         self.began_s, self.began_simulated_s, self.began_way_m = time.monotonic(), rospy.get_time(), self.tap.way_m()
+        self.rover.told = {}
 
     def signal(self, node, number):
         os.kill(self.pids[node], number)
@@ -97,12 +98,11 @@ class Campaign:
         injected_s, simulated_s, way_m = self.began_s, self.began_simulated_s, self.began_way_m
         end_s = max(injected_s + fault.limit_s + WATCH_S, time.monotonic() + WATCH_S / 2)  # injecting may take long
         simulated_end_s = simulated_s + fault.limit_s + WATCH_S / 2
-        told, has_warned, end_way_m = {self.rover.status.reason: ""}, False, way_m  # reasons and what they measured
+        told, has_warned, end_way_m = self.rover.told, False, way_m
         looked_s, held_up_s, limit_ended_s = time.monotonic(), 0.0, injected_s
         awaited = {fault.promise} if fault.ends_node and fault.promise != "-" and " or " not in fault.promise else set()
         while looked_s < end_s or (not fault.ends_graph and looked_s < end_s + MAX_WAIT_S and (
                 rospy.get_time() < simulated_end_s or not awaited <= told.keys())):  # a node may be slow to start
-            told[self.rover.status.reason] = self.rover.status.detail
             if rospy.get_time() < simulated_s + fault.limit_s:  # simulated time runs unevenly on a busy machine
                 limit_ended_s = looked_s
             has_warned |= self.rover.status.state == DriveStatus.WARNING
@@ -113,13 +113,13 @@ class Campaign:
             held_up_s, looked_s = max(held_up_s, time.monotonic() - looked_s), time.monotonic()
         pace = min(1.0, max(0.1, (rospy.get_time() - simulated_s) / (time.monotonic() - injected_s)))
         row = {"name": fault.name, "promise": fault.promise, "limit_s": max(fault.limit_s, limit_ended_s - injected_s),
-               "held_up_s": held_up_s, "details": told, "moves": self.rover.moves()}
+               "held_up_s": held_up_s, "details": dict(told), "moves": self.rover.moves()}
         row["wrong_way_m"] = self.rover.sight.wrong_way_m(end_way_m)
         row["dead"] = [node for node, pid in self.pids.items() if not os.path.exists("/proc/%d" % pid)]
         stops_s = [stop_s for stop_s in self.tap.stops_s if stop_s >= injected_s]
         row["stop_s"] = (stops_s[0] if stops_s else self.tap.moving_s) - injected_s
         row["way_m"] = end_way_m - way_m
-        row["told"] = [reason for reason in told if reason != "none"]
+        row["told"] = [reason for reason in row["details"] if reason != "none"]
         row["drives_on"] = fault.promise == "drives on" or (fault.promise.startswith("drives on") and row["moves"] and not row["told"])
         row["arrived"] = sum(report.result == GoalReport.ARRIVED for report in self.rover.reports)
         is_well = fault.is_well(self)
@@ -154,8 +154,8 @@ class Campaign:
         is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or ("-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
         is_over = not row["moves"] or (fault.may_go_on and is_paused)
-        is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s
-        return is_told and is_over and is_soon and row["way_m"] <= allowed_m
+        is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s and row["way_m"] <= allowed_m
+        return is_told and is_over and (is_soon or fault.promise.startswith("drives on"))  # what may drive on may stop at any time
 
     def find_what_it_takes(self, row):
         if row["drives_on"]:

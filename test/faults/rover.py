@@ -73,6 +73,7 @@ class Rover:
         rospy.Subscriber("status", OdometryStatus, lambda status: self.odometry_texts.append(status.text))
         self.tap = tap
         self.status, self.reports = None, []
+        self.told = {}  # reasons since the fault began, and what they measured
         self.is_homeward = False  # far from where it began, and turned round
         self.speed_mps = None  # of cmd_vel, where the rover is driven by it
         self.commands_s, self.warnings_s = [], []  # by the steady clock; of a warning its begin and its end
@@ -116,6 +117,7 @@ class Rover:
         if warned and not warns:
             self.warnings_s[-1][1] = time.monotonic()
         self.status = status
+        self.told[status.reason] = status.detail
 
     def count_unwarned(self, since_s, pace):
         """How often it began to move without having been commanded just before (in time of that pace), or having warned."""
