@@ -41,7 +41,7 @@ class PathDoubt {
 
   Belief ground_{0.99};
   std::optional<StampedPose> last_;
-  MotionModel before_;                                      ///< the motion before the doubt, or the first known
+  MotionModel before_;  ///< the motion before the doubt, or the first that is known
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();  ///< to where that leads
   Eigen::Matrix3d closed_ = Eigen::Matrix3d::Zero();        ///< of doubts that are over
 };
