@@ -154,8 +154,8 @@ class Campaign:
         is_told = fault.promise == "-" or any(promise in row["told"] for promise in promises) or ("-" in promises and not row["told"])
         allowed_m = MAX_WAY_M + 0.1 * row["limit_s"]
         is_over = not row["moves"] or (fault.may_go_on and is_paused)
-        is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s and row["way_m"] <= allowed_m
-        return is_told and is_over and (is_soon or fault.promise.startswith("drives on"))  # what may drive on may stop at any time
+        is_soon = row["stop_s"] <= row["limit_s"] + self.max_stop_s
+        return is_told and is_over and is_soon and row["way_m"] <= allowed_m
 
     def find_what_it_takes(self, row):
         if row["drives_on"]:

@@ -57,7 +57,7 @@ def operator_faults():
         Fault("every other answer of the operator is lost", link(lambda heard: heard[-1] if len(heard) % 2 else None), "drives on", mended),
         Fault("software emergency stop", emergency(True), "software emergency stop is set", emergency(False)),
         Fault("another publisher clears the emergency stop", foreign_release, "software emergency stop is set",
-              emergency(False)),
+              emergency(False), is_well=lambda c: c.rover.status.reason == "software emergency stop is set"),
     ]
 
 
