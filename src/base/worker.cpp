@@ -72,7 +72,7 @@ void Worker::RunJobs() {
     const Entry entry = std::move(queue_.front());
     queue_.pop_front();
     if (entry.is_lossy) --num_lossy_waiting_;
-    if (!is_held_) limit_ = std::clamp(num_lossy_waiting_, max_waiting_, limit_);
+    if (!is_held_) limit_ = std::min(num_lossy_waiting_ + max_waiting_, limit_);
     const bool is_overrun = std::exchange(is_overrun_, false);
     lock.unlock();
     try {

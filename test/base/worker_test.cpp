@@ -80,6 +80,27 @@ TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {
   EXPECT_EQ(worker.num_dropped(), 3u);
 }
 
+TEST(Worker, WhileHeldJobsAreCaughtUpWithAsManyNewOnesWaitAsEver) {
+  std::vector<int> ran;
+  std::promise<void> is_busy, may_go;
+  Worker worker(2, FailOnError);
+  worker.Hold(10);
+  worker.PostLossy([&] {
+    is_busy.set_value();
+    may_go.get_future().wait();
+    worker.Release();
+  });
+  is_busy.get_future().wait();
+  worker.PostLossy([&] {
+    for (int i = 3; i < 6; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  });
+  for (int i = 0; i < 3; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
+  may_go.set_value();
+  worker.RunAndWait([] {});
+  worker.RunAndWait([] {});
+  EXPECT_THAT(ran, ElementsAre(1, 2, 3, 4, 5));
+}
+
 TEST(Worker, AnErrorOfAJobIsReportedAndTheNextJobRuns) {
   std::vector<std::string> errors;
   Worker worker(1, [&](const std::exception& error) { errors.push_back(error.what()); });

@@ -37,8 +37,8 @@ class Worker {
   /// Starts a job and waits for its end. Not from a job.
   void RunAndWait(Job job) { Start(std::move(job)).get(); }
 
-  /// Up to `max_held` lossy jobs may wait until Release; then those that wait are still run, and
-  /// the limit falls with their number to what it was.
+  /// Up to `max_held` lossy jobs may wait until Release; then those that wait are still run, with
+  /// `max_waiting` more beside them, and the limit falls with their number to what it was.
   void Hold(int max_held);
   void Release();
 
