@@ -39,31 +39,17 @@ cv::Mat MatchBlocks(const StereoImages& images, const StereoCamera& camera) {
   return depth;
 }
 
-/// What the odometry has after the whole clip, in the pairs' order however they are driven.
-std::vector<Rigid3> RunOdometry(const Clip& clip, bool is_backward,
-                                const OdometryOptions& options) {
-  const ClipWindow whole(clip, {0, 0, clip.num_pairs, 1, is_backward, {}},
-                         std::vector<Rigid3>(clip.num_pairs));
-  VisualOdometry odometry(whole.camera(), options);
-  for (int i = 0; i < whole.size(); ++i) odometry.Process(whole.Images(i));
-  std::vector<Rigid3> poses;
-  for (const TrajectoryPose& pose : odometry.Finish()) poses.push_back(pose.world_from_camera);
-  if (is_backward) std::reverse(poses.begin(), poses.end());
-  return poses;
-}
-
-/// Kept in a file.
-std::vector<Rigid3> ReadReference(const Clip& clip, bool is_backward,
-                                  const OdometryOptions& options, const std::string& cache_folder) {
-  const std::string path =
-      cache_folder + "/" + clip.name + (is_backward ? "_backward.txt" : ".txt");
+/// What the odometry has after the whole clip. Kept in a file.
+std::vector<Rigid3> ReadReference(const Clip& clip, const OdometryOptions& options,
+                                  const std::string& cache_folder) {
+  const std::string path = cache_folder + "/" + clip.name + ".txt";
   if (!fs::exists(path)) {
+    const ClipWindow whole(clip, {0, 0, clip.num_pairs, 1, false, {}},
+                           std::vector<Rigid3>(clip.num_pairs));
+    VisualOdometry odometry(whole.camera(), options);
+    for (int i = 0; i < whole.size(); ++i) odometry.Process(whole.Images(i));
     fs::create_directories(cache_folder);
-    Trajectory trajectory;
-    for (const Rigid3& pose : RunOdometry(clip, is_backward, options)) {
-      trajectory.push_back({0, pose, true});
-    }
-    WriteWholeFile(path, FormatKitti(trajectory));
+    WriteWholeFile(path, FormatKitti(odometry.Finish()));
   }
   return ReadKittiPoses(path);
 }
@@ -105,34 +91,15 @@ std::vector<Rigid3> WithDirections(const std::vector<Rigid3>& reference,
 std::vector<Clip> FindClips(const std::string& data) {
   // KITTI's official places are good to about 1 % of short ways and jump by some 3 cm from pair to
   // pair, those of the raw drive to 1.5 %. Forward and backward the odometry differs by up to
-  // .6 % within 20 pairs of the backyard, and by up to 2.6 % in the library, where it fails forward
-  // on 30 pairs.
+  // .6 % within 20 pairs of the backyard, and by up to 3 % within 18 of the library.
   const std::vector<Clip> known{
-      {"kitti_06", "kitti/odometry_06_000-050", "drive", "street", true, false, 1, 0.03, 0, {}},
-      {"kitti_04", "kitti/odometry_04_000-050", "drive", "street", true, false, 1, 0.03, 0, {}},
-      {"kitti_05",
-       "kitti/odometry_05_100-159",
-       "drive_bend",
-       "street",
-       true,
-       false,
-       1,
-       0.03,
-       0,
-       {}},
-      {"kitti_0001",
-       "kitti/raw_2011_09_26_drive_0001",
-       "drive",
-       "street",
-       true,
-       false,
-       1.5,
-       0.03,
-       0,
-       {}},
-      {"backyard", "handheld/boofcv_backyard", "walk", "leaves", false, false, 1.5, 0.002, 0, {}},
-      {"library", "handheld/boofcv_library", "walk", "indoors", false, true, 2.5, 0.002, 0, {}},
-      {"room1", "handheld/tumvi_room1", "turning", "indoors_dark", true, false, 1.5, 0.002, 0, {}},
+      {"kitti_06", "kitti/odometry_06_000-050", "drive", "street", true, 1, 0.03, 0, {}},
+      {"kitti_04", "kitti/odometry_04_000-050", "drive", "street", true, 1, 0.03, 0, {}},
+      {"kitti_05", "kitti/odometry_05_100-159", "drive_bend", "street", true, 1, 0.03, 0, {}},
+      {"kitti_0001", "kitti/raw_2011_09_26_drive_0001", "drive", "street", true, 1.5, 0.03, 0, {}},
+      {"backyard", "handheld/boofcv_backyard", "walk", "leaves", false, 1.5, 0.002, 0, {}},
+      {"library", "handheld/boofcv_library", "walk", "indoors", false, 2.5, 0.002, 0, {}},
+      {"room1", "handheld/tumvi_room1", "turning", "indoors_dark", true, 1.5, 0.002, 0, {}},
   };
   std::vector<Clip> clips;
   for (Clip clip : known) {
@@ -173,7 +140,7 @@ ClipPlan DrawClipPlan(const std::vector<Clip>& clips, int max_pairs, Draw& draw)
 
 std::vector<Rigid3> ReadClipTruth(const Clip& clip, const OdometryOptions& options,
                                   const std::string& cache_folder) {
-  const auto reference = ReadReference(clip, clip.is_better_backward, options, cache_folder);
+  const auto reference = ReadReference(clip, options, cache_folder);
   if (!clip.has_truth) return reference;
   return WithDirections(reference, ReadKittiPoses(clip.folder + "/poses.txt"));
 }

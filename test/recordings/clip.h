@@ -13,11 +13,10 @@ namespace arfm_vo {
 /// A real recording and how well the truth of it is known.
 struct Clip {
   std::string name, folder;
-  std::string motion, scene;        ///< properties
-  bool has_truth = false;           ///< poses.txt; else the odometry's own, see ReadClipTruth
-  bool is_better_backward = false;  ///< its odometry, for a reference
-  double truth_percent = 1;         ///< of the way by which the truth may be off
-  double truth_m = 0;               ///< and beside that
+  std::string motion, scene;  ///< properties
+  bool has_truth = false;     ///< poses.txt; else the odometry's own, see ReadClipTruth
+  double truth_percent = 1;   ///< of the way by which the truth may be off
+  double truth_m = 0;         ///< and beside that
   int num_pairs = 0;
   StereoCamera camera;
 };

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/configuration/yaml_writer.h"
 #include "arfm_vo/ros/odometry/arfm_node.h"
 #include "arfm_vo/ros/odometry/ba_node.h"
