@@ -17,7 +17,7 @@ const std::vector<ReasonRow>& ListReasons() {
       {Reason::kRightOff,
        "the rows of the two pictures do not agree (one late, or a camera moved?), the left one "
        "alone tells",
-       "tracked by the left image, new points by motion: their depths count in the covariance"},
+       "degraded: pose by the left image, new points by motion"},
       {Reason::kGroupsDiffer, "two groups of points move differently",
        "tracked: pose of the likelier group; the covariance reaches to the other, and to where the "
        "motion before would have led since"},

@@ -104,15 +104,6 @@ bool Verdict::IsSwapped(const Rigid3& camera_from_world,
                            predicted->LogOdds(camera_from_world);
 }
 
-void Verdict::TellRightFault(OdometryUpdate& update) const {
-  const bool is_of_now = right_fault_ != Reason::kRightOff && right_fault_ != Reason::kSwapped;
-  if (is_of_now) {
-    update.Degrade(right_fault_);
-  } else {
-    update.reason = Reason::kRightOff;
-  }
-}
-
 bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPose>& predicted,
                     OdometryUpdate& update) {
   PoseEstimate& pose = update.pose;
@@ -149,7 +140,7 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
   pose.covariance += update.doubt;
   is_followed_ = true;
   if (right_fault_ != Reason::kNone) {
-    TellRightFault(update);
+    update.Degrade(right_fault_ == Reason::kSwapped ? Reason::kRightOff : right_fault_);
   } else {
     right_belongs_.Add(LogRatioOfShare(ShareWithRight(tracked.observations), kTogether, kApart));
   }

@@ -142,7 +142,9 @@ TEST_F(VerdictTest, RowsThatDoNotAgreeTakeTheRightPictureAway) {
   Look(0.2);
   EXPECT_EQ(verdict_.right_fault(), Reason::kRightOff);
   EXPECT_EQ(verdict_.left_fault(), Reason::kNone);
-  EXPECT_EQ(Weigh().reason, Reason::kRightOff);
+  const OdometryUpdate update = Weigh();
+  EXPECT_EQ(update.reason, Reason::kRightOff);
+  EXPECT_EQ(update.pose.status, PoseStatus::kDegraded) << "the left image alone tells";
   for (int i = 0; i < 3; ++i) Look();
   EXPECT_EQ(verdict_.right_fault(), Reason::kNone);
 }
@@ -187,7 +189,7 @@ TEST_F(VerdictTest, SwappedIsTheLeftImageThatIsSeenFromTheRightCamera) {
     update.pose = tracked_.pose;
     EXPECT_EQ(verdict_.Weigh(tracked_, predicted, update), !is_swapped);
     EXPECT_EQ(update.reason, is_swapped ? Reason::kSwapped : Reason::kRightOff);
-    EXPECT_EQ(update.pose.IsTracked(), !is_swapped);
+    EXPECT_EQ(update.pose.HasPose(), !is_swapped);
   }
   tracked_.pose.camera_from_world = Rigid3();
   Weigh();

@@ -2,8 +2,7 @@
 # Makes recordings by seeds, real clips changed and rendered drives, with and without faults (test/recordings), runs the
 # odometry on each and writes what became of them to docs/recordings.md. Goes on where an earlier run stopped.
 # Usage: scripts/measure.sh recordings [--output DIR] [--half tune|judge] [--seconds N] [--count N] [--from SEED] ...
-#        --output DIR  where recordings.csv and the references are kept (default: recordings in the build folder); what was
-#                      found with other code belongs into another one
+#        --output DIR  for recordings.csv and the references (default: recordings in the build folder); another one for other code
 #        --seconds N   stops after so many seconds of work (default 3600); other options are those of the program `recordings`
 set -euo pipefail
 build=${BUILD_DIR:-_b}
@@ -22,7 +21,7 @@ while [ $# -gt 0 ]; do
 done
 scripts/build.sh recordings
 "$build/devel/lib/arfm_vo/recordings" "$output" --data "${ARFM_VO_SHARED:-../shared}/data" \
-  --references "$output/references" \
-  --seconds "$seconds" "${options[@]}"
+  --references "$output/references" --seconds "$seconds" \
+  "${options[@]}"
 python3 test/recordings/recordings_report.py "$output/recordings.csv" ${half:+"$half"} |
   test/readme_section.py docs/recordings.md recordings

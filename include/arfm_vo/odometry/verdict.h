@@ -50,8 +50,6 @@ class Verdict {
   /// Whether the left image is that of the right camera.
   bool IsSwapped(const Rigid3& camera_from_world,
                  const std::optional<PredictedPose>& predicted) const;
-  /// The left image alone tells. Where the right camera is dead that is worth a warning.
-  void TellRightFault(OdometryUpdate& update) const;
 
   double baseline_m_;
   double stamp_s_ = 0;
