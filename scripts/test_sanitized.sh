@@ -23,7 +23,8 @@ kind=$1; shift
 export BUILD_DIR=${BUILD_DIR:-_b_$kind} PATH=/usr/bin:$PATH
 # catkin keeps the environment of the tests as it is when it configures: Python's messages must have their folder.
 mkdir -p "$BUILD_DIR/devel/lib/python3/dist-packages"
-[ -f "$BUILD_DIR/build.ninja" ] || cmake -S . -B "$BUILD_DIR" -G Ninja -DCMAKE_BUILD_TYPE=Sanitized -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 \
+[ -f "$BUILD_DIR/build.ninja" ] || cmake -S . -B "$BUILD_DIR" -G Ninja -DCMAKE_BUILD_TYPE=Sanitized \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 \
   -DCMAKE_CXX_FLAGS_SANITIZED="-O1 -g1 -fno-omit-frame-pointer -fsanitize=$sanitizers -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS"
 targets=("$@")
 [ $# -gt 0 ] || mapfile -t targets < <(cd "$BUILD_DIR" && ctest -N | sed -n 's/.*_gtest_\(test_\w*\)$/\1/p')

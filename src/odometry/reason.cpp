@@ -6,18 +6,18 @@ const std::vector<ReasonRow>& ListReasons() {
   static constexpr char kLost[] =
       "no measurement: the last motion is continued for 2 s, or what tracks and gyro tell for 2 m, "
       "then lost";
+  static constexpr char kLeftAlone[] = "degraded: pose by the left image, new points by motion";
   static const std::vector<ReasonRow> rows = {
       {Reason::kNone, "", "tracked"},
       {Reason::kLeftRepeated, "the left camera repeats its picture", kLost},
       {Reason::kSwapped, "left and right are swapped", kLost},
       {Reason::kRightRepeated, "the right camera repeats its picture, the left one alone tells",
-       "degraded: pose by the left image"},
-      {Reason::kRightBlind, "the right camera sees nothing, the left one alone tells",
-       "degraded: pose by the left image"},
+       kLeftAlone},
+      {Reason::kRightBlind, "the right camera sees nothing, the left one alone tells", kLeftAlone},
       {Reason::kRightOff,
        "the rows of the two pictures do not agree (one late, or a camera moved?), the left one "
        "alone tells",
-       "degraded: pose by the left image, new points by motion"},
+       kLeftAlone},
       {Reason::kGroupsDiffer, "two groups of points move differently",
        "tracked: pose of the likelier group; the covariance reaches to the other, and to where the "
        "motion before would have led since"},

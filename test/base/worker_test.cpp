@@ -13,6 +13,20 @@ using testing::ElementsAre;
 
 void FailOnError(const std::exception& error) { ADD_FAILURE() << error.what(); }
 
+/// A job that goes on until it may end.
+class LongJob {
+ public:
+  void Run() {
+    has_begun_.set_value();
+    may_end_.get_future().wait();
+  }
+  void AwaitBegin() { has_begun_.get_future().wait(); }
+  void End() { may_end_.set_value(); }
+
+ private:
+  std::promise<void> has_begun_, may_end_;
+};
+
 TEST(Worker, RunsJobsInTheirOrder) {
   std::vector<int> ran;
   Worker worker(1, FailOnError);
@@ -23,18 +37,15 @@ TEST(Worker, RunsJobsInTheirOrder) {
 
 TEST(Worker, DropsTheOldestLossyJobsWhileBusyAndNoOthers) {
   std::vector<int> ran;
-  std::promise<void> is_busy, may_go;
+  LongJob long_job;
   Worker worker(2, FailOnError);
-  worker.Post([&] {
-    is_busy.set_value();
-    may_go.get_future().wait();
-  });
-  is_busy.get_future().wait();
+  worker.Post([&] { long_job.Run(); });
+  long_job.AwaitBegin();
   for (int i = 0; i < 5; ++i) {
     worker.PostLossy([&ran, i] { ran.push_back(i); });
     if (i == 0) worker.Post([&ran] { ran.push_back(100); });
   }
-  may_go.set_value();
+  long_job.End();
   worker.RunAndWait([] {});
   EXPECT_THAT(ran, ElementsAre(100, 3, 4));
   EXPECT_EQ(worker.num_dropped(), 3u);
@@ -43,16 +54,13 @@ TEST(Worker, DropsTheOldestLossyJobsWhileBusyAndNoOthers) {
 TEST(Worker, AFloodOfJobsIsBounded) {
   std::atomic<size_t> num_ran{0};
   std::string told;
-  std::promise<void> is_busy, may_go;
+  LongJob long_job;
   Worker worker(1, [&told](const std::exception& error) { told = error.what(); });
-  worker.Post([&] {
-    is_busy.set_value();
-    may_go.get_future().wait();
-  });
-  is_busy.get_future().wait();
+  worker.Post([&] { long_job.Run(); });
+  long_job.AwaitBegin();
   for (size_t i = 0; i < Worker::kMaxJobs + 50; ++i) worker.Post([&num_ran] { ++num_ran; });
   EXPECT_THROW(worker.RunAndWait([] {}), std::future_error);
-  may_go.set_value();
+  long_job.End();
   while (num_ran < Worker::kMaxJobs) std::this_thread::yield();
   worker.RunAndWait([] {});
   EXPECT_EQ(num_ran, Worker::kMaxJobs);
@@ -61,17 +69,16 @@ TEST(Worker, AFloodOfJobsIsBounded) {
 
 TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {
   std::vector<int> ran;
-  std::promise<void> is_busy, may_go;
+  LongJob long_job;
   Worker worker(2, FailOnError);
   worker.Hold(4);
   worker.PostLossy([&] {
-    is_busy.set_value();
-    may_go.get_future().wait();
+    long_job.Run();
     worker.Release();
   });
-  is_busy.get_future().wait();
+  long_job.AwaitBegin();
   for (int i = 0; i < 5; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
-  may_go.set_value();
+  long_job.End();
   worker.RunAndWait([&] {
     for (int i = 5; i < 9; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
   });
@@ -82,20 +89,19 @@ TEST(Worker, HeldJobsAreRunAfterTheReleaseAndTheLimitFallsBack) {
 
 TEST(Worker, WhileHeldJobsAreCaughtUpWithAsManyNewOnesWaitAsEver) {
   std::vector<int> ran;
-  std::promise<void> is_busy, may_go;
+  LongJob long_job;
   Worker worker(2, FailOnError);
   worker.Hold(10);
   worker.PostLossy([&] {
-    is_busy.set_value();
-    may_go.get_future().wait();
+    long_job.Run();
     worker.Release();
   });
-  is_busy.get_future().wait();
+  long_job.AwaitBegin();
   worker.PostLossy([&] {
     for (int i = 3; i < 6; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
   });
   for (int i = 0; i < 3; ++i) worker.PostLossy([&ran, i] { ran.push_back(i); });
-  may_go.set_value();
+  long_job.End();
   worker.RunAndWait([] {});
   worker.RunAndWait([] {});
   EXPECT_THAT(ran, ElementsAre(1, 2, 3, 4, 5));

@@ -189,7 +189,7 @@ TEST_F(VerdictTest, SwappedIsTheLeftImageThatIsSeenFromTheRightCamera) {
     update.pose = tracked_.pose;
     EXPECT_EQ(verdict_.Weigh(tracked_, predicted, update), !is_swapped);
     EXPECT_EQ(update.reason, is_swapped ? Reason::kSwapped : Reason::kRightOff);
-    EXPECT_EQ(update.pose.HasPose(), !is_swapped);
+    EXPECT_EQ(update.pose.status, is_swapped ? PoseStatus::kNoConsensus : PoseStatus::kDegraded);
   }
   tracked_.pose.camera_from_world = Rigid3();
   Weigh();

@@ -21,7 +21,6 @@ while [ $# -gt 0 ]; do
 done
 scripts/build.sh recordings
 "$build/devel/lib/arfm_vo/recordings" "$output" --data "${ARFM_VO_SHARED:-../shared}/data" \
-  --references "$output/references" --seconds "$seconds" \
-  "${options[@]}"
+  --references "$output/references" --seconds "$seconds" "${options[@]}"
 python3 test/recordings/recordings_report.py "$output/recordings.csv" ${half:+"$half"} |
   test/readme_section.py docs/recordings.md recordings
