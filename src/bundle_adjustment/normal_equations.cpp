@@ -4,6 +4,14 @@
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
 
 namespace arfm_vo {
+namespace {
+
+/// The coefficients of the correction are the field's of u, the lens's, and the field's of v.
+constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
+constexpr int kFirstOfV = kNumField + kNumLens;
+
+}  // namespace
+
 NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelection& selection,
                                  const BundleStructure& structure, const BundleOptions& options)
     : problem_(problem),
@@ -16,8 +24,9 @@ NormalEquations::NormalEquations(const BundleProblem& problem, const BundleSelec
       solver_(structure.blocks, num_coefficients_),
       ties_(structure.observations.size()),
       point_blocks_(structure.tracks.size()),
-      point_borders_(num_coefficients_ > 0 ? structure.tracks.size() : 0),
-      point_rights_(structure.tracks.size()) {
+      point_rights_(3, structure.tracks.size()),
+      point_borders_(num_coefficients_, 3 * structure.tracks.size()),
+      solved_borders_(num_coefficients_, 3 * structure.tracks.size()) {
   if (problem.correction_prior) prior_information_ = problem.correction_prior->Information();
 }
 
@@ -26,16 +35,21 @@ double NormalEquations::Linearize(const BundleState& state) {
   for (const Rigid3& pose : state.camera_from_world) rotations_.push_back(pose.RotationMatrix());
   const ReprojectionModel model(problem_.camera, state.correction, num_coefficients_ > 0);
   held_.SetZero(structure_.blocks, num_coefficients_);
+  point_rights_.setZero();
+  point_borders_.setZero();
+  field_block_.setZero();
   double cost = 0;
   Pacer pacer(max_time_share_);
   for (int track = 0; track < static_cast<int>(structure_.tracks.size()); ++track) {
     pacer.Pause();
     point_blocks_[track].setZero();
-    if (num_coefficients_ > 0) point_borders_[track].setZero(3, num_coefficients_);
-    point_rights_[track].setZero();
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       cost += LinearizeObservation(model, state, track, i);
     }
+  }
+  for (const int first : {0, kFirstOfV}) {
+    if (problem_.correction_prior && !problem_.correction_turns)
+      held_.corner.block<kNumField, kNumField>(first, first) += field_block_;
   }
   return cost + AddConstraints(state) + AddPrior(state);
 }
@@ -57,7 +71,7 @@ double NormalEquations::LinearizeObservation(const ReprojectionModel& model,
   const Eigen::Vector3d pull = -weight * term.by_x.transpose().lazyProduct(term.residual);
   const Eigen::Matrix3d m_r = m.lazyProduct(rotation);
   point_blocks_[track] += rotation.transpose().lazyProduct(m_r);
-  point_rights_[track] += rotation.transpose().lazyProduct(pull);
+  point_rights_.col(track) += rotation.transpose().lazyProduct(pull);
   if (free_pose != BundleStructure::kFixed) {
     const Eigen::Matrix3d x_m = CrossColumns(term.x, m);
     Matrix6d& block = held_.blocks[structure_.blocks.row_begin[free_pose]];
@@ -81,14 +95,13 @@ double NormalEquations::LinearizeObservation(const ReprojectionModel& model,
 
 void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weight,
                                        const Eigen::Matrix3d& rotation, int track, int free_pose) {
-  constexpr int kNumField = StereoCorrection::kNumField;
   const CorrectionBelief::Turns& turns = *problem_.correction_turns;
   Eigen::Matrix<double, 3, 2> by_turn;  // of (u_right, v_right), transposed
   by_turn.col(0).noalias() = turns.topRows<kNumField>().transpose() * term.right_by_field;
   by_turn.col(1).noalias() = turns.bottomRows<kNumField>().transpose() * term.right_by_field;
   const Eigen::Matrix<double, 3, 2> weighted = weight * by_turn;
   const Eigen::Matrix3d by_x = term.by_x.bottomRows<2>().transpose() * weighted.transpose();
-  point_borders_[track].leftCols<3>().noalias() += rotation.transpose() * by_x;
+  point_borders_.block<3, 3>(0, 3 * track).noalias() += by_x.transpose() * rotation;
   held_.corner.topLeftCorner<3, 3>().noalias() += weighted * by_turn.transpose();
   held_.corner_right.head<3>().noalias() -= weighted * term.residual.tail<2>();
   if (free_pose == BundleStructure::kFixed) return;
@@ -99,22 +112,21 @@ void NormalEquations::LinearizeByTurns(const ReprojectionTerm& term, double weig
 void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                                             const Eigen::Matrix3d& rotation, int track,
                                             int free_pose) {
-  constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
   const auto& field = term.right_by_field;
   const Eigen::Matrix<double, 4, 3> weighted = weight * term.by_x;
   // The coefficients of u move row 2 alone, those of v row 3, those of the lens all four.
-  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumLens)}) {
+  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kFirstOfV)}) {
     if (first >= num_coefficients_) break;
     const Eigen::Vector3d by_x = weighted.row(row);
-    point_borders_[track].middleCols<kNumField>(first).noalias() +=
-        (rotation.transpose() * by_x) * field.transpose();
+    point_borders_.block<kNumField, 3>(first, 3 * track).noalias() +=
+        field * (by_x.transpose() * rotation);
     if (free_pose == BundleStructure::kFixed) continue;
     Vector6d by_pose;
     by_pose << term.x.cross(by_x), by_x;
     held_.border[free_pose].middleCols<kNumField>(first).noalias() += by_pose * field.transpose();
   }
   const Eigen::Matrix<double, 3, kNumLens> by_x = weighted.transpose() * term.by_lens;
-  point_borders_[track].middleCols<kNumLens>(kNumField).noalias() += rotation.transpose() * by_x;
+  point_borders_.block<kNumLens, 3>(kNumField, 3 * track).noalias() += by_x.transpose() * rotation;
   if (problem_.correction_prior) LinearizeCorner(term, weight);
   if (free_pose == BundleStructure::kFixed) return;
   held_.border[free_pose].block<3, kNumLens>(0, kNumField) += Skew(term.x) * by_x;
@@ -122,20 +134,17 @@ void NormalEquations::LinearizeByCorrection(const ReprojectionTerm& term, double
 }
 
 void NormalEquations::LinearizeCorner(const ReprojectionTerm& term, double weight) {
-  constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
-  const auto& field = term.right_by_field;
-  const Eigen::Matrix<double, kNumField, kNumField> corner = weight * field * field.transpose();
-  for (const auto& [row, first] : {std::pair(2, 0), std::pair(3, kNumField + kNumLens)}) {
-    held_.corner.block<kNumField, kNumField>(first, first) += corner;
-    held_.corner_right.segment<kNumField>(first) -= weight * term.residual[row] * field;
-    const Eigen::Matrix<double, kNumField, kNumLens> mixed = weight * field * term.by_lens.row(row);
-    held_.corner.block<kNumField, kNumLens>(first, kNumField) += mixed;
-    held_.corner.block<kNumLens, kNumField>(kNumField, first) += mixed.transpose();
-  }
-  held_.corner.block<kNumLens, kNumLens>(kNumField, kNumField) +=
-      weight * term.by_lens.transpose() * term.by_lens;
-  held_.corner_right.segment<kNumLens>(kNumField) -=
-      weight * term.by_lens.transpose() * term.residual;
+  const Eigen::Matrix<double, kNumField, 1> field = weight * term.right_by_field;
+  field_block_.noalias() += field * term.right_by_field.transpose();
+  held_.corner.block<kNumLens, kNumField>(kNumField, 0).noalias() +=
+      term.by_lens.row(2).transpose() * field.transpose();
+  held_.corner.block<kNumField, kNumLens>(kFirstOfV, kNumField).noalias() +=
+      field * term.by_lens.row(3);
+  held_.corner_right.segment<kNumField>(0) -= term.residual[2] * field;
+  held_.corner_right.segment<kNumField>(kFirstOfV) -= term.residual[3] * field;
+  const Eigen::Matrix<double, kNumLens, 4> lens = weight * term.by_lens.transpose();
+  held_.corner.block<kNumLens, kNumLens>(kNumField, kNumField).noalias() += lens * term.by_lens;
+  held_.corner_right.segment<kNumLens>(kNumField).noalias() -= lens * term.residual;
 }
 
 double NormalEquations::AddConstraints(const BundleState& state) {

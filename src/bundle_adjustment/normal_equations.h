@@ -78,7 +78,7 @@ class NormalEquations {
                         const Eigen::Matrix3d& rotation, int track, int free_pose);
   void LinearizeByCorrection(const ReprojectionTerm& term, double weight,
                              const Eigen::Matrix3d& rotation, int track, int free_pose);
-  /// Of the correction by itself, where it is solved for.
+  /// Of the correction by itself, where it is solved for: the lower triangle.
   void LinearizeCorner(const ReprojectionTerm& term, double weight);
   void EliminatePoint(int track, double damping);
   double AddConstraints(const BundleState& state);
@@ -96,14 +96,18 @@ class NormalEquations {
   const int num_coefficients_;  ///< of the correction that are free
   CorrectionBelief::Matrix prior_information_ = CorrectionBelief::Matrix::Zero();
   ReducedSolver solver_;
-  std::vector<Eigen::Matrix3d> rotations_;      ///< [poses]
-  ReducedSystem held_;                          ///< equations with the points held
-  ReducedSystem reduced_;                       ///< with the points eliminated
-  std::vector<Tie> ties_;                       ///< [observations] poses by points
-  std::vector<Eigen::Matrix3d> point_blocks_;   ///< points by points
-  std::vector<BorderMatrix<3>> point_borders_;  ///< points by correction, where it is free
-  std::vector<Eigen::Vector3d> point_rights_;   ///< of b
-  std::vector<PoseByPoint> track_blocks_;       ///< of the point that is being eliminated
+  std::vector<Eigen::Matrix3d> rotations_;     ///< [poses]
+  ReducedSystem held_;                         ///< equations with the points held
+  ReducedSystem reduced_;                      ///< with the points eliminated
+  std::vector<Tie> ties_;                      ///< [observations] poses by points
+  std::vector<Eigen::Matrix3d> point_blocks_;  ///< points by points
+  Eigen::Matrix3Xd point_rights_;              ///< [3 x tracks] of b
+  std::vector<PoseByPoint> track_blocks_;      ///< of the point that is being eliminated
+  /// [coefficients x 3 tracks] correction by points, and that times the inverse of their blocks.
+  Eigen::MatrixXd point_borders_, solved_borders_;
+  /// [kNumField^2] of the field's coefficients of u by each other, which are those of v by each
+  /// other.
+  Eigen::Matrix<double, StereoCorrection::kNumField, StereoCorrection::kNumField> field_block_;
 };
 
 }  // namespace arfm_vo

@@ -4,7 +4,7 @@ namespace arfm_vo {
 void ReducedSystem::SetZero(const BlockPattern& pattern, int num_coefficients) {
   blocks.assign(pattern.columns.size(), Matrix6d::Zero());
   right.assign(pattern.num_rows(), Vector6d::Zero());
-  border.assign(pattern.num_rows(), BorderMatrix<6>::Zero(6, num_coefficients));
+  border.assign(pattern.num_rows(), BorderMatrix::Zero(6, num_coefficients));
   corner.setZero(num_coefficients, num_coefficients);
   corner_right.setZero(num_coefficients);
 }

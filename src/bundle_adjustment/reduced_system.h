@@ -10,10 +10,8 @@
 namespace arfm_vo {
 
 constexpr int kMaxCoefficients = StereoCorrection::kSize;
-/// Rows of poses or of points by the columns of the correction that are free.
-template <int kRows>
-using BorderMatrix =
-    Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::ColMajor, kRows, kMaxCoefficients>;
+/// Of a pose by the coefficients of the correction that are free.
+using BorderMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxCoefficients>;
 using CornerMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                                    kMaxCoefficients, kMaxCoefficients>;
 using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxCoefficients, 1>;
@@ -21,11 +19,11 @@ using CornerVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, k
 /// Normal equations H d = b over the free poses and the stereo correction: the part of the whole
 /// that is left when points are held or eliminated.
 struct ReducedSystem {
-  std::vector<Matrix6d> blocks;         ///< of poses by poses, as BlockPattern::columns
-  std::vector<Vector6d> right;          ///< [free poses] of b
-  std::vector<BorderMatrix<6>> border;  ///< [free poses] of poses by correction
-  CornerMatrix corner;                  ///< of correction by correction
-  CornerVector corner_right;            ///< of b
+  std::vector<Matrix6d> blocks;      ///< of poses by poses, as BlockPattern::columns
+  std::vector<Vector6d> right;       ///< [free poses] of b
+  std::vector<BorderMatrix> border;  ///< [free poses] of poses by correction
+  CornerMatrix corner;               ///< of correction by correction, the lower triangle
+  CornerVector corner_right;         ///< of b
 
   void SetZero(const BlockPattern& pattern, int num_coefficients);
   /// Adds what a constraint between the poses of two rows says; a row below 0: its pose is fixed.

@@ -27,6 +27,10 @@ const ReducedSystem& NormalEquations::EliminatePoints(double damping) {
     pacer.Pause();
     EliminatePoint(track, damping);
   }
+  if (problem_.correction_prior) {
+    reduced_.corner.triangularView<Eigen::Lower>() -= solved_borders_ * point_borders_.transpose();
+    reduced_.corner_right.noalias() -= solved_borders_ * point_rights_.reshaped();
+  }
   return reduced_;
 }
 
@@ -60,7 +64,9 @@ void NormalEquations::EliminatePoint(int track, double damping) {
   const bool with_correction = num_coefficients_ > 0;
   const auto& [point, first, last] = structure_.tracks[track];
   const Eigen::Matrix3d inverse = DampedInverse(track, damping);
-  const Eigen::Vector3d inverse_right = inverse * point_rights_[track];
+  const Eigen::Vector3d inverse_right = inverse * point_rights_.col(track);
+  const auto border = point_borders_.middleCols<3>(3 * track);
+  solved_borders_.middleCols<3>(3 * track) = border.lazyProduct(inverse);
   track_blocks_.resize(std::max<size_t>(track_blocks_.size(), last - first));
   for (int i = first; i < last; ++i) {
     if (structure_.FreePose(i) == BundleStructure::kFixed) continue;
@@ -80,22 +86,16 @@ void NormalEquations::EliminatePoint(int track, double damping) {
       block = structure_.blocks.Find(row, column, block);
       reduced_.blocks[block].noalias() -= product * track_blocks_[j - first].transpose();
     }
-    if (with_correction) reduced_.border[row] -= product.lazyProduct(point_borders_[track]);
+    if (with_correction) reduced_.border[row] -= product.lazyProduct(border.transpose());
   }
-  if (!problem_.correction_prior) return;
-  const BorderMatrix<3> product = inverse * point_borders_[track];
-  const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxCoefficients, 3> by_point =
-      point_borders_[track].transpose();
-  reduced_.corner.noalias() -= by_point.lazyProduct(product);
-  reduced_.corner_right.noalias() -= point_borders_[track].transpose() * inverse_right;
 }
 
 void NormalEquations::FindPointSteps(double damping, BundleStep& step) const {
   step.points.resize(structure_.tracks.size());
   const CornerVector correction = step.reduced.tail(num_coefficients_);
   for (int track = 0; track < static_cast<int>(structure_.tracks.size()); ++track) {
-    Eigen::Vector3d right = point_rights_[track];
-    if (num_coefficients_ > 0) right -= point_borders_[track] * correction;
+    Eigen::Vector3d right = point_rights_.col(track);
+    right.noalias() -= point_borders_.middleCols<3>(3 * track).transpose() * correction;
     for (int i = structure_.tracks[track].first; i < structure_.tracks[track].last; ++i) {
       const int free_pose = structure_.FreePose(i);
       if (free_pose == BundleStructure::kFixed) continue;
@@ -123,7 +123,7 @@ void NormalEquations::MeasureStep(double damping, BundleStep& step) const {
   }
   add(step.reduced.tail(num_coefficients_), held_.corner_right, held_.corner.diagonal());
   for (size_t track = 0; track < step.points.size(); ++track) {
-    add(step.points[track], point_rights_[track], point_blocks_[track].diagonal());
+    add(step.points[track], point_rights_.col(track), point_blocks_[track].diagonal());
   }
   step.expected_decrease = decrease;
 }
