@@ -48,10 +48,11 @@ void DisplaceByErrors(const StereoCamera& camera, const Eigen::Vector2d& pixel, 
   du[5] = dv[6] = 1;
 }
 
-/// Coefficients of ImageBasis by a unit of each error: the least squares fit over the image.
+/// Coefficients of ImageBasis by a unit of each error: the least squares fit over a grid in the
+/// image.
+template <int kGrid = 21>
 Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
     const StereoCamera& camera) {
-  constexpr int kGrid = 21;
   Eigen::Matrix<double, kNumTerms, kNumTerms> gram;
   Eigen::Matrix<double, kNumTerms, kNumErrors> along_u, along_v;
   gram.setZero();
@@ -108,7 +109,7 @@ CorrectionBelief CorrectionBelief::AfterAPause(const StereoCamera& camera) const
 }
 
 CorrectionBelief::Turns CorrectionBelief::ByTurn(const StereoCamera& camera) {
-  return CoefficientsByErrors(camera).leftCols<3>();
+  return CoefficientsByErrors<7>(camera).leftCols<3>();  // quadratic, as the basis is: exact
 }
 
 CorrectionBelief CorrectionBelief::After(const RightTurn& turn, const StereoCamera& camera) const {
