@@ -23,7 +23,7 @@ BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)
 FAILURES = ("process has died [pid", "Traceback")
 # Debian 11: roslaunch and rospy call Thread.isAlive as they end, which its Python 3.9 has no more.
 EXCUSED, EXCUSED_WITHIN_LINES = "has no attribute 'isAlive'", 10
-# Mesa's software renderer in Debian 12 writes beyond its memory in about one start of rviz in 100 (docs/proof.md): a block in
+# rviz crashes in one of 140 starts on the software renderer of Debian 12 (docs/proof.md): a block in
 # which rviz ends so is run once more.
 CRASH, ONCE_MORE = "\\[rviz-.*exit code -11", "rviz's renderer has crashed: the block is run once more"
 

@@ -1,18 +1,20 @@
 #!/usr/bin/python3
-"""Prints the table of scripts/measure.sh benchmark.
+"""Measures SURF and matching against what Debian offers; writes docs/benchmark.md.
 
-Usage: benchmark_table.py FEATURES.json LINES TIMING.csv SEQUENCE
+Usage: scripts/measure.sh benchmark [LEFT.png RIGHT.png]      default: the first pair of KITTI 06 in ../shared/data
 """
-import csv
 import json
 import os
-import statistics
+import pathlib
+import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from readme_section import replace_section  # noqa: E402
 
 SUFFIX = "/process_time/real_time"
 SURF = "SurfWhole/oriented/1000/1/100"  # points, threads, per cent of the image's side
 DLIB, EXACT, FLANN = "DlibSurf", "ExactMatching/1000", "OpenCvMatching<cv::FlannBasedMatcher>/1000"
-OTHERS = ("frame", "stamp_s", "total_ms", "memory_mb", "state", "reason", "log_odds", "matches", "inliers")  # than stages
 # Label, benchmark, and that whose CPU time its own is compared with.
 ROWS = [
     ("SURF, detector", "SurfDetector", None), ("SURF, orientation and descriptor", "SurfDescriptorOnly", None),
@@ -36,27 +38,25 @@ def row(medians, label, benchmark, against):
     return f"| {label} | {entry['points']:.0f} | {entry['real_time']:.2f} | {entry['cpu_time']:.2f} | {ratio} | {recall} |"
 
 
-def main():
-    features, lines, timing, sequence = sys.argv[1:5]
-    with open(features) as stream:
-        medians = {entry["run_name"].replace(SUFFIX, ""): entry for entry in json.load(stream)["benchmarks"]
-                   if entry.get("aggregate_name") == "median"}
-    with open(lines) as stream:
-        pair = {key: float(value) for key, value in (line.split(": ", 1) for line in stream if "_ms" in line or "ms_" in line)}
-    with open(timing) as stream:
-        pairs = list(csv.DictReader(stream))
-    stages = ", ".join(f"{stage} {statistics.median(float(one[stage]) for one in pairs if one[stage]):.1f}"
-                       for stage in pairs[0] if stage not in OTHERS)
+def main(arguments):
+    folder = pathlib.Path(os.environ.get("ARFM_VO_SHARED", "../shared")) / "data/kitti/odometry_06_000-050"
+    left, right = arguments or [str(folder / image / "000000.png") for image in ("image_0", "image_1")]
+    subprocess.run(["scripts/build.sh", "features_benchmark"], stdout=subprocess.DEVNULL, check=True)
+    program = pathlib.Path(os.environ.get("BUILD_DIR", "_b")) / "devel/lib/arfm_vo/features_benchmark"
+    measured = subprocess.run([program, "--benchmark_repetitions=5", "--benchmark_min_time=0.2", "--benchmark_format=json",
+                               "--benchmark_enable_random_interleaving=true"], stdout=subprocess.PIPE, check=True,
+                              env={**os.environ, "ARFM_VO_PAIR": left + ":" + right}).stdout
+    medians = {entry["run_name"].replace(SUFFIX, ""): entry for entry in json.loads(measured)["benchmarks"]
+               if entry.get("aggregate_name") == "median"}
     dlib, exact = (medians[slow]["cpu_time"] / medians[fast]["cpu_time"] for slow, fast in ((DLIB, SURF), (FLANN, EXACT)))
-    print(f"First pair of {sequence} at 1226x370, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; medians. "
-          "`times` is CPU time over that of the bold line.", "",
-          "| | points | ms | CPU ms | times | finds the true nearest |", "|---|---|---|---|---|---|",
-          *(row(medians, *one) for one in ROWS), "",
-          f"SURF takes 1/{dlib:.1f} of dlib's time; exact matching 1/{exact:.0f} of FLANN's (among points of the same sign of the "
-          "Laplacian).", "",
-          f"Whole pair on {sequence}, in process: median {pair['ms_per_pair_median']:.1f} ms, p95 {pair['ms_per_pair_p95']:.1f} ms, "
-          f"CPU of all threads {pair['cpu_ms_per_pair']:.1f} ms (medians of the stages, ms: {stages}).", sep="\n")
+    lines = [f"{left} at load {os.getloadavg()[0]:.1f} of {os.cpu_count()} cores; medians. `times` is CPU time over that of the bold line.",
+             "", "| | points | ms | CPU ms | times | finds the true nearest |", "|---|---|---|---|---|---|",
+             *(row(medians, *one) for one in ROWS), "",
+             f"SURF takes 1/{dlib:.1f} of dlib's time; exact matching 1/{exact:.0f} of FLANN's (among points of the same sign of the "
+             "Laplacian)."]
+    print("\n".join(lines))
+    replace_section("docs/benchmark.md", "benchmark", "\n".join(lines))
 
 
 if __name__ == "__main__":
-    main()
+    print(__doc__) if sys.argv[1:2] in (["-h"], ["--help"]) else main(sys.argv[1:])
