@@ -23,9 +23,10 @@ PROGRAMS = pathlib.Path(os.environ.get("BUILD_DIR", "_b")) / "devel/lib/arfm_vo"
 SHARED = pathlib.Path(os.environ.get("ARFM_VO_SHARED", "../shared")) / "data"
 GIVEN = ("kitti/odometry_06_000-050", "kitti/raw_2011_09_26_drive_0001", "kitti/odometry_05_100-159", "kitti/odometry_04_000-050",
          "handheld/tumvi_room1")
-RENDERED = {"rendered, 0.1 m/s, 10 pairs a second": ("--path", "straight", "--step", "0.01"),
-            "rendered, 0.1 m/s, 5 pairs a second": ("--path", "straight", "--step", "0.02"), "rendered, at rest": ("--path", "rest"),
-            "rendered, 1624x1234": ("--path", "straight", "--step", "0.05", "--width", "1624", "--height", "1234")}
+RENDERED = {"rendered, 0.1 m/s, 10 pairs a second": "--pairs 60 --path straight --step 0.01",
+            "rendered, 0.1 m/s, 5 pairs a second": "--pairs 60 --path straight --step 0.02",
+            "rendered, at rest": "--pairs 40 --path rest",
+            "rendered, 1624x1234": "--pairs 24 --path straight --step 0.1 --width 1624 --height 1234"}
 
 
 def run(*command):
@@ -63,7 +64,7 @@ def main(arguments):
             folders = {pathlib.Path(name).name: SHARED / name for name in GIVEN if (SHARED / name).is_dir()}
             for i, (name, options) in enumerate(RENDERED.items()):
                 folders[name] = work / f"rendered_{i}"
-                run(PROGRAMS / "render_sequence", folders[name], "--pairs", "60", *options)
+                run(PROGRAMS / "render_sequence", folders[name], "--threads", str(os.cpu_count()), *options.split())
         head = ["recording", "with features", "instructions", "arfm_vo", *peers, *(f"CPU over {peer}'s" for peer in peers)]
         lines = [f"Median, p95 and CPU, ms a pair: medians of {NUM_RUNS} runs in turn, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}. "
                  "Instructions: millions a pair, decoding included.", "", "| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
