@@ -11,7 +11,7 @@ api_page             test/static_checks/api_page.py          1_s     _b         
 benchmark            test/benchmark/benchmark.py             5_min   KITTI,quiet   time of SURF and matching
 benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet     latency and drops of the nodes
 closed_loop          test/rehearsal/closed_loop.sh           12_min  -             24 simulated drives to a goal
-cost                 test/benchmark/cost.py                  8_min   KITTI,quiet   time, CPU and instructions a pair
+cost                 test/benchmark/cost.py                  8_min   _b            time, CPU and instructions a pair
 experiments          test/experiments/experiments.sh         10_min  KITTI         section 4 of the paper
 fault_campaign       test/faults/fault_campaign.sh           26_min  quiet         faults in the running nodes, time to stop
 fault_table          test/faults/fault_table.sh              10_s    -             faults in process, time to stop

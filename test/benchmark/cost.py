@@ -10,6 +10,7 @@ import csv
 import os
 import pathlib
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -56,6 +57,8 @@ def row(name, programs, folder, work):
 
 
 def main(arguments):
+    if not shutil.which("valgrind"):
+        sys.exit("cost: valgrind is missing (apt-get install valgrind)")
     peers = dict(argument.split("=", 1) for argument in arguments if "=" in argument)
     folders = {pathlib.Path(folder).name: folder for folder in arguments if "=" not in folder}
     with tempfile.TemporaryDirectory() as work:
