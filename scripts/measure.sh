@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 # sanitizers, fuzz and mutants build a tree of their own first, which takes 15 minutes more.
 table='
 api_page             test/static_checks/api_page.py          1_s     _b            docs/api.md from the code; --check only compares
-benchmark            test/benchmark/benchmark.py             5_min   KITTI,quiet   time of SURF and matching
+benchmark            test/benchmark/benchmark.py             1_min   KITTI,quiet   time of SURF and matching
 benchmark_nodes      test/benchmark/benchmark_nodes.sh       5_min   BAG,quiet     latency and drops of the nodes
 closed_loop          test/rehearsal/closed_loop.sh           12_min  -             24 simulated drives to a goal
 cost                 test/benchmark/cost.py                  8_min   _b            time, CPU and instructions a pair
