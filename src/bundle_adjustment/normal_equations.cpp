@@ -8,7 +8,7 @@ namespace {
 
 /// The coefficients of the correction are the field's of u, the lens's, and the field's of v.
 constexpr int kNumField = StereoCorrection::kNumField, kNumLens = StereoCorrection::kNumLens;
-constexpr int kFirstOfV = kNumField + kNumLens;
+constexpr int kFirstOfV = StereoCorrection::kNumPlacing;
 
 }  // namespace
 
@@ -47,8 +47,8 @@ double NormalEquations::Linearize(const BundleState& state) {
       cost += LinearizeObservation(model, state, track, i);
     }
   }
-  for (const int first : {0, kFirstOfV}) {
-    if (problem_.correction_prior && !problem_.correction_turns)
+  if (problem_.correction_prior && !problem_.correction_turns) {
+    for (const int first : {0, kFirstOfV})
       held_.corner.block<kNumField, kNumField>(first, first) += field_block_;
   }
   return cost + AddConstraints(state) + AddPrior(state);

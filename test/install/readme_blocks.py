@@ -23,8 +23,7 @@ BLOCK = re.compile(r"(?:<!-- readme_blocks: ([^>]*) -->\n)?```(?:sh|bash)\n(.*?)
 FAILURES = ("process has died [pid", "Traceback")
 # Debian 11: roslaunch and rospy call Thread.isAlive as they end, which its Python 3.9 has no more.
 EXCUSED, EXCUSED_WITHIN_LINES = "has no attribute 'isAlive'", 10
-# rviz crashes in one of 140 starts on the software renderer of Debian 12 (docs/proof.md): a block in
-# which rviz ends so is run once more.
+# rviz crashes in one of 140 starts on Debian 12's software renderer (docs/proof.md): a block in which it does is run once more.
 CRASH, ONCE_MORE = "\\[rviz-.*exit code -11", "rviz's renderer has crashed: the block is run once more"
 
 
@@ -59,11 +58,12 @@ def write_script(blocks):
 
 
 def find_failures(said):
-    """The lines of what was said that tell of a failure."""
-    tried_again = [i for i, text in enumerate(said) if ONCE_MORE in text]
+    """The lines of what was said that tell of a failure; a crash of rviz does where its block was not run once more after it."""
+    def is_tried_again(i):
+        return ONCE_MORE in next((text for text in said[i:] if text.startswith("== ") or ONCE_MORE in text), "")
     return [text.strip() for i, text in enumerate(said) if any(failure in text for failure in FAILURES)
             and not ("Traceback" in text and any(EXCUSED in line for line in said[i:i + EXCUSED_WITHIN_LINES]))
-            and not (re.search(CRASH, text) and any(again > i for again in tried_again))]
+            and not (re.search(CRASH, text) and is_tried_again(i))]
 
 
 def run(script, folder, home):
