@@ -5,8 +5,8 @@
 #include <string>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
-#include "arfm_vo/pose/chi_square.h"
 #include "reduced_system.h"
 
 namespace arfm_vo {

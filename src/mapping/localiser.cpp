@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/base/number_rows.h"
-#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/pose/carry_covariance.h"
-#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {

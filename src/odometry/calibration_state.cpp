@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 
 namespace arfm_vo {
 namespace {

@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
-#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {

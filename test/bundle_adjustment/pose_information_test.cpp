@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
-#include "arfm_vo/pose/chi_square.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/pose/reprojection.h"
 #include "pose/pose_scene.h"
 

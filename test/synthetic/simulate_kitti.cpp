@@ -3,10 +3,10 @@
 #include <numeric>
 #include <sstream>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/configuration/program.h"
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/geometry/kitti_poses.h"
-#include "arfm_vo/pose/chi_square.h"
 #include "synthetic/simulated_run.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Cholesky>
 #include <random>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/pose/carry_covariance.h"
-#include "arfm_vo/pose/chi_square.h"
 
 namespace arfm_vo {
 namespace {

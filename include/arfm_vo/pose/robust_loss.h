@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 
 namespace arfm_vo {
 

@@ -1,4 +1,4 @@
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 
 #include <gtest/gtest.h>
 

@@ -1,19 +1,15 @@
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
 
 #include <cmath>
 
 #include "arfm_vo/base/check.h"
 
 namespace arfm_vo {
-namespace {
 
-/// log Gamma(x). std::lgamma writes the sign into a variable that all threads share.
 double LogGamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);
 }
-
-}  // namespace
 
 double ChiSquareProbability(int dof, double x) {
   Require(dof >= 1, "chi-square needs at least one degree of freedom");

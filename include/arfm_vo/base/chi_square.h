@@ -9,4 +9,7 @@ double ChiSquareProbability(int dof, double x);
 /// Throws std::invalid_argument outside.
 double ChiSquareQuantile(int dof, double probability);
 
+/// The logarithm of the Gamma function. (std::lgamma writes the sign where other threads do.)
+double LogGamma(double x);
+
 }  // namespace arfm_vo
