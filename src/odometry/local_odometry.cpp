@@ -111,9 +111,9 @@ void LocalOdometry::Implementation::Track(const StereoFrame& measured, const Ste
     Continue(frame, images, predicted, by_patches, update);
   }
   if (!is_left_good) update.reason = verdict_.left_fault();
-  if (!update.pose.HasPose() && verdict_.right_fault() == Reason::kSwapped) {
-    update.reason = Reason::kSwapped;
-  }
+  const bool is_for_right = map_.keyframes().empty() || verdict_.right_fault() == Reason::kSwapped;
+  if (is_left_good && is_for_right && !update.pose.HasPose())
+    update.reason = verdict_.right_fault();
   if (!update.is_keyframe) return;
   if (!is_right_good) {
     frame.points = TriangulateByMotion(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/base/median.h"
 
 namespace arfm_vo {
@@ -46,6 +47,12 @@ RowModel RowModel::AfterAKnock() const {
 
 double RowModel::Predict(double u_right, double v_right) const {
   return coefficients_.dot(ImageBasis(camera_, {u_right, v_right}).values);
+}
+
+bool RowModel::IsPlausible() const {
+  static const double bound = ChiSquareQuantile(kNumTerms, 0.9999);
+  const Terms error = coefficients_ - prior_mean_;
+  return error.dot(prior_information_ * error) <= bound;
 }
 
 std::vector<double> RowModel::Deviations(const std::vector<RowSample>& samples,

@@ -188,6 +188,11 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   const RowModel before = row_model_;
   LearnRows(left, sightings);
   StereoPoints points = Triangulate(left, sightings);
+  if (!before.IsLearnt() && !row_model_.IsPlausible()) {  // nor teach these anything
+    row_model_ = before;
+    row_agreement_ = 0;
+    return points;
+  }
   if (row_agreement_ >= kMinRowAgreement || !before.IsLearnt()) return points;
   // Either the right camera was knocked, or these are pictures of two moments, which teach nothing.
   const double agreement = row_agreement_;

@@ -111,5 +111,18 @@ TEST(RowModel, NoSamplesChangeNothing) {
   EXPECT_EQ(model.Predict(10, 20), before);
 }
 
+TEST(RowModel, NoCalibrationErrsLikeThePicturesOfTwoMoments) {
+  RowModel turned(kCamera, kCalibration);
+  EXPECT_TRUE(turned.IsPlausible());
+  turned.Update(Samples(400, 0.2, 0.2, 7));
+  EXPECT_TRUE(turned.IsPlausible()) << "by a turn, and with wrong matches";
+  // Ahead: all moves away from the centre of the picture.
+  RowModel moved(kCamera, kCalibration);
+  std::vector<RowSample> samples = Samples(400, 0.2, 0, 8);
+  for (RowSample& sample : samples) sample.residual_px = 0.03 * (sample.v_right - 180);
+  moved.Update(samples);
+  EXPECT_FALSE(moved.IsPlausible());
+}
+
 }  // namespace
 }  // namespace arfm_vo

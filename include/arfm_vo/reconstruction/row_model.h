@@ -32,6 +32,9 @@ class RowModel {
   /// How far the newest pair's rows are off the model as a whole, px (median): a bump between the
   /// exposures of the cameras, which the model does not follow at once. Zero below 0.3 px.
   double shift_px() const { return shift_px_; }
+  /// Whether a calibration can err as the model has it: but for one in 10,000 all can. Pictures of
+  /// two moments in a motion displace the rows as no calibration does.
+  bool IsPlausible() const;
   /// True once enough samples have been seen for the model to be trusted.
   bool IsLearnt() const { return num_samples_ >= kMinSamples; }
 
