@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arfm_vo/pose/chi_square.h"
 #include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/pose/reprojection.h"
 
@@ -51,8 +50,6 @@ std::vector<std::pair<int, int>> Match(const Place& place, const std::vector<See
 /// RecognisedPlace::log_false_alarms.
 double LogFalseAlarmsOf(const StereoCamera& camera, const std::vector<PointObservation>& matches,
                         const PoseEstimate& pose) {
-  const double bounds[] = {ChiSquareQuantile(2, kInlierProbability),
-                           ChiSquareQuantile(3, kInlierProbability)};
   const int num_matches = static_cast<int>(matches.size());
   double num_alike = 1;
   for (const PointObservation& match : matches) {
@@ -60,7 +57,8 @@ double LogFalseAlarmsOf(const StereoCamera& camera, const std::vector<PointObser
     if (x.z() <= kMinDepth) continue;
     for (const PointObservation& other : matches) {
       const double error = ReprojectionError(camera, other, x).squaredNorm();
-      num_alike += &other != &match && error < bounds[other.has_right] * Square(other.sigma_px);
+      num_alike +=
+          &other != &match && error < InlierBound(other.NumCoordinates()) * Square(other.sigma_px);
     }
   }
   return LogFalseAlarms(num_matches, pose.num_inliers, std::log(num_alike / Square(num_matches)));

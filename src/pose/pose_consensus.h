@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/pose/pose_estimator.h"
 #include "point_spread.h"
 
@@ -24,9 +25,9 @@ class Consensus {
   double Classify(const Rigid3& camera_from_world, std::vector<char>& is_inlier) const;
 
  private:
-  /// The squared error of an observation in units of its standard deviation.
-  double SquaredError(int i, const Eigen::Matrix3d& rotation,
-                      const Eigen::Vector3d& translation) const;
+  /// NormalizedError of an observation, by its PointSpread.
+  NormalizedReprojection FindError(int i, const Eigen::Matrix3d& rotation,
+                                   const Eigen::Vector3d& translation) const;
   Eigen::Vector2d Ray(const PointObservation& observation) const {
     return {(observation.pixels.x() - camera_.cx) / camera_.fx,
             (observation.pixels.y() - camera_.cy) / camera_.fy};
@@ -34,8 +35,7 @@ class Consensus {
 
   const StereoCamera& camera_;
   const std::vector<PointObservation>& observations_;
-  const int least_;         ///< fewer agree by chance
-  const double bounds_[2];  ///< of the squared error, without and with a right pixel
+  const int least_;  ///< fewer are no pose
   std::vector<PointSpread> spreads_;
 };
 

@@ -44,14 +44,16 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
   estimate.num_matches = num_observations;
   if (is_inlier) is_inlier->assign(observations.size(), 0);
   estimate.status = PoseStatus::kTooFewMatches;
-  const int least = LeastAgreeing(num_observations, options.min_inliers);
-  if (num_observations < least) return estimate;
+  if (num_observations < options.min_inliers) return estimate;
 
   estimate.status = PoseStatus::kNoConsensus;
   const Agreement agreement = HoldElection(camera, observations, predicted, options);
   const PoseRefinement& refinement = agreement.refinement;
   if (refinement.status != RefinementStatus::kConverged) return estimate;
-  if (refinement.num_inliers < least) return estimate;
+  if (refinement.num_inliers < options.min_inliers) return estimate;
+  if (AgreesByChance(camera, observations, refinement.is_inlier, refinement.camera_from_world)) {
+    return estimate;
+  }
   double votes = 0, all_votes = 0;
   for (size_t i = 0; i < observations.size(); ++i) {
     votes += refinement.is_inlier[i] * observations[i].votes;

@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "arfm_vo/base/check.h"
-#include "arfm_vo/pose/chi_square.h"
+#include "arfm_vo/base/chi_square.h"
+#include "arfm_vo/pose/false_alarms.h"
 #include "arfm_vo/pose/reprojection.h"
 #include "pose_equations.h"
 #include "scaled_normal_matrix.h"
@@ -32,7 +33,7 @@ struct ResidualModel {
 
   ResidualModel(const PoseRefinementOptions& options, int num_coordinates)
       : loss(options.loss, options.loss_threshold_sigma, num_coordinates),
-        bound(ChiSquareQuantile(num_coordinates, kInlierProbability)),
+        bound(InlierBound(num_coordinates)),
         median(ChiSquareQuantile(num_coordinates, kInlierProbability / 2)),
         lost_weight(loss.Weight(bound) *
                     (1 - ChiSquareProbability(num_coordinates + 2, bound) / kInlierProbability)) {}

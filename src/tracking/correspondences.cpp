@@ -68,7 +68,7 @@ struct Agreement {
   }
 
   /// Of two groups the larger one is likelier to be the ground, and few agree by chance.
-  double LogRatioOfSize() const {
+  double LogRatioOfSize(double log_false_alarms) const {
     struct Region {
       int num = 0, num_explained = 0, num_agreeing = 0;
     } of_region[Correspondences::kRegions];
@@ -79,17 +79,14 @@ struct Agreement {
       region.num_agreeing += agrees[i];
     }
     double share = 0, weights = 0;
-    int num_agreeing = 0;
     for (const Region& region : of_region) {
-      num_agreeing += region.num_agreeing;
       if (region.num_explained == 0) continue;
       const double weight = std::min(1., static_cast<double>(region.num) / kEnoughInRegion);
       share += weight * region.num_agreeing / region.num_explained;
       weights += weight;
     }
     const double larger = (2 * share / std::max(1e-9, weights) - 1) / kHidden;
-    const double by_chance = LogFalseAlarms(static_cast<int>(agrees.size()), num_agreeing);
-    return -std::log1p(std::exp(-larger)) - std::log1p(std::exp(by_chance));
+    return -std::log1p(std::exp(-larger)) - std::log1p(std::exp(log_false_alarms));
   }
 
  private:
@@ -172,8 +169,9 @@ LandmarkObservations Correspondences::Select(const std::vector<char>& flags, cha
   return selected;
 }
 
-GroundBelief Correspondences::Weigh(const StereoCamera& camera, const std::vector<char>& flags,
-                                    char flag, const LogLikelihoods& if_none,
+GroundBelief Correspondences::Weigh(const StereoCamera& camera, const Rigid3& camera_from_world,
+                                    const std::vector<char>& flags, char flag,
+                                    const LogLikelihoods& if_none,
                                     const LogLikelihoods& if_come) const {
   Agreement agreement;
   // (A correction may place what the border shows beyond it.)
@@ -182,7 +180,8 @@ GroundBelief Correspondences::Weigh(const StereoCamera& camera, const std::vecto
     agreement.agrees.push_back(flags[i] == flag);
     agreement.is_explained.push_back(flags[i] != 0);
   }
-  const double of_size = agreement.LogRatioOfSize();
+  const double of_size =
+      agreement.LogRatioOfSize(LogFalseAlarms(camera, points, flags, flag, camera_from_world));
   const LogLikelihoods none = agreement.Weigh(landmarks, 0), come = agreement.Weigh(landmarks, 1);
   const double none_ground = if_none.if_ground + none.if_ground + of_size;
   const double none_not = if_none.if_not + none.if_not;

@@ -52,7 +52,7 @@ void WeighGround(const StereoCamera& camera, const LocalMap& map, const Expectat
       return LogLikelihoods{std::log(probability * prior.ground) + motion(pose) + rest.value_or(0),
                             std::log(probability * if_not)};
     };
-    GroundBelief ground = tracked.matches.Weigh(camera, tracked.agrees, flag,
+    GroundBelief ground = tracked.matches.Weigh(camera, pose, tracked.agrees, flag,
                                                 likely(1 - map.arrived(), expected.if_none),
                                                 likely(map.arrived(), expected.if_come));
     ground.log_odds -= std::log(expected.if_none.ground / (1 - expected.if_none.ground));

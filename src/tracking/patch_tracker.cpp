@@ -26,6 +26,9 @@ constexpr size_t kEnoughCoarse = 100;
 /// A prediction that errs by so many standard deviations must not put patches out of reach.
 constexpr double kReachSigmas = 2;
 
+/// How far from where it is expected a patch is found in an image halved so often, px.
+double ReachOf(int level) { return std::ldexp(PatchAlignmentLimits().max_shift_px, level); }
+
 template <class Condition>
 void EraseIf(std::vector<const Landmark*>& landmarks, const Condition& condition) {
   landmarks.erase(std::remove_if(landmarks.begin(), landmarks.end(), condition), landmarks.end());
@@ -66,9 +69,7 @@ std::optional<int> PatchTracker::LevelFor(const LocalMap& map,
   const double sigma_px =
       camera_.fx * (predicted.sigma_turn_rad + predicted.sigma_shift_m / Median(std::move(depths)));
   for (int level = 0; level <= kMostHalved; ++level) {
-    if (kReachSigmas * sigma_px < std::ldexp(PatchAlignmentLimits().max_shift_px, level)) {
-      return level;
-    }
+    if (kReachSigmas * sigma_px < ReachOf(level)) return level;
   }
   return std::nullopt;
 }
@@ -142,7 +143,9 @@ std::optional<TrackedFrame> PatchTracker::At(const StereoImages& images, const L
     patches.Append(Measure(images, map, missed, pose, expected.use_right));
     tracked.agrees = Refine(patches, tracked);
   }
-  if (tracked.agrees.empty()) return std::nullopt;
+  if (tracked.agrees.empty() || AgreesByChance(camera_, patches.points, tracked.agrees, pose)) {
+    return std::nullopt;
+  }
   TellTurn(patches, expected, tracked);
   tracked.matches = std::move(patches);
   EraseIf(seen_before, [](const Landmark* landmark) { return landmark->num_missed > 0; });
@@ -164,13 +167,14 @@ bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
     const size_t every = 1 + landmarks.size() / kEnoughCoarse;
     std::vector<const Landmark*> some;
     for (size_t i = 0; i < landmarks.size(); i += every) some.push_back(landmarks[i]);
-    const Correspondences patches = Measure(map, some, [&](const auto& landmark, const auto& seen) {
-      return aligner_.AlignCoarsely(landmark, seen, left_halved, level, camera_from_world);
-    });
+    const Correspondences patches =
+        Measure(map, some, level, [&](const auto& landmark, const auto& seen) {
+          return aligner_.AlignCoarsely(landmark, seen, left_halved, level, camera_from_world);
+        });
     const PoseRefinement refined =
         RefinePose(camera_, patches.points, camera_from_world, options_.refinement);
     if (refined.status != RefinementStatus::kConverged ||
-        refined.num_inliers < LeastAgreeing(static_cast<int>(patches.points.size()))) {
+        AgreesByChance(camera_, patches.points, refined.is_inlier, refined.camera_from_world)) {
       return false;
     }
     camera_from_world = refined.camera_from_world;
@@ -179,7 +183,7 @@ bool PatchTracker::Approach(const cv::Mat& left, const LocalMap& map, int level,
 }
 
 Correspondences PatchTracker::Measure(const LocalMap& map,
-                                      const std::vector<const Landmark*>& landmarks,
+                                      const std::vector<const Landmark*>& landmarks, int level,
                                       const AlignLandmark& align) const {
   std::vector<std::optional<LandmarkObservation>> observations(landmarks.size());
   const cv::Range all(0, static_cast<int>(landmarks.size()));
@@ -191,9 +195,9 @@ Correspondences PatchTracker::Measure(const LocalMap& map,
   });
   Correspondences correspondences;
   for (size_t i = 0; i < landmarks.size(); ++i) {
-    if (observations[i]) {
-      correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
-    }
+    if (!observations[i]) continue;
+    correspondences.Add(camera_, correction_, *landmarks[i], *observations[i]);
+    correspondences.points.back().reach_px = ReachOf(level);
   }
   return correspondences;
 }
@@ -201,7 +205,7 @@ Correspondences PatchTracker::Measure(const LocalMap& map,
 Correspondences PatchTracker::Measure(const StereoImages& images, const LocalMap& map,
                                       const std::vector<const Landmark*>& landmarks,
                                       const Rigid3& camera_from_world, bool use_right) const {
-  return Measure(map, landmarks, [&](const Landmark& landmark, const Keyframe& reference) {
+  return Measure(map, landmarks, 0, [&](const Landmark& landmark, const Keyframe& reference) {
     return aligner_.Align(landmark, reference, images, camera_from_world, use_right);
   });
 }
@@ -211,9 +215,10 @@ std::vector<char> PatchTracker::Refine(const Correspondences& patches,
   PoseRefinement refined =
       RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
   const int num_patches = static_cast<int>(patches.points.size());
-  const double enough =
-      std::max<double>(LeastAgreeing(num_patches), options_.min_inlier_share * num_patches);
-  if (refined.status != RefinementStatus::kConverged || refined.num_inliers < enough) return {};
+  if (refined.status != RefinementStatus::kConverged ||
+      refined.num_inliers < options_.min_inlier_share * num_patches) {
+    return {};
+  }
   tracked.pose.camera_from_world = refined.camera_from_world;
   tracked.pose.covariance = refined.covariance;
   tracked.pose.num_matches = num_patches;

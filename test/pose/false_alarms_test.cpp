@@ -16,18 +16,43 @@ TEST(FalseAlarms, CountTheSetsThatAgreeByChance) {
   EXPECT_NEAR(LogFalseAlarms(4, 4, std::log(0.01)), std::log(4 * 0.01), 1e-12);
 }
 
+TEST(FalseAlarms, TheBestNumberOfPointsCounts) {
+  const double few = std::log(1e-3);
+  // Of 5 matches all agree: one set with ten samples, and one or two more that it may hold.
+  EXPECT_NEAR(LogFalseAlarms(5, std::vector<double>(5, few)), std::log(10 * 2) + 2 * few, 1e-9);
+  std::vector<double> with_poor(5, few);
+  with_poor.resize(20, 0);
+  EXPECT_NEAR(LogFalseAlarms(40, with_poor), LogFalseAlarms(40, std::vector<double>(5, few)), 1e-9);
+  EXPECT_GT(LogFalseAlarms(40, {few, few, few}), 0) << "a sample agrees with its own pose";
+}
+
 TEST(FalseAlarms, FewMatchesThatAllAgreeAreEnoughAndTheSameNumberOfManyIsNot) {
-  EXPECT_GT(LeastAgreeing(0), 0);
-  EXPECT_GT(LeastAgreeing(4), 4) << "even all of them agree by chance";
-  EXPECT_EQ(LeastAgreeing(5), 5);
-  int last = 0;
-  for (const int num_matches : {5, 15, 30, 100, 300, 1000}) {
-    const int least = LeastAgreeing(num_matches);
-    EXPECT_GT(least, last);
-    EXPECT_LE(LogFalseAlarms(num_matches, least, std::log(0.003)), std::log(1e-4));
-    EXPECT_GT(LogFalseAlarms(num_matches, least - 1, std::log(0.003)), std::log(1e-4));
-    last = least;
+  for (const int num_agreeing : {6, 10}) {
+    const std::vector<double> agreeing(num_agreeing, std::log(0.003));
+    EXPECT_LT(LogFalseAlarms(num_agreeing, agreeing), kMaxLogFalseAlarms);
+    EXPECT_GT(LogFalseAlarms(100 * num_agreeing, agreeing), kMaxLogFalseAlarms);
   }
+}
+
+TEST(FalseAlarms, ThePlaceOfAMatchIsAsWideAsItWasLookedFor) {
+  // 2 px off, where it may be 40 px off: a 400th of the circle.
+  EXPECT_NEAR(LogChance(2, 4, 1, 40), std::log(1 / 400.), 1e-12);
+  EXPECT_NEAR(LogChance(3, 4, 1, 40), std::log(1 / 8000.), 1e-12);
+  EXPECT_NEAR(LogChance(2, 1, 16, 40), LogChance(2, 4, 1, 40), 1e-12);
+  EXPECT_EQ(LogChance(2, 9, 1e8, 40), 0) << "anywhere";
+}
+
+TEST(FalseAlarms, PointsWhosePlaceIsHardlyKnownTellNothing) {
+  RandomEngine engine(3);
+  auto observations = MakeObservations(Rigid3(), 12, 0.5, engine);
+  const std::vector<char> all(observations.size(), 1);
+  EXPECT_FALSE(AgreesByChance(kSceneCamera, observations, all, Rigid3()));
+  for (PointObservation& observation : observations) {
+    observation.pixels += 12 * RandomNormal3(engine);
+    const double sigma_m = 20 * observation.x_in_world.z() / kSceneCamera.fx;
+    observation.x_covariance = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+  }
+  EXPECT_TRUE(AgreesByChance(kSceneCamera, observations, all, Rigid3()));
 }
 
 /// Gives each of the first observations the pixels of the next.

@@ -19,7 +19,7 @@ class CorrespondencesTest : public ::testing::Test {
     landmark.num_agreed = num_agreed;
     landmark.num_contradicted = num_contradicted;
     landmark.normal_in_world.setZero();
-    landmark.x_in_world.setZero();
+    landmark.x_in_world = camera_.Triangulate(u + 1, v, 5);
     landmark.covariance.setZero();
     landmarks_.push_back(landmark);
     LandmarkObservation observation;
@@ -89,7 +89,7 @@ class GroundTest : public CorrespondencesTest {
       return LogLikelihoods{std::log(probability * Logistic(log_odds)),
                             std::log(probability * Logistic(-log_odds))};
     };
-    return found_.Weigh(camera_, flags_, flag, prior(1 - arrived), prior(arrived));
+    return found_.Weigh(camera_, Rigid3(), flags_, flag, prior(1 - arrived), prior(arrived));
   }
   double LogOdds(char flag) const { return Weigh(flag, 0, 0).log_odds; }
 
@@ -124,7 +124,7 @@ TEST_F(GroundTest, AsFewAsAgreeByChanceAreHardlyTheGround) {
   AddGroups(5, 0);
   for (const int num_agreeing : {30, 12, 5}) {
     for (int i = 0; i < 120; ++i) flags_[i] = i < num_agreeing;
-    const double by_chance = LogFalseAlarms(120, num_agreeing);
+    const double by_chance = LogFalseAlarms(camera_, found_.points, flags_, 1, Rigid3());
     EXPECT_EQ(LogOdds(1) < -std::max(2., by_chance), num_agreeing == 5) << num_agreeing;
   }
 }

@@ -16,6 +16,7 @@ struct PointObservation {
   Eigen::Vector3d pixels;  ///< (u_left, v, u_right), px; u_right is not read unless has_right
   bool has_right = true;
   double sigma_px = 1;    ///< standard deviation of each of `pixels`; positive
+  double reach_px = 40;   ///< it was looked for so far around where it was expected; positive
   double votes = 1;       ///< for a pose that it agrees with, against others; not negative
   bool is_proven = true;  ///< agreed with earlier poses
 

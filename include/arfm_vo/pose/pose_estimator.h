@@ -16,7 +16,7 @@ constexpr int kSamplePoints = 3;  ///< of P3P
 
 struct PoseEstimatorOptions {
   RansacOptions ransac;
-  int min_inliers = kSamplePoints + 1;  ///< fewer are no pose, nor as many as agree by chance
+  int min_inliers = kSamplePoints + 2;  ///< fewer are no pose, nor as many as agree by chance
   double min_inlier_share = 0.15;       ///< of the observations' votes
   PoseRefinementOptions refinement;
 

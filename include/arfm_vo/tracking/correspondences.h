@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/geometry/stereo_camera.h"
 #include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/mapping/landmark.h"
@@ -56,8 +57,9 @@ struct Correspondences {
   /// they fill; the mean of each of kRegions counts once. Landmarks that came with something large
   /// are all its own or, if nothing came, all the ground's: so both cases are weighed as a whole.
   /// `if_none`, `if_come`: of everything else, that nothing or something has come included.
-  GroundBelief Weigh(const StereoCamera& camera, const std::vector<char>& flags, char flag,
-                     const LogLikelihoods& if_none, const LogLikelihoods& if_come) const;
+  GroundBelief Weigh(const StereoCamera& camera, const Rigid3& camera_from_world,
+                     const std::vector<char>& flags, char flag, const LogLikelihoods& if_none,
+                     const LogLikelihoods& if_come) const;
 };
 
 }  // namespace arfm_vo

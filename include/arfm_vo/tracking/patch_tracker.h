@@ -69,9 +69,9 @@ class PatchTracker {
  private:
   using AlignLandmark =
       std::function<std::optional<LandmarkObservation>(const Landmark&, const Keyframe& reference)>;
-  /// In parallel.
+  /// In parallel, in an image halved so often as `level` tells.
   Correspondences Measure(const LocalMap& map, const std::vector<const Landmark*>& landmarks,
-                          const AlignLandmark& align) const;
+                          int level, const AlignLandmark& align) const;
   Correspondences Measure(const StereoImages& images, const LocalMap& map,
                           const std::vector<const Landmark*>& landmarks,
                           const Rigid3& camera_from_world, bool use_right) const;
