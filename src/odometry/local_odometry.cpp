@@ -112,8 +112,7 @@ void LocalOdometry::Implementation::Track(const StereoFrame& measured, const Ste
   }
   if (!is_left_good) update.reason = verdict_.left_fault();
   const bool is_for_right = map_.keyframes().empty() || verdict_.right_fault() == Reason::kSwapped;
-  if (is_left_good && is_for_right && !update.pose.HasPose())
-    update.reason = verdict_.right_fault();
+  if (is_for_right && !update.pose.HasPose()) update.reason = verdict_.right_fault();
   if (!update.is_keyframe) return;
   if (!is_right_good) {
     frame.points = TriangulateByMotion(

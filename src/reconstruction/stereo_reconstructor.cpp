@@ -188,12 +188,13 @@ StereoPoints StereoReconstructor::Reconstruct(const Features& left, const Featur
   const RowModel before = row_model_;
   LearnRows(left, sightings);
   StereoPoints points = Triangulate(left, sightings);
-  if (!before.IsLearnt() && !row_model_.IsPlausible()) {  // nor teach these anything
-    row_model_ = before;
+  if (!before.IsLearnt()) {
+    if (row_model_.IsPlausible()) return points;
+    row_model_ = before;  // pictures of two moments teach nothing
     row_agreement_ = 0;
     return points;
   }
-  if (row_agreement_ >= kMinRowAgreement || !before.IsLearnt()) return points;
+  if (row_agreement_ >= kMinRowAgreement) return points;
   // Either the right camera was knocked, or these are pictures of two moments, which teach nothing.
   const double agreement = row_agreement_;
   row_model_ = before.AfterAKnock();
