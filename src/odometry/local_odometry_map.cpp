@@ -1,6 +1,6 @@
 // How LocalOdometry keeps its map: keyframes that come and go, and what is learnt of the cameras.
 #include "arfm_vo/mapping/map_update.h"
-#include "arfm_vo/tracking/still_keypoints.h"
+#include "arfm_vo/tracking/fixed_points.h"
 #include "local_odometry_implementation.h"
 
 namespace arfm_vo {

@@ -71,6 +71,8 @@ Expectation Verdict::Expect(const std::optional<PredictedPose>& predicted) const
   Expectation expected{predicted, if_none_, if_come_};
   expected.use_right = right_fault_ == Reason::kNone;
   expected.is_wary = IsUnsure();
+  expected.fixed_log_odds = fixed_.log_odds();
+  expected.another_log_odds = another_moves_.log_odds();
   return expected;
 }
 
@@ -87,7 +89,9 @@ Reason Verdict::FaultOfRight(const StereoFrame& frame) const {
 }
 
 void Verdict::CountFixed(double share) {
-  fixed_.Add(LogRatioOfShare(share, kStill, kStillByChance));
+  // By the pose of what moves on its own the ground stands still.
+  fixed_.Add(
+      LogRatioBeside(LogRatioOfShare(share, kStill, kStillByChance), another_moves_.Probability()));
 }
 
 void Verdict::Reset(bool was_lost) {
@@ -121,7 +125,9 @@ bool Verdict::Weigh(const TrackedFrame& tracked, const std::optional<PredictedPo
     update.reason = Reason::kSwapped;
     return false;
   }
-  another_moves_.Add(pose.rival || !is_likeliest ? kRivalSeen : kNoRival);
+  // What is fixed before the camera is a rival too.
+  const double rival_seen = LogRatioBeside(kRivalSeen, Logistic(tracked.fixed_log_odds));
+  another_moves_.Add(pose.rival || !is_likeliest ? rival_seen : kNoRival);
   // The same points tell the same again in the next pair: this is not added up.
   ground_.Limit(std::log(kAnotherComes_s / kAnotherLeaves_s) + log_odds - ground_.log_odds());
   if (!is_likeliest && !is_as_before) {

@@ -63,6 +63,13 @@ std::optional<NormalizedReprojection> NormalizedError(const StereoCamera& camera
   return normalize(error.head<2>().eval(), covariance.topLeftCorner<2, 2>().eval());
 }
 
+double LogLikelihood(const StereoCamera& camera, const PointObservation& observation,
+                     const Rigid3& camera_from_world) {
+  const auto error = NormalizedError(camera, observation, camera_from_world);
+  if (!error) return 0;
+  return std::max(0., (InlierBound(observation.NumCoordinates()) - error->squared) / 2);
+}
+
 double LogFalseAlarms(const StereoCamera& camera, const std::vector<PointObservation>& observations,
                       const std::vector<char>& flags, char flag, const Rigid3& camera_from_world) {
   std::vector<double> log_chances;

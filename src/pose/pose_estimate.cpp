@@ -1,5 +1,7 @@
 #include "arfm_vo/pose/pose_estimate.h"
 
+#include "arfm_vo/pose/pose_refinement.h"
+
 namespace arfm_vo {
 
 const char* ToString(PoseStatus status) {
@@ -20,6 +22,13 @@ const char* ToString(PoseStatus status) {
       return "degraded";
   }
   return "unknown";
+}
+
+void PoseEstimate::Set(const PoseRefinement& refined) {
+  camera_from_world = refined.camera_from_world;
+  covariance = refined.covariance;
+  num_inliers = refined.num_inliers;
+  rms_px = refined.rms_px;
 }
 
 }  // namespace arfm_vo

@@ -63,11 +63,8 @@ PoseEstimate EstimatePose(const StereoCamera& camera,
 
   estimate.votes = agreement.plausibility * votes;
   estimate.status = PoseStatus::kTracked;
-  estimate.camera_from_world = refinement.camera_from_world;
-  estimate.covariance = refinement.covariance;
+  estimate.Set(refinement);
   estimate.rival = agreement.rival;
-  estimate.num_inliers = refinement.num_inliers;
-  estimate.rms_px = refinement.rms_px;
   if (!is_inlier) return estimate;
   *is_inlier = refinement.is_inlier;
   for (size_t i = 0; agreement.rival && i < observations.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/tracking/fixed_points.h"
 #include "arfm_vo/tracking/ground_weighing.h"
 #include "arfm_vo/tracking/still_keypoints.h"
 
@@ -127,7 +128,26 @@ TrackedFrame FrameTracker::Localise(Correspondences matches, const StereoFrame& 
   }
   if (!tracked.pose.HasPose()) return tracked;
   if (!PreferLikelier(tracked)) TakeAgreeing(tracked);
+  LeaveOutFixed(frame, map, expected, tracked);
   return tracked;
+}
+
+void FrameTracker::LeaveOutFixed(const StereoFrame& frame, const LocalMap& map,
+                                 const Expectation& expected, TrackedFrame& tracked) const {
+  tracked.fixed_log_odds = expected.fixed_log_odds;
+  auto found = FindPoseWithoutFixed(camera_, tracked.matches, tracked.agrees,
+                                    tracked.pose.camera_from_world, options_.refinement);
+  if (!found) return;
+  TrackedFrame other = tracked;
+  other.pose.Set(found->refined);
+  other.pose.rival.reset();
+  other.agrees = std::move(found->refined.is_inlier);
+  Weigh(frame, map, expected, other);
+  other.fixed_log_odds = found->LogOdds(expected.fixed_log_odds, expected.another_log_odds) +
+                         other.log_odds - tracked.log_odds;
+  if (other.fixed_log_odds <= 0) return;
+  tracked = std::move(other);
+  TakeAgreeing(tracked);
 }
 
 void FrameTracker::TakeAgreeing(TrackedFrame& tracked) {
@@ -150,10 +170,7 @@ bool FrameTracker::PreferLikelier(TrackedFrame& tracked) const {
     agrees[i] = refined.is_inlier[i] ? 1 : agrees[i] == 1 ? kAgreesWithRival : 0;
   }
   tracked.pose.rival = tracked.pose.camera_from_world;
-  tracked.pose.camera_from_world = refined.camera_from_world;
-  tracked.pose.covariance = refined.covariance;
-  tracked.pose.num_inliers = refined.num_inliers;
-  tracked.pose.rms_px = refined.rms_px;
+  tracked.pose.Set(refined);
   std::swap(tracked.log_odds, tracked.log_odds_of_rival);
   TakeAgreeing(tracked);
   return true;
@@ -172,8 +189,10 @@ void FrameTracker::Align(const StereoImages& images, const LocalMap& map,
   // Few patches are no surer than the keypoints that agreed.
   const PoseEstimate by_keypoints = tracked.pose;
   LandmarkObservations of_keypoints = tracked.observations;
-  if (patches_.Refine(patches, tracked).empty()) return;
-  if (tracked.pose.covariance.determinant() > by_keypoints.covariance.determinant()) {
+  if (patches_.Refine(patches, expected, tracked).empty()) return;
+  const bool is_without_fixed = tracked.fixed_log_odds > 0;
+  if (!is_without_fixed &&
+      tracked.pose.covariance.determinant() > by_keypoints.covariance.determinant()) {
     tracked.pose = by_keypoints;
     tracked.observations = std::move(of_keypoints);
     return;

@@ -7,6 +7,7 @@
 
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/pose/false_alarms.h"
+#include "arfm_vo/tracking/fixed_points.h"
 #include "arfm_vo/tracking/ground_weighing.h"
 #include "arfm_vo/tracking/right_turn.h"
 #include "arfm_vo/tracking/still_keypoints.h"
@@ -131,17 +132,18 @@ std::optional<TrackedFrame> PatchTracker::At(const StereoImages& images, const L
                                              const Rigid3& camera_from_world) const {
   TrackedFrame tracked;
   tracked.pose.status = PoseStatus::kTracked;
+  tracked.fixed_log_odds = expected.fixed_log_odds;
   Rigid3& pose = tracked.pose.camera_from_world;
   pose = camera_from_world;
   MeasuredPatches measured = MeasureInView(images, map, expected, tracked);
   std::vector<const Landmark*>& seen_before = measured.landmarks;
   Correspondences& patches = measured.patches;
-  tracked.agrees = Refine(patches, tracked);
+  tracked.agrees = Refine(patches, expected, tracked);
   if (!IsSame(camera_, seen_before, pose, camera_from_world)) {
     // What was out of reach may be in reach now: near points as a rule.
     const auto missed = Without(seen_before, patches);
     patches.Append(Measure(images, map, missed, pose, expected.use_right));
-    tracked.agrees = Refine(patches, tracked);
+    tracked.agrees = Refine(patches, expected, tracked);
   }
   if (tracked.agrees.empty() || AgreesByChance(camera_, patches.points, tracked.agrees, pose)) {
     return std::nullopt;
@@ -210,7 +212,7 @@ Correspondences PatchTracker::Measure(const StereoImages& images, const LocalMap
   });
 }
 
-std::vector<char> PatchTracker::Refine(const Correspondences& patches,
+std::vector<char> PatchTracker::Refine(const Correspondences& patches, const Expectation& expected,
                                        TrackedFrame& tracked) const {
   PoseRefinement refined =
       RefinePose(camera_, patches.points, tracked.pose.camera_from_world, options_.refinement);
@@ -219,11 +221,16 @@ std::vector<char> PatchTracker::Refine(const Correspondences& patches,
       refined.num_inliers < options_.min_inlier_share * num_patches) {
     return {};
   }
-  tracked.pose.camera_from_world = refined.camera_from_world;
-  tracked.pose.covariance = refined.covariance;
+  auto found = FindPoseWithoutFixed(camera_, patches, refined.is_inlier, refined.camera_from_world,
+                                    options_.refinement);
+  const double fixed_log_odds =
+      found ? found->LogOdds(tracked.fixed_log_odds, expected.another_log_odds) : 0;
+  if (fixed_log_odds > 0) {
+    refined = std::move(found->refined);
+    tracked.fixed_log_odds = fixed_log_odds;
+  }
+  tracked.pose.Set(refined);
   tracked.pose.num_matches = num_patches;
-  tracked.pose.num_inliers = refined.num_inliers;
-  tracked.pose.rms_px = refined.rms_px;
   tracked.observations = patches.Select(refined.is_inlier, 1);
   return std::move(refined.is_inlier);
 }

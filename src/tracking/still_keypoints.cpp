@@ -23,17 +23,6 @@ constexpr double kCovered = 0.3, kAnotherPasses = 0.05;
 /// Least cosine between descriptors of one and the same thing.
 constexpr float kAlike = 0.8F;
 
-/// How far a point has moved in the picture since `before`, even if it is as far as it may be; px.
-double LeastFlow(const StereoCamera& camera, const Rigid3& before_from_now,
-                 const StereoPoint& point) {
-  const double disparity_px = camera.Disparity(point.x_in_camera.z());
-  const double least_px = disparity_px - 3 * std::sqrt(2) * point.sigma_px;
-  if (least_px <= 0) return 0;
-  const Eigen::Vector3d x = before_from_now * (point.x_in_camera * (disparity_px / least_px));
-  if (x.z() <= 0) return camera.width;
-  return (camera.Project(x) - point.observation.head<2>()).norm();
-}
-
 /// Of what a region shows, what is still.
 struct Count {
   int num = 0, num_still = 0;
@@ -117,26 +106,6 @@ double RestLogRatio(const StereoCamera& camera, const std::vector<const Landmark
     if (count.IsEnough()) log_ratio += RestLogRatio(count.Share());
   }
   return log_ratio;
-}
-
-FixedPoints::FixedPoints(const StereoCamera& camera, const StereoFrame& frame,
-                         const std::optional<Rigid3>& before_from_now)
-    : is_fixed(frame.features.size()) {
-  int num_moved = 0, num_fixed = 0;
-  for (const StereoPoint& point : frame.points) {
-    const double reach_px = 2 * Reach(frame.features.keypoints[point.keypoint]);
-    if (before_from_now && LeastFlow(camera, *before_from_now, point) <= reach_px) continue;
-    is_fixed[point.keypoint] = frame.is_still[point.keypoint];
-    num_fixed += frame.is_still[point.keypoint];
-    ++num_moved;
-  }
-  if (before_from_now && num_moved > 0) share = static_cast<double>(num_fixed) / num_moved;
-}
-
-void FixedPoints::RemoveFrom(StereoFrame& frame) const {
-  auto& points = frame.points;
-  const auto hides = [&](const auto& point) { return is_fixed[point.keypoint] != 0; };
-  points.erase(std::remove_if(points.begin(), points.end(), hides), points.end());
 }
 
 }  // namespace arfm_vo

@@ -23,6 +23,13 @@ TEST(Belief, WithoutEvidenceItGoesToItsPriorRates) {
   }
 }
 
+TEST(Belief, WhatAnotherThingExplainsAsWellTellsTheLess) {
+  EXPECT_NEAR(LogRatioBeside(3, 0), 3, 1e-12);
+  EXPECT_NEAR(LogRatioBeside(3, 1), 0, 1e-12);
+  EXPECT_NEAR(std::exp(LogRatioBeside(std::log(9), 0.5)), 9 / (0.5 + 0.5 * 9), 1e-12);
+  EXPECT_LT(LogRatioBeside(100, 0.01), std::log(100)) << "not more than its odds";
+}
+
 TEST(Belief, NoTimeChangesNothing) {
   Belief belief(0.3);
   belief.Advance(0, 60, 1);

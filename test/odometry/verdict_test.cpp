@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mapping/stereo_frames.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -32,6 +34,13 @@ class VerdictTest : public ::testing::Test {
     return update;
   }
 
+  void LookAndWeigh(int num_pairs) {
+    for (int i = 0; i < num_pairs; ++i) {
+      Look();
+      Weigh();
+    }
+  }
+
   StereoFrame frame_;
   TrackedFrame tracked_;
   static constexpr double kBaseline_m = 0.1;
@@ -58,6 +67,26 @@ TEST_F(VerdictTest, ARivalThatIsAsLikelyWidensTheCovarianceToIt) {
   EXPECT_NEAR(update.pose.covariance(3, 3), 0.5, 0.1);
   EXPECT_EQ(update.doubt, update.pose.covariance);
   EXPECT_TRUE(verdict_.IsUnsure());
+}
+
+TEST_F(VerdictTest, ARivalThatIsFixedBeforeTheCameraIsNothingThatMoves) {
+  tracked_.pose.rival = Rigid3(Eigen::Quaterniond::Identity(), {1, 0, 0});
+  tracked_.fixed_log_odds = 10;
+  LookAndWeigh(1);
+  EXPECT_FALSE(verdict_.IsUnsure());
+}
+
+TEST_F(VerdictTest, WhatIsStillCountsAsFixedTheLessTheLikelierAnotherMoves) {
+  const auto count = [&](bool has_rival) {
+    if (has_rival) tracked_.pose.rival = Rigid3(Eigen::Quaterniond::Identity(), {1, 0, 0});
+    LookAndWeigh(1);
+    const double before = verdict_.Expect(std::nullopt).fixed_log_odds;
+    verdict_.CountFixed(0.6);
+    return verdict_.Expect(std::nullopt).fixed_log_odds - before;
+  };
+  const double where_none_moves = count(false);
+  EXPECT_GT(where_none_moves, 4);
+  EXPECT_LT(count(true), where_none_moves / 2);
 }
 
 TEST_F(VerdictTest, AnUnlikelyRivalHardlyMatters) {
@@ -113,20 +142,15 @@ TEST_F(VerdictTest, WhatWasFollowedInDoubtStaysInDoubtForAWhile) {
   Weigh();
   tracked_.log_odds = 0;
   int num_pairs = 0;
-  do {
-    Look();
-    ++num_pairs;
-  } while (Weigh().reason != Reason::kNone && num_pairs < 1000);
+  do Look(), ++num_pairs;
+  while (Weigh().reason != Reason::kNone && num_pairs < 1000);
   EXPECT_GT(num_pairs, 5);
   EXPECT_LT(num_pairs, 100);
 }
 
 /// Something large comes rarely. Where it has come, the ground may be hidden at any moment.
 TEST_F(VerdictTest, WhereSomethingHasComeTheGroundIsLikelierToBeHiddenJustNow) {
-  for (int i = 0; i < 10; ++i) {
-    Look();
-    Weigh();
-  }
+  LookAndWeigh(10);
   const Expectation expected = verdict_.Expect(std::nullopt);
   EXPECT_GT(expected.if_none.ground, expected.if_come.ground);
   EXPECT_GT(expected.if_come.just_hidden, 100 * expected.if_none.just_hidden);
@@ -134,10 +158,7 @@ TEST_F(VerdictTest, WhereSomethingHasComeTheGroundIsLikelierToBeHiddenJustNow) {
 }
 
 TEST_F(VerdictTest, RowsThatDoNotAgreeTakeTheRightPictureAway) {
-  for (int i = 0; i < 10; ++i) {
-    Look();
-    Weigh();
-  }
+  LookAndWeigh(10);
   Look(0.2);
   Look(0.2);
   EXPECT_EQ(verdict_.right_fault(), Reason::kRightOff);
@@ -149,8 +170,7 @@ TEST_F(VerdictTest, RowsThatDoNotAgreeTakeTheRightPictureAway) {
   EXPECT_EQ(verdict_.right_fault(), Reason::kNone);
 }
 
-/// Few corners and blur make a part of the matches wrong.
-TEST_F(VerdictTest, RowsOfWhichHalfAgreeDoNot) {
+TEST_F(VerdictTest, RowsOfWhichHalfAgreeDoNot) {  // few corners and blur make matches wrong
   for (int i = 0; i < 200; ++i) {
     Look(0.52);
     EXPECT_EQ(verdict_.right_fault(), Reason::kNone) << i;
@@ -159,7 +179,6 @@ TEST_F(VerdictTest, RowsOfWhichHalfAgreeDoNot) {
 }
 
 TEST_F(VerdictTest, PicturesThatAreNotToBeUsedAreNamed) {
-  Look();
   frame_.right_is_repeated = true;
   Look();
   EXPECT_EQ(verdict_.right_fault(), Reason::kRightRepeated);
@@ -197,7 +216,6 @@ TEST_F(VerdictTest, SwappedIsTheLeftImageThatIsSeenFromTheRightCamera) {
 }
 
 TEST_F(VerdictTest, TheLeftImageAloneDegrades) {
-  Look();
   frame_.right_is_repeated = true;
   Look();
   const OdometryUpdate update = Weigh();
@@ -210,27 +228,14 @@ TEST_F(VerdictTest, TheLeftImageAloneDegrades) {
 /// Whether the depths of 40 points are known, of which so many have the disparity `near_px` and the
 /// rest one of 0.4 px.
 bool AreKnownAt(double near_px, int num_near) {
-  const StereoCamera camera{700, 700, 320, 240, 0.5, 640, 480};
-  StereoFrame frame;
-  frame.features.descriptors = cv::Mat(40, 64, CV_32F, cv::Scalar(0.125));
+  std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 40; ++i) {
-    Keypoint keypoint;
-    keypoint.x = static_cast<float>(60 + 70 * (i % 8));
-    keypoint.y = static_cast<float>(60 + 80 * (i / 8));
-    keypoint.scale = 2;
-    frame.features.keypoints.push_back(keypoint);
-    const double disparity_px = i < num_near ? near_px : 0.4;
-    StereoPoint point;
-    point.keypoint = i;
-    point.observation << keypoint.x, keypoint.y, keypoint.x - disparity_px;
-    point.sigma_px = 0.3;
-    point.x_in_camera = camera.Triangulate(keypoint.x, keypoint.y, disparity_px);
-    frame.points.push_back(point);
+    points.emplace_back(60 + 70 * (i % 8), 60 + 80 * (i / 8), i < num_near ? near_px : 0.4);
   }
-  LocalMap map(camera, LocalMapOptions());
+  LocalMap map(kCamera, LocalMapOptions());
   const Keyframe& keyframe =
-      map.AddKeyframe(frame, cv::Mat(480, 640, CV_8UC1, cv::Scalar(0)), Rigid3(), {});
-  return AreDepthsKnown(camera, map, keyframe.observations, Rigid3());
+      map.AddKeyframe(MakeFrame(points), cv::Mat(480, 640, CV_8UC1, cv::Scalar(0)), Rigid3(), {});
+  return AreDepthsKnown(kCamera, map, keyframe.observations, Rigid3());
 }
 
 TEST(AreDepthsKnown, PointsTooFarTellNoLengthOfThePath) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "arfm_vo/tracking/fixed_points.h"
 #include "mapping/stereo_frames.h"
 
 namespace arfm_vo {

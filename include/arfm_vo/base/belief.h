@@ -7,6 +7,12 @@ namespace arfm_vo {
 
 inline double Logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
+/// How much something tells that is exp(`log_ratio`) times likelier where one thing holds than as a
+/// rule, and just as likely where another does, of this probability.
+inline double LogRatioBeside(double log_ratio, double probability_of_another) {
+  return log_ratio - std::log1p(probability_of_another * std::expm1(log_ratio));
+}
+
 /// Whether something holds, followed over time: a hidden Markov model of two states, in log odds.
 class Belief {
  public:

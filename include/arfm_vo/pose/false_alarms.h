@@ -25,6 +25,11 @@ std::optional<NormalizedReprojection> NormalizedError(const StereoCamera& camera
                                                       const PointObservation& observation,
                                                       const Rigid3& camera_from_world);
 
+/// How much likelier a match is than a wrong one whose error is just that of an inlier, natural
+/// logarithm; 0 where it is not.
+double LogLikelihood(const StereoCamera& camera, const PointObservation& observation,
+                     const Rigid3& camera_from_world);
+
 /// Natural logarithm of the probability that a wrong match, which lies anywhere within `reach_px`
 /// of where it was looked for in each of its coordinates, agrees with a pose as well as one whose
 /// squared error in units of its covariance is `squared`. `determinant`: of that covariance of
@@ -33,12 +38,13 @@ double LogChance(int num_coordinates, double squared, double determinant, double
 
 /// Natural logarithm of how many sets of as many wrong matches as some of these agree with a pose
 /// as well by chance: the least of all numbers of the best, by the LogChance of each, `num_matches`
-/// or the most of them. What an a contrario test asks for (Moisan and Stival 2004); positive where
-/// there are too few. A point whose place is hardly known agrees with many poses and tells little.
+/// or the most of them. What an a contrario test asks for (Moisan and Stival 2004); at least 0
+/// where there are too few. A point whose place is hardly known agrees with many poses and tells
+/// little.
 double LogFalseAlarms(int num_matches, std::vector<double> log_chances);
 
-/// The same where each of `num_agreeing` of the matches agrees by chance with a probability whose
-/// logarithm is `log_chance`.
+/// The same of just `num_agreeing` of the matches, each of which agrees by chance with a
+/// probability whose logarithm is `log_chance`.
 double LogFalseAlarms(int num_matches, int num_agreeing, double log_chance);
 
 /// The same of the observations whose flag is `flag`, with the pose.

@@ -21,6 +21,8 @@ enum class PoseStatus {
 /// The name of a status as messages and files show it, such as "too few matches".
 const char* ToString(PoseStatus status);
 
+struct PoseRefinement;
+
 /// The pose of one frame. Where HasPose() is false, pose and covariance hold nothing.
 struct PoseEstimate {
   PoseStatus status = PoseStatus::kTooFewFeatures;
@@ -34,6 +36,8 @@ struct PoseEstimate {
   double votes = 0;             ///< for the pose, against another one of the same frame
   double rms_px = 0;            ///< root mean square of the inliers' reprojection errors
 
+  /// Sets pose, covariance, num_inliers and rms_px.
+  void Set(const PoseRefinement& refined);
   bool IsTracked() const { return status == PoseStatus::kTracked; }
   bool HasPose() const { return IsTracked() || status == PoseStatus::kDegraded; }
   /// Whether the picture told the pose, not the motion before alone.

@@ -57,6 +57,9 @@ class FrameTracker {
              TrackedFrame& tracked) const;
   /// Where the rival is likelier it becomes the pose, and the pose its rival. Returns whether.
   bool PreferLikelier(TrackedFrame& tracked) const;
+  /// Where something fixed before the camera has most likely pulled the pose: the one without it.
+  void LeaveOutFixed(const StereoFrame& frame, const LocalMap& map, const Expectation& expected,
+                     TrackedFrame& tracked) const;
   /// The matches that agree with the pose become its observations.
   static void TakeAgreeing(TrackedFrame& tracked);
   /// Where the pose is not as the motion before has it: against one that is, both by patches. What

@@ -54,7 +54,8 @@ class PatchTracker {
                                 const Expectation& expected, TrackedFrame& tracked) const;
   /// The pose by patches, about the one that is there. Returns which agree, [patches]; where too
   /// few do nothing, and all stays.
-  std::vector<char> Refine(const Correspondences& patches, TrackedFrame& tracked) const;
+  std::vector<char> Refine(const Correspondences& patches, const Expectation& expected,
+                           TrackedFrame& tracked) const;
   /// How the right camera stands, by patches and their pose.
   void TellTurn(const Correspondences& patches, const Expectation& expected,
                 TrackedFrame& tracked) const;

@@ -26,16 +26,4 @@ double RestLogRatio(const StereoCamera& camera, const StereoFrame& frame,
 double RestLogRatio(const StereoCamera& camera, const std::vector<const Landmark*>& in_view,
                     const Rigid3& camera_from_world, const LandmarkObservations& seen);
 
-/// Those of `frame.points` that are fixed before the camera: still, though they must have moved in
-/// the picture as the camera has moved since the newest keyframe.
-struct FixedPoints {
-  /// Where the camera's motion is not known all that is still is taken to be fixed.
-  FixedPoints(const StereoCamera& camera, const StereoFrame& frame,
-              const std::optional<Rigid3>& before_from_now);
-  void RemoveFrom(StereoFrame& frame) const;
-
-  std::vector<char> is_fixed;   ///< [features]
-  std::optional<double> share;  ///< of the points that must have moved; where the motion is known
-};
-
 }  // namespace arfm_vo

@@ -11,6 +11,9 @@
 
 namespace arfm_vo {
 
+/// Log odds of what is so in one case of a hundred: before it is looked for.
+constexpr double kRare = -4.6;
+
 /// A frame found again in the map.
 struct TrackedFrame {
   PoseEstimate pose;
@@ -23,7 +26,8 @@ struct TrackedFrame {
   bool is_odd_rest = false;            ///< the pose has not moved, most of the picture has
   double log_odds = 0;  ///< by this frame, that the pose is the ground's, not what moves on its own
   double log_odds_of_rival = 0;
-  double arrived = 0;                         ///< LocalMap::arrived, by this frame
+  double fixed_log_odds = kRare;  ///< that something fixed before the camera contradicts the pose
+  double arrived = 0;             ///< LocalMap::arrived, by this frame
   std::optional<RightTurn> turn_against_map;  ///< how the right camera stands, where it is told
 };
 
@@ -34,6 +38,8 @@ struct Expectation {
   bool use_right = true;             ///< whether the right image is worth looking at
   bool may_turn = false;             ///< whether to tell how the right camera stands
   bool is_wary = false;              ///< whether to look for a rival even where most points agree
+  double fixed_log_odds = kRare;     ///< that something is fixed before the camera
+  double another_log_odds = kRare;   ///< that something large moves on its own
 };
 
 }  // namespace arfm_vo
