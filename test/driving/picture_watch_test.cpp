@@ -71,6 +71,8 @@ TEST(PictureWatch, TheCheckSaysWhatIsKnown) {
             "yes both_cameras: 300 of 400 keypoints are seen by both");
   watch.Observe({2.1, 50, 400, 30});
   EXPECT_FALSE(*watch.Check(2.1)[2].is_well);
+  watch.Observe({2.2, 50, 400, 30, true});  // the counts are of the pair before
+  EXPECT_EQ(watch.Check(2.2)[2].ToString(), "yes both_cameras: the pose is tracked in both");
   watch.Observe({9, 50, 0, 0});
   EXPECT_EQ(watch.Check(9)[1].ToString(), "no exposure: has not settled, mean grey 50");
   EXPECT_FALSE(*watch.Check(9)[2].is_well);

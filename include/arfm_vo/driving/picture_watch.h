@@ -13,6 +13,8 @@ struct Picture {
   double taken_s = 0;
   double grey_mean = 0;  ///< of the left picture, grey levels
   size_t num_features = 0, num_stereo_points = 0;
+  /// In both pictures: no features were computed, the numbers are those of an earlier pair.
+  bool is_tracked_by_patches = false;
 };
 
 /// Judges the camera by its pictures: whether they come, whether its automatic exposure has settled

@@ -89,6 +89,13 @@ PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s
   return uncertainty;
 }
 
+Picture ToPicture(const OdometryStatus& status, double taken_s) {
+  const bool is_tracked_by_patches =
+      !status.has_features && status.state == OdometryStatus::TRACKED;
+  return {taken_s, status.grey_mean, status.num_features, status.num_stereo_points,
+          is_tracked_by_patches};
+}
+
 uint32_t EpochReader::Read(const ros::MessageEvent<const OdometryStatus>& event) {
   // roscpp hands out the same header with all messages of a connection.
   const uint32_t number = event.getConstMessage()->epoch;

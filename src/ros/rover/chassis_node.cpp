@@ -242,8 +242,7 @@ void ChassisNode::TakeOdometryStatus(const ros::MessageEvent<const OdometryStatu
   const OdometryStatus& status = *event.getConstMessage();
   const double taken_s = clock_.At(status.header.stamp);
   driver_.pilot().ObserveEpoch(epochs_.Read(event), taken_s);
-  driver_.pilot().picture_watch().Observe(
-      {taken_s, status.grey_mean, status.num_features, status.num_stereo_points});
+  driver_.pilot().picture_watch().Observe(ToPicture(status, taken_s));
 }
 
 }  // namespace arfm_vo

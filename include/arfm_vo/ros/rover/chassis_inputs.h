@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "arfm_vo/driving/picture_watch.h"
 #include "arfm_vo/driving/planar_motion.h"
 #include "arfm_vo/driving/pose_watch.h"
 #include "arfm_vo/driving/route.h"
@@ -70,6 +71,9 @@ struct RoverSight {
 /// The standard deviations that the covariance of `odometry` means, taken at driving time
 /// `taken_s`; NaN where it is no covariance.
 PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s);
+
+/// What the odometry tells of the pair of the given time on the driving clock.
+Picture ToPicture(const OdometryStatus& status, double taken_s);
 
 /// Numbers the epochs of the odometry, in each of which its pose is continuous. A new one begins
 /// where the number in `status` changes, and where the messages come from another process.
