@@ -72,7 +72,8 @@ struct RoverSight {
 /// `taken_s`; NaN where it is no covariance.
 PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s);
 
-/// What the odometry tells of the pair of the given time on the driving clock.
+/// What the odometry tells of the pair of the given time on the driving clock. Patches alone give a
+/// TRACKED pose only where the right image shows most of them (PatchTracker::Decides).
 Picture ToPicture(const OdometryStatus& status, double taken_s);
 
 /// Numbers the epochs of the odometry, in each of which its pose is continuous. A new one begins
