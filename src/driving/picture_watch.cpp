@@ -11,16 +11,8 @@ constexpr double kWindow_s = 1;
 constexpr size_t kMinPictures = 4;  // a line has two of them
 /// A camera cannot tell less than a grey level; three standard errors are chance.
 constexpr double kGreyLevel = 1, kNumSigmas = 3;
-/// The odometry's own bound: with fewer keypoints in stereo left and right do not fit.
-constexpr size_t kMinStereoShare = 10;  // one of so many
-
-CheckLine CheckBoth(const Picture& last) {
-  if (last.is_tracked_by_patches) return {"both_cameras", true, "the pose is tracked in both"};
-  return {
-      "both_cameras",
-      last.num_stereo_points * kMinStereoShare >= last.num_features && last.num_stereo_points > 0,
-      Format("%zu of %zu keypoints are seen by both", last.num_stereo_points, last.num_features)};
-}
+/// With fewer landmarks in stereo, one of so many, left and right do not fit.
+constexpr size_t kMinStereoShare = 10;
 
 }  // namespace
 
@@ -68,13 +60,16 @@ std::vector<CheckLine> PictureWatch::Check(double now_s) const {
   const double age_s = now_s - last.taken_s;
   const bool has_rate = age_s <= max_age_s_ && Span() > 0;
   const double rate_hz = has_rate ? static_cast<double>(pictures_.size() - 1) / Span() : 0;
-  return {{"camera", has_rate,
-           has_rate ? Format("%.1f pictures a second", rate_hz)
-                    : Format("the last picture is %.1f s old", age_s)},
-          {"exposure", has_settled_,
-           Format("%s, mean grey %.0f", has_settled_ ? "has settled" : "has not settled",
-                  last.grey_mean)},
-          CheckBoth(last)};
+  return {
+      {"camera", has_rate,
+       has_rate ? Format("%.1f pictures a second", rate_hz)
+                : Format("the last picture is %.1f s old", age_s)},
+      {"exposure", has_settled_,
+       Format("%s, mean grey %.0f", has_settled_ ? "has settled" : "has not settled",
+              last.grey_mean)},
+      {"both_cameras",
+       last.num_seen_by_both * kMinStereoShare >= last.num_landmarks && last.num_seen_by_both > 0,
+       Format("%zu of %zu landmarks are seen by both", last.num_seen_by_both, last.num_landmarks)}};
 }
 
 }  // namespace arfm_vo

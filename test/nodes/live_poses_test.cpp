@@ -34,7 +34,10 @@ class LivePoses : public testing::Test {
     WaitUntil([&] { return odom_.size() > 0 && odom_.last().header.stamp == stamp; }, "odom");
     WaitUntil([&] { return status_.size() > 0 && status_.last().header.stamp == stamp; }, "status");
     ASSERT_EQ(status_.last().state, OdometryStatus::TRACKED);
-    ASSERT_GT(status_.last().num_stereo_points, 0u);  // of an earlier pair where this has none
+    ASSERT_EQ(status_.last().num_stereo_points > 0, status_.last().has_features);
+    if (num_keyframes_ > 0) {
+      ASSERT_GT(2 * status_.last().num_seen_by_both, status_.last().num_inliers);
+    }
     num_keyframes_ += status_.last().is_keyframe;
     num_without_features_ += !status_.last().has_features;
     if (!status_.last().is_keyframe || num_keyframes_ < next_adjustment_) return;

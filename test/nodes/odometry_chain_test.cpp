@@ -133,7 +133,7 @@ TEST_F(OdometryChain, FollowsTheCameraAndTellsItInAllWays) {
       odometry.pose.pose.position.x);
 
   const OdometryStatus status = status_.last();
-  EXPECT_GT(status.num_features, 100u);
+  EXPECT_EQ(status.num_features > 100, +status.has_features);
   EXPECT_GT(status.num_inliers, 30u);
   EXPECT_GE(status.stage_names.size(), status.has_features ? 4u : 2u);
   EXPECT_EQ(status.stage_names.size(), status.stage_ms.size());

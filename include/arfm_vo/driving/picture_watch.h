@@ -11,10 +11,8 @@ namespace arfm_vo {
 /// What the odometry tells of a stereo pair. Its time is that of the driving clock.
 struct Picture {
   double taken_s = 0;
-  double grey_mean = 0;  ///< of the left picture, grey levels
-  size_t num_features = 0, num_stereo_points = 0;
-  /// In both pictures: no features were computed, the numbers are those of an earlier pair.
-  bool is_tracked_by_patches = false;
+  double grey_mean = 0;                            ///< of the left picture, grey levels
+  size_t num_landmarks = 0, num_seen_by_both = 0;  ///< the pose's; 0 where it was lost
 };
 
 /// Judges the camera by its pictures: whether they come, whether its automatic exposure has settled

@@ -84,11 +84,16 @@ inline const LandmarkObservation* FindObservation(const LandmarkObservations& ob
   return found != observations.end() && found->landmark == id ? &*found : nullptr;
 }
 
+/// The observations with a right pixel.
+inline long CountWithRight(const LandmarkObservations& observations) {
+  return std::count_if(observations.begin(), observations.end(),
+                       [](const LandmarkObservation& one) { return one.has_right; });
+}
+
 /// Of the observations the share with a right pixel; 0 of none.
 inline double ShareWithRight(const LandmarkObservations& observations) {
-  const auto num = std::count_if(observations.begin(), observations.end(),
-                                 [](const LandmarkObservation& one) { return one.has_right; });
-  return static_cast<double>(num) / std::max<double>(1, static_cast<double>(observations.size()));
+  return static_cast<double>(CountWithRight(observations)) /
+         std::max<double>(1, static_cast<double>(observations.size()));
 }
 
 }  // namespace arfm_vo

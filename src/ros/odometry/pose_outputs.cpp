@@ -6,6 +6,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "arfm_vo/evaluation/match_picture.h"
 #include "arfm_vo/ros/messages/conversions.h"
@@ -53,27 +54,27 @@ void PoseOutputs::Publish(const SessionUpdate& pose, const StereoFrameStamped& f
 
 void PoseOutputs::PublishStatus(const SessionUpdate& pose, const StereoFrameStamped& frame,
                                 const std_msgs::Header& header, uint32_t num_dropped) {
-  status_.header = header;
-  status_.state = static_cast<uint8_t>(pose.update.pose.status);
-  status_.text = pose.text;
-  status_.is_keyframe = pose.update.is_keyframe;
-  status_.epoch = pose.epoch;
-  if (frame.has_features) {
-    status_.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
-    status_.num_right_features = frame.num_right_keypoints;
-    status_.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
-  }
-  ARFM_COPY_FIELDS(status_, pose.update.pose, num_matches, num_inliers, rms_px)
-  ARFM_COPY_FIELDS(status_, frame, has_features, ratio_threshold, grey_mean, grey_variance,
+  OdometryStatus status;
+  status.header = header;
+  status.state = static_cast<uint8_t>(pose.update.pose.status);
+  status.text = pose.text;
+  status.is_keyframe = pose.update.is_keyframe;
+  status.epoch = pose.epoch;
+  status.num_features = static_cast<uint32_t>(frame.keypoint_x.size());
+  status.num_right_features = frame.num_right_keypoints;
+  status.num_stereo_points = static_cast<uint32_t>(frame.point_keypoint.size());
+  ARFM_COPY_FIELDS(status, pose.update.pose, num_matches, num_inliers, rms_px)
+  status.num_seen_by_both = static_cast<uint32_t>(CountWithRight(pose.update.observations));
+  ARFM_COPY_FIELDS(status, frame, has_features, ratio_threshold, grey_mean, grey_variance,
                    stage_names, stage_ms)
-  status_.row_residual_px = pose.update.median_row_residual_px;
-  status_.num_dropped_arfm = frame.num_dropped_pairs;
-  status_.num_dropped_pose = num_dropped;
+  status.row_residual_px = pose.update.median_row_residual_px;
+  status.num_dropped_arfm = frame.num_dropped_pairs;
+  status.num_dropped_pose = num_dropped;
   for (const auto& [name, ms] : pose.update.stage_ms) {
-    status_.stage_names.push_back(name);
-    status_.stage_ms.push_back(ms);
+    status.stage_names.push_back(name);
+    status.stage_ms.push_back(ms);
   }
-  status_publisher_.publish(boost::make_shared<OdometryStatus>(status_));
+  status_publisher_.publish(boost::make_shared<OdometryStatus>(std::move(status)));
 }
 
 void PoseOutputs::PublishOdometry(const SessionUpdate& pose, const std_msgs::Header& header) {

@@ -90,10 +90,7 @@ PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s
 }
 
 Picture ToPicture(const OdometryStatus& status, double taken_s) {
-  const bool is_tracked_by_patches =
-      !status.has_features && status.state == OdometryStatus::TRACKED;
-  return {taken_s, status.grey_mean, status.num_features, status.num_stereo_points,
-          is_tracked_by_patches};
+  return {taken_s, status.grey_mean, status.num_inliers, status.num_seen_by_both};
 }
 
 uint32_t EpochReader::Read(const ros::MessageEvent<const OdometryStatus>& event) {

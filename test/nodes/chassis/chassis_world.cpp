@@ -102,8 +102,7 @@ void World::See() {
   OdometryStatus status;
   status.header.stamp = now;
   status.epoch = 1;
-  status.has_features = true;
-  status.num_features = status.num_stereo_points = 300;
+  status.num_inliers = status.num_seen_by_both = 300;
   odometry_status_.publish(status);
 }
 

@@ -192,18 +192,14 @@ TEST(DrivingClock, IsSteadyWhereTimeIsTheMachines) {
   EXPECT_LE(now_s, ros::SteadyTime::now().toSec());
 }
 
-TEST(ToPicture, WithoutFeaturesATrackedPairIsOneOfBothCameras) {
+TEST(ToPicture, APairWithoutFeaturesIsJudgedByWhatTellsItsPose) {
   OdometryStatus status;
-  status.num_features = 300;
-  status.num_stereo_points = 20;  // those of an earlier pair where this one has none
-  for (const bool has_features : {true, false}) {
-    for (const int state : {+OdometryStatus::TRACKED, +OdometryStatus::DEGRADED}) {
-      status.has_features = has_features;
-      status.state = state;
-      PictureWatch watch(1);
-      watch.Observe(ToPicture(status, 5));
-      EXPECT_EQ(watch.Check(5)[2].is_well, !has_features && state == OdometryStatus::TRACKED);
-    }
+  status.num_inliers = 300;
+  for (const int num_seen_by_both : {300, 20, 0}) {
+    status.num_seen_by_both = num_seen_by_both;
+    PictureWatch watch(1);
+    watch.Observe(ToPicture(status, 5));
+    EXPECT_EQ(watch.Check(5)[2].is_well, num_seen_by_both == 300);
   }
 }
 

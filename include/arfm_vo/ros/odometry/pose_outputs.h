@@ -46,7 +46,6 @@ class PoseOutputs {
   PoseOutputOptions options_;
   std::string base_frame_;
   BoundedPath path_;
-  OdometryStatus status_;  // the newest
   ros::Publisher odometry_publisher_, path_publisher_, status_publisher_, keyframe_publisher_;
   image_transport::Publisher picture_publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
