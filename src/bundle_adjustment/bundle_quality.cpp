@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "arfm_vo/base/median.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -119,7 +120,7 @@ void FindCovariances(const BundleProblem& problem, const BundleSelection& select
   const CornerMatrix corner = equations.InverseColumns(size - num_coefficients, num_coefficients)
                                   .bottomRows(num_coefficients);
   const CornerMatrix covariance = factor * (corner + corner.transpose()) / 2;
-  result.correction_covariance = directions * covariance * directions.transpose();
+  result.correction_covariance = Propagate(directions, covariance);
 }
 
 }  // namespace

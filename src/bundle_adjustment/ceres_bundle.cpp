@@ -122,9 +122,9 @@ class CeresBundle {
       return;
     }
     const CorrectionBelief& prior = *problem_.correction_prior;
-    const ceres::Matrix root = prior.Information().llt().matrixL().transpose();
-    ceres_problem_.AddResidualBlock(new ceres::NormalPrior(root, prior.mean.coefficients_px),
-                                    nullptr, correction_.data());
+    ceres_problem_.AddResidualBlock(
+        new ceres::NormalPrior(SquareRoot(prior.Information()), prior.mean.coefficients_px),
+        nullptr, correction_.data());
     ordering_->AddElementToGroup(correction_.data(), 1);
   }
 

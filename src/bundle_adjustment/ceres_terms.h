@@ -2,9 +2,8 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include <Eigen/Cholesky>
-
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/geometry/screw_motion.h"
 
 namespace arfm_vo::ceres_terms {
@@ -63,20 +62,11 @@ class ReprojectionCost : public ceres::SizedCostFunction<4, kPoseSize, 3, Stereo
   const Rigid3& start_;
 };
 
-/// R with R^T R = information, which may be singular. (By eigenvalues it takes GCC 10 s more.)
-inline Eigen::Matrix<double, 6, 6> FindSquareRoot(const Eigen::Matrix<double, 6, 6>& information) {
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
-  const Eigen::LDLT<Matrix6d> ldlt(information);
-  const Matrix6d permutation = ldlt.transpositionsP() * Matrix6d::Identity();
-  const Matrix6d upper = ldlt.matrixU();
-  return ldlt.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * (upper * permutation);
-}
-
 /// sqrt(Omega) e of a PoseConstraint. Parameters: first pose, second pose.
 class ConstraintCost : public ceres::SizedCostFunction<6, kPoseSize, kPoseSize> {
  public:
   ConstraintCost(const PoseConstraint& constraint, const std::vector<Rigid3>& start)
-      : constraint_(constraint), start_(start), root_(FindSquareRoot(constraint.information)) {}
+      : constraint_(constraint), start_(start), root_(SquareRoot(constraint.information)) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {

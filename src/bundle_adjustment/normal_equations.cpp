@@ -2,6 +2,7 @@
 
 #include "arfm_vo/base/pacer.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -168,7 +169,7 @@ double NormalEquations::AddPrior(const BundleState& state) {
       state.correction.coefficients_px - problem_.correction_prior->mean.coefficients_px;
   const StereoCorrection::Coefficients pull = prior_information_ * off;
   const BundleSelection::Directions& directions = selection_.correction_directions;
-  held_.corner += directions.transpose() * prior_information_ * directions;
+  held_.corner += Propagate(directions.transpose(), prior_information_);
   held_.corner_right -= directions.transpose() * pull;
   return off.dot(pull);
 }

@@ -1,6 +1,5 @@
 #include "arfm_vo/configuration/learned_correction_file.h"
 
-#include <Eigen/Cholesky>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "arfm_vo/base/whole_file.h"
 #include "arfm_vo/configuration/yaml_reader.h"
 #include "arfm_vo/configuration/yaml_writer.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -76,7 +76,7 @@ std::optional<CorrectionBelief> ReadLearnedCorrection(const std::string& path,
   correction.covariance = Eigen::Map<const CorrectionBelief::Matrix>(file.covariance_px2.data());
   correction.is_of_earlier_drive = true;
   Require(correction.covariance.isApprox(correction.covariance.transpose(), 1e-6) &&
-              correction.covariance.llt().info() == Eigen::Success,
+              IsPositiveDefinite(correction.covariance),
           path + ": covariance_px2 is not a covariance");
   return correction;
 }

@@ -1,9 +1,9 @@
 #include "arfm_vo/geometry/correction_belief.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -30,8 +30,11 @@ constexpr double kFocalLengthPx = 700;
 /// rotation (rad) and centre (px).
 constexpr double kSigmaBetweenDrives[kNumErrors] = {1e-3, 1e-3, 1e-3, 0, 0, 0.3, 0.3};
 
-using ErrorSigmas = Eigen::Map<const Eigen::Matrix<double, kNumErrors, 1>>;
 using ErrorRow = Eigen::Matrix<double, 1, kNumErrors>;
+
+Eigen::MatrixXd CovarianceOf(const double (&sigmas)[kNumErrors]) {
+  return Eigen::Map<const Eigen::VectorXd>(sigmas, kNumErrors).cwiseAbs2().asDiagonal();
+}
 
 /// Displacement (du, dv) of a pixel by a unit of each error.
 void DisplaceByErrors(const StereoCamera& camera, const Eigen::Vector2d& pixel, ErrorRow& du,
@@ -70,8 +73,8 @@ Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> CoefficientsByErrors(
     along_v += basis.values * dv;
   }
   Eigen::Matrix<double, StereoCorrection::kSize, kNumErrors> coefficients;
-  coefficients << gram.ldlt().solve(along_u), Eigen::Matrix<double, kNumLens, kNumErrors>::Zero(),
-      gram.ldlt().solve(along_v);
+  coefficients << SolveSymmetric(gram, along_u),
+      Eigen::Matrix<double, kNumLens, kNumErrors>::Zero(), SolveSymmetric(gram, along_v);
   return coefficients;
 }
 
@@ -85,11 +88,11 @@ CorrectionBelief CorrectionBelief::Isotropic(double sigma_px) {
 
 CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
   const auto by_errors = CoefficientsByErrors(camera);
-  const ErrorSigmas sigma(kErrorSigma);
-  const Matrix explained = by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose() +
-                           Isotropic(kUnmodelledSigmaPx).covariance;
+  const Eigen::MatrixXd errors = CovarianceOf(kErrorSigma);
+  const Matrix explained = Propagate(by_errors, errors) + Isotropic(kUnmodelledSigmaPx).covariance;
   CorrectionBelief belief;
-  belief.covariance = (explained.inverse() + Isotropic(kFieldSigmaPx).Information()).inverse();
+  belief.covariance =
+      InvertDefinite(InvertDefinite(explained) + Isotropic(kFieldSigmaPx).Information());
   auto of_lens = belief.covariance.diagonal().segment<kNumLens>(kNumTerms);
   of_lens.setConstant(kTangentialSigmaPx * kTangentialSigmaPx);
   of_lens.head<LensBasis::kNumRadial>().setConstant(kRadialSigmaPx * kRadialSigmaPx);
@@ -101,10 +104,10 @@ CorrectionBelief CorrectionBelief::OfCalibration(const StereoCamera& camera) {
 
 CorrectionBelief CorrectionBelief::AfterAPause(const StereoCamera& camera) const {
   const auto by_errors = CoefficientsByErrors(camera);
-  const ErrorSigmas sigma(kSigmaBetweenDrives);
+  const Eigen::MatrixXd errors = CovarianceOf(kSigmaBetweenDrives);
   CorrectionBelief belief = *this;
   belief.is_of_earlier_drive = false;
-  belief.covariance += by_errors * sigma.cwiseAbs2().asDiagonal() * by_errors.transpose();
+  belief.covariance += Propagate(by_errors, errors);
   return belief;
 }
 
@@ -112,15 +115,22 @@ CorrectionBelief::Turns CorrectionBelief::ByTurn(const StereoCamera& camera) {
   return CoefficientsByErrors<7>(camera).leftCols<3>();  // quadratic, as the basis is: exact
 }
 
+Eigen::MatrixXd CorrectionBelief::ToTurn(const StereoCamera& camera) {
+  const Eigen::MatrixXd by_turn = ByTurn(camera).transpose();
+  return SolveSymmetric(Propagate(by_turn, Matrix::Identity()), by_turn);
+}
+
 CorrectionBelief CorrectionBelief::After(const RightTurn& turn, const StereoCamera& camera) const {
   const Turns by_turn = ByTurn(camera);
   CorrectionBelief after = *this;
   after.mean.coefficients_px += by_turn * turn.turn_rad;
-  after.covariance += by_turn * turn.covariance * by_turn.transpose();
+  after.covariance += Propagate(by_turn, turn.covariance);
   return after;
 }
 
-CorrectionBelief::Matrix CorrectionBelief::Information() const { return covariance.inverse(); }
+CorrectionBelief::Matrix CorrectionBelief::Information() const {
+  return InvertDefinite(covariance);
+}
 
 CorrectionBelief::Estimate CorrectionBelief::LargestRadial() const {
   constexpr int kSteps = 20, kNumRadial = LensBasis::kNumRadial;

@@ -1,12 +1,12 @@
 #include "arfm_vo/mapping/localiser.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/base/number_rows.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -117,8 +117,7 @@ bool Localiser::Contradicts(const Rigid3& map_from_odom) const {
   const Eigen::Vector3d moved = found.translation - stated_->map_from_base.translation;
   const double turned = LogSO3(found.rotation * stated_->map_from_base.rotation.conjugate()).z();
   const Eigen::Vector3d error(moved.x(), moved.y(), turned);
-  return error.dot(stated_->covariance.ldlt().solve(error)) >
-         ChiSquareQuantile(3, kStatedProbability);
+  return SquaredMahalanobis(error, stated_->covariance) > ChiSquareQuantile(3, kStatedProbability);
 }
 
 void Localiser::MoveFrame(int from, int to, const Rigid3& to_from_from) {

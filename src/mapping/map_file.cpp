@@ -2,7 +2,6 @@
 
 #include <signal.h>
 
-#include <Eigen/Cholesky>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/number_rows.h"
 #include "arfm_vo/base/whole_file.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 // The file: kMagic, then (little-endian) uint32 version, uint32 CRC-32 of what follows, uint64
 // length of what follows, and that: the fields in the order of WalkMap.
@@ -125,9 +125,9 @@ void CheckMap(const Reader& file, KnownMap& map) {
   if (map.correction) {
     CorrectionBelief& correction = *map.correction;
     correction.is_of_earlier_drive = true;
-    file.Check(correction.mean.coefficients_px.allFinite() && correction.covariance.allFinite() &&
+    file.Check(correction.mean.coefficients_px.allFinite() &&
                    correction.covariance.isApprox(correction.covariance.transpose(), 1e-6) &&
-                   correction.covariance.llt().info() == Eigen::Success,
+                   IsPositiveDefinite(correction.covariance),
                "its learnt calibration has no covariance");
   }
   for (KnownKeyframe& keyframe : map.keyframes) {

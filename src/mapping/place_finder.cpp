@@ -1,9 +1,9 @@
 #include "arfm_vo/mapping/place_finder.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "arfm_vo/base/chi_square.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/pose/carry_covariance.h"
 
 namespace arfm_vo {
@@ -38,7 +38,7 @@ bool PlaceFinder::Agree(const Sighting& earlier, const Sighting& newest) {
   const double sigma_m = kSigma_m + kSigmaShare * newest_from_earlier.translation.norm();
   covariance.diagonal().head<3>().array() += kSigma_rad * kSigma_rad;
   covariance.diagonal().tail<3>().array() += sigma_m * sigma_m;
-  return step.dot(covariance.ldlt().solve(step)) < ChiSquareQuantile(6, kSightingProbability);
+  return SquaredMahalanobis(step, covariance) < ChiSquareQuantile(6, kSightingProbability);
 }
 
 std::optional<FoundPlace> PlaceFinder::Find(const std::vector<SeenPoint>& view,

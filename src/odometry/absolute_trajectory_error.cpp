@@ -1,6 +1,9 @@
 #include "arfm_vo/odometry/absolute_trajectory_error.h"
 
+#include <numeric>
+
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -17,13 +20,15 @@ Rigid3 AlignPoints(const std::vector<Eigen::Vector3d>& points,
                    const std::vector<Eigen::Vector3d>& targets) {
   Require(points.size() == targets.size() && !points.empty(),
           "points and targets to align must be equally many");
-  using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
-  const auto count = static_cast<Eigen::Index>(points.size());
-  const Eigen::Matrix4d aligned =
-      Eigen::umeyama(Columns(points[0].data(), 3, count), Columns(targets[0].data(), 3, count),
-                     /*with_scaling=*/false);
-  return {Eigen::Matrix3d(aligned.topLeftCorner<3, 3>()),
-          Eigen::Vector3d(aligned.topRightCorner<3, 1>())};
+  const auto mean = [](const std::vector<Eigen::Vector3d>& all) -> Eigen::Vector3d {
+    return std::accumulate(all.begin(), all.end(), Eigen::Vector3d(0, 0, 0)) / double(all.size());
+  };
+  const Eigen::Vector3d of_points = mean(points), of_targets = mean(targets);
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < points.size(); ++i)
+    correlation += (targets[i] - of_targets) * (points[i] - of_points).transpose();
+  const Eigen::Matrix3d rotation = FindRotation(correlation);
+  return {rotation, Eigen::Vector3d(of_targets - rotation * of_points)};
 }
 
 double ComputeAbsoluteTrajectoryError(const std::vector<Rigid3>& truth,

@@ -1,6 +1,7 @@
 #include "arfm_vo/odometry/base_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace arfm_vo {
 
@@ -13,10 +14,10 @@ const Rigid3& BaseMotion::Move(const Rigid3& camera_from_world, const Rigid3& ba
 
 void BaseMotion::Level(const std::optional<Eigen::Vector3d>& up_in_world, double max_rad) {
   if (!up_in_world) return;
-  const Eigen::Vector3d step = LogSO3(Eigen::Quaterniond::FromTwoVectors(
-      odom_from_world_.rotation * *up_in_world, Eigen::Vector3d::UnitZ()));
-  const double part = std::min(1., max_rad / std::max(1e-12, step.norm()));
-  const Rigid3 turn(ExpSO3(part * step), Eigen::Vector3d::Zero());
+  const Eigen::Vector3d up = odom_from_world_.rotation * *up_in_world;
+  const Eigen::Vector3d axis = up.cross(Eigen::Vector3d::UnitZ());
+  const double angle_rad = std::min(std::atan2(axis.norm(), up.z()), max_rad);
+  const Rigid3 turn(ExpSO3(angle_rad * axis.normalized()), Eigen::Vector3d::Zero());
   const Rigid3 to_base(Eigen::Quaterniond::Identity(), -odom_from_base_.translation);
   const Rigid3 levelled_from_odom = to_base.Inverse() * turn * to_base;
   odom_from_world_ = levelled_from_odom * odom_from_world_;

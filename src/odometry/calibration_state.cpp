@@ -1,11 +1,11 @@
 #include "arfm_vo/odometry/calibration_state.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "arfm_vo/base/chi_square.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -42,11 +42,6 @@ constexpr double kTangentialFreedom = 2;
 constexpr int kTangential = StereoCorrection::kNumField + LensBasis::kNumRadial;
 constexpr int kFocalLength = StereoCorrection::kNumField + LensBasis::kFocalLength;
 
-/// Of a vector of three with this covariance; 1 in the mean.
-double Square(const Eigen::Vector3d& x, const Eigen::Matrix3d& covariance) {
-  return x.dot(covariance.ldlt().solve(x)) / 3;
-}
-
 }  // namespace
 
 CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
@@ -56,6 +51,7 @@ CalibrationState::CalibrationState(const StereoCamera& camera, bool may_learn,
       is_open_(may_learn &&
                (known.is_of_earlier_drive || known.MaxColumnSigma(camera) > kModelSigmaPx)),
       by_turn_(CorrectionBelief::ByTurn(camera)),
+      to_turn_(CorrectionBelief::ToTurn(camera)),
       prior_(known),
       learnt_(known),
       correction_(known) {
@@ -106,15 +102,15 @@ bool CalibrationState::Learn(const BundleResult& result, int num_keyframes) {
 /// Whether the columns of a camera with the correction `mean` would be found so.
 bool CalibrationState::Allows(const StereoCorrection& mean) const {
   constexpr int kNum = StereoCorrection::kNumField;
-  const auto off = (correction_.mean.coefficients_px - mean.coefficients_px).head<kNum>().eval();
-  const auto allowed = correction_.covariance.topLeftCorner<kNum, kNum>().eval();
-  return off.dot(allowed.llt().solve(off)) <= ChiSquareQuantile(kNum, kSameProbability);
+  const auto off = (correction_.mean.coefficients_px - mean.coefficients_px).head<kNum>();
+  const auto allowed = correction_.covariance.topLeftCorner<kNum, kNum>();
+  return SquaredMahalanobis(off, allowed) <= ChiSquareQuantile(kNum, kSameProbability);
 }
 
 void CalibrationState::Tell() {
   correction_ = {learnt_.mean, scatter_.value() * learnt_.covariance +
                                    CorrectionBelief::Isotropic(kModelSigmaPx).covariance +
-                                   by_turn_ * turn_covariance_ * by_turn_.transpose()};
+                                   Propagate(by_turn_, turn_covariance_)};
 }
 
 std::optional<CorrectionBelief> CalibrationState::WindowPrior(int num_keyframes) const {
@@ -143,7 +139,8 @@ void CalibrationState::Turn(const RightTurn& turn, int keyframe) {
 CorrectionBelief CalibrationState::OpenToATurn() const {
   CorrectionBelief open = CorrectionBelief::Isotropic(kHeldSigmaPx);
   open.mean = correction_.mean;
-  open.covariance += kTurnSigma_rad * kTurnSigma_rad * by_turn_ * by_turn_.transpose();
+  open.covariance +=
+      Propagate(by_turn_, kTurnSigma_rad * kTurnSigma_rad * Eigen::Matrix3d::Identity());
   return open;
 }
 
@@ -151,14 +148,12 @@ void CalibrationState::TakeNews(const CorrectionBelief& newest) {
   const std::optional<CorrectionBelief> before = std::exchange(found_, newest);
   if (!before) return;
   // The newest has all that the one before had and more: by what is less unknown it may move.
-  using Placing = CorrectionBelief::Placing;
   constexpr int kNum = StereoCorrection::kNumPlacing;
-  const Eigen::LLT<Placing> factor(before->PlacingCovariance());
-  if (factor.info() != Eigen::Success) return;
+  const auto known = before->PlacingCovariance();
+  const auto left = SolveDefinite(known, newest.PlacingCovariance());
+  if (!left || left->trace() >= kNum) return;
   const auto moved = (newest.mean.coefficients_px - before->mean.coefficients_px).head<kNum>();
-  const double num = kNum - factor.solve(newest.PlacingCovariance()).trace();
-  if (num <= 0) return;
-  scatter_.Add(moved.dot(factor.solve(moved.eval())), num);
+  scatter_.Add(SquaredMahalanobis(moved, known), kNum - left->trace());
 }
 
 void CalibrationState::TakeScatter(const Window& newest) {
@@ -166,7 +161,8 @@ void CalibrationState::TakeScatter(const Window& newest) {
   if (windows_.size() <= kWindow) return;
   const Window before = windows_.front();
   windows_.pop_front();
-  const double apart = 3 * Square(newest.turn - before.turn, newest.covariance + before.covariance);
+  const double apart =
+      SquaredMahalanobis(newest.turn - before.turn, newest.covariance + before.covariance);
   scatter_.Add(apart, 3);
   scatter_of_windows_.Add(apart, 3);
   Tell();
@@ -175,16 +171,14 @@ void CalibrationState::TakeScatter(const Window& newest) {
 void CalibrationState::Follow(const BundleResult& window, int num_keyframes) {
   const bool was_turning = std::exchange(is_turning_, false);
   if (window.status == BundleStatus::kFailed || window.correction_covariance.isZero(0)) return;
-  const Eigen::Matrix3d px2_by_turn = by_turn_.transpose() * by_turn_;
-  const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
-      px2_by_turn.ldlt().solve(by_turn_.transpose());
-  const Window newest{turn_of * window.correction.coefficients_px,
-                      turn_of * window.correction_covariance * turn_of.transpose()};
-  const Eigen::Vector3d off = newest.turn - turn_of * correction_.mean.coefficients_px;
-  const Eigen::Matrix3d noise = scatter_.value() * newest.covariance +
-                                kObservationSigmaPx * kObservationSigmaPx * px2_by_turn.inverse();
-  const Eigen::Matrix3d known = turn_of * correction_.covariance * turn_of.transpose();
-  const double ratio = Square(off, known + noise);
+  const Window newest{to_turn_ * window.correction.coefficients_px,
+                      Propagate(to_turn_, window.correction_covariance)};
+  const Eigen::Vector3d off = newest.turn - to_turn_ * correction_.mean.coefficients_px;
+  const Eigen::Matrix3d noise =
+      scatter_.value() * newest.covariance +
+      Propagate(to_turn_, CorrectionBelief::Isotropic(kObservationSigmaPx).covariance);
+  const Eigen::Matrix3d known = Propagate(to_turn_, correction_.covariance);
+  const double ratio = SquaredMahalanobis(off, known + noise) / 3;
   // A turn that has begun goes on; one that begins must stand out from many windows that tell none.
   const double limit = was_turning ? 1 : ChiSquareQuantile(3, kStillProbability) / 3;
   is_turning_ = ratio > limit;

@@ -1,13 +1,11 @@
 #include "arfm_vo/odometry/drift_estimator.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -54,25 +52,21 @@ PoseDrift DriftEstimator::Beside(KeyframeId keyframe, const Rigid3& pose_from_ke
                                  const PoseDrift& own) const {
   const Matrix6 carried = CarryStep(pose_from_keyframe);
   const PoseDrift drift = Drift(keyframe);
-  return {own.covariance + carried * drift.covariance * carried.transpose(),
+  return {own.covariance + Propagate(carried, drift.covariance),
           own.by_correction + carried * drift.by_correction};
 }
 
 void DriftEstimator::SetCorrection(const CorrectionBelief& correction, KeyframeId anchor,
                                    const std::map<KeyframeId, Rigid3>& moved) {
-  using Placing = CorrectionBelief::Placing;
-  const Placing unknown = correction.PlacingCovariance();
-  // In directions of their own (unknown_ = L L^T, unknown = L V d V^T L^T) what is learnt, d < 1,
-  // is independent of what stays unknown; what has opened, d > 1, is of a camera that has changed.
-  const Eigen::LLT<Placing> factor(unknown_);
-  Placing kept = Placing::Zero();  // takes what is unknown now to what was unknown of the same
-  if (factor.info() == Eigen::Success) {
-    const Placing half = factor.matrixL().solve(unknown);
-    const Eigen::SelfAdjointEigenSolver<Placing> ratios(
-        factor.matrixL().solve(half.transpose()).transpose());
-    const Placing directions = factor.matrixL() * ratios.eigenvectors();
-    kept = directions * ratios.eigenvalues().cwiseMax(1).cwiseInverse().asDiagonal() *
-           directions.inverse();
+  const MatrixXd unknown = correction.PlacingCovariance();
+  // In directions of their own, X with X^T unknown_ X = 1 and X^T unknown X = d, what is learnt,
+  // d < 1, is independent of what stays unknown; what has opened, d > 1, is of a camera that has
+  // changed.
+  MatrixXd kept = 0 * unknown;  // takes what is unknown now to what was unknown of the same
+  if (IsPositiveDefinite(unknown_)) {
+    const SymmetricEigen ratios(unknown, unknown_);
+    const MatrixXd shares = ratios.values.cwiseMax(1).cwiseInverse().asDiagonal();
+    kept = unknown_ * Propagate(ratios.vectors, shares);
   }
   MatrixXd staying = by_correction_;
   const auto of_anchor = Drift(anchor).by_correction;
@@ -80,7 +74,7 @@ void DriftEstimator::SetCorrection(const CorrectionBelief& correction, KeyframeI
     const int i = Find(keyframe);
     if (i >= 0) staying.middleRows<6>(6 * i) = CarryStep(from_anchor) * of_anchor;
   }
-  covariance_ += staying * (unknown_ - kept * unknown * kept.transpose()) * staying.transpose();
+  covariance_ += Propagate(staying, unknown_ - Propagate(kept, unknown));
   by_correction_ *= kept;
   unknown_ = unknown;
 }
@@ -117,19 +111,22 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
     (is_held[i] ? held : free).push_back(static_cast<int>(i));
     (is_held[i] ? held_known : free_known).push_back(known);
   }
-  const Eigen::LLT<MatrixXd> factor(TakeBlocks(information.poses, free, free));
-  if (free.empty() || factor.info() != Eigen::Success) return;
+  if (free.empty()) return;
+  const Eigen::Index size = 6 * free.size();
+  const auto inverse =
+      SolveDefinite(TakeBlocks(information.poses, free, free), MatrixXd::Identity(size, size));
+  if (!inverse) return;
 
   // The errors e_free = step e_held + s, with s independent of e_held and of `own` covariance.
-  const MatrixXd step = -factor.solve(TakeBlocks(information.poses, free, held));
-  const MatrixXd own = factor.solve(MatrixXd::Identity(6 * free.size(), 6 * free.size()));
+  const MatrixXd& own = *inverse;
+  const MatrixXd step = -own * TakeBlocks(information.poses, free, held);
   std::vector<int> others;
   for (int i = 0; i < static_cast<int>(keyframes_.size()); ++i) {
     if (std::count(free_known.begin(), free_known.end(), i) == 0) others.push_back(i);
   }
   const MatrixXd free_by_others = step * TakeBlocks(covariance_, held_known, others);
   const MatrixXd free_by_free =
-      own + step * TakeBlocks(covariance_, held_known, held_known) * step.transpose();
+      own + Propagate(step, TakeBlocks(covariance_, held_known, held_known));
   MatrixXd pulled(6 * free.size(), StereoCorrection::kNumPlacing);
   for (size_t i = 0; i < free.size(); ++i) {
     pulled.middleRows<6>(6 * i) = information.by_correction.middleRows<6>(6 * free[i]);
@@ -138,7 +135,7 @@ void DriftEstimator::Update(const std::vector<KeyframeId>& keyframes,
   for (size_t i = 0; i < held.size(); ++i) {
     held_by_correction.middleRows<6>(6 * i) = by_correction_.middleRows<6>(6 * held_known[i]);
   }
-  const MatrixXd free_by_correction = step * held_by_correction - factor.solve(pulled);
+  const MatrixXd free_by_correction = step * held_by_correction - own * pulled;
   for (size_t i = 0; i < free.size(); ++i) {
     by_correction_.middleRows<6>(6 * free_known[i]) = free_by_correction.middleRows<6>(6 * i);
   }

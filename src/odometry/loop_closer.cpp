@@ -1,11 +1,10 @@
 #include "arfm_vo/odometry/loop_closer.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/bundle_adjustment/bundle_reprojection.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -57,7 +56,7 @@ void LoopCloser::AddStep(const MapStore& map, const Matrix6& covariance) {
   steps_.push_back({newest - 1, newest,
                     map.keyframes[newest].camera_from_world *
                         map.keyframes[newest - 1].camera_from_world.Inverse(),
-                    (covariance + kMinVariance * Matrix6::Identity()).inverse()});
+                    InvertDefinite(covariance + kMinVariance * Matrix6::Identity())});
 }
 
 void LoopCloser::TakeSteps(const MapStore& map, int first) {
@@ -84,7 +83,7 @@ std::optional<PoseConstraint> LoopCloser::Find(const MapStore& map,
   is_to_be_confirmed_ = !found && finder_.has_recognised();
   if (!found) return std::nullopt;
   return PoseConstraint{static_cast<int>(found->keyframe), newest, found->camera_from_keyframe,
-                        found->covariance.inverse()};
+                        InvertDefinite(found->covariance)};
 }
 
 void LoopCloser::Close(const MapStore& map, const PoseConstraint& loop) {
@@ -94,8 +93,8 @@ void LoopCloser::Close(const MapStore& map, const PoseConstraint& loop) {
   const bool agrees = error.dot(loop.information * error) <= allowed;
   if (!agrees) {
     const Matrix6 covariance =
-        FindErrorCovariance(poses, steps_, loops_, loop) + loop.information.inverse();
-    if (!(error.dot(covariance.ldlt().solve(error)) <= allowed)) {
+        FindErrorCovariance(poses, steps_, loops_, loop) + InvertDefinite(loop.information);
+    if (!(SquaredMahalanobis(error, covariance) <= allowed)) {
       ++num_refused_;
       return;
     }

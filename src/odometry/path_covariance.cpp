@@ -1,9 +1,7 @@
 #include "arfm_vo/odometry/path_covariance.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "arfm_vo/bundle_adjustment/pose_information.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -42,11 +40,9 @@ PoseDrift FindDrift(const StereoCamera& camera, const StereoCorrection& correcti
   result.points = problem.points;
   result.point_is_used.assign(result.points.size(), 1);
   const PoseInformation information = FindPoseInformation(problem, result, solver);
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(
-      information.poses.bottomRightCorner<6, 6>());
-  if (factor.isPositive() && factor.rcond() >= 1e-12) {
-    drift.by_correction = -factor.solve(information.by_correction.bottomRows<6>());
-  }
+  const auto by_correction = SolveDefinite(information.poses.bottomRightCorner(6, 6),
+                                           information.by_correction.bottomRows(6));
+  if (by_correction) drift.by_correction = -*by_correction;
   return drift;
 }
 
@@ -85,10 +81,9 @@ void PathCovariance::Settle(const Keyframe& keyframe) {
   const Rigid3 step = keyframe.camera_from_world * settled_from_world_.Inverse();
   const Matrix6 covariance = OfKeyframe(keyframe);
   // What is negative in it is an adjustment that knew more than the one before.
-  const Eigen::SelfAdjointEigenSolver<Matrix6> added(covariance -
-                                                     CarryCovariance(step, settled_covariance_));
-  step_covariance_ = added.eigenvectors() * added.eigenvalues().cwiseMax(0).asDiagonal() *
-                     added.eigenvectors().transpose();
+  const SymmetricEigen added(covariance - CarryCovariance(step, settled_covariance_));
+  const Eigen::MatrixXd variances = added.values.cwiseMax(0).asDiagonal();
+  step_covariance_ = Propagate(added.vectors, variances);
   settled_from_world_ = keyframe.camera_from_world;
   settled_covariance_ = covariance;
 }

@@ -1,8 +1,8 @@
 #include "arfm_vo/odometry/standstill_lock.h"
 
-#include <Eigen/Cholesky>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -54,7 +54,7 @@ bool StandstillLock::MotionIsNoise(const PoseEstimate& pose) const {
   Eigen::Matrix<double, 6, 1> step;
   step << LogSO3(motion.rotation), motion.translation;
   // Both poses are uncertain, with the same covariance.
-  const double squared = 0.5 * step.dot(pose.covariance.ldlt().solve(step));
+  const double squared = 0.5 * SquaredMahalanobis(step, pose.covariance);
   return squared < options_.max_significance * options_.max_significance;
 }
 

@@ -1,12 +1,11 @@
 #include "arfm_vo/odometry/stereo_skew.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "arfm_vo/base/median.h"
 #include "arfm_vo/geometry/correction_belief.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/geometry/stereo_correction.h"
 #include "arfm_vo/odometry/odometry_update.h"
@@ -33,9 +32,8 @@ constexpr double kMaxShiftPx = 1;
 
 StereoSkewEstimator::StereoSkewEstimator(const StereoCamera& camera) : camera_(camera) {
   constexpr int kRows = StereoCorrection::kNumField;
-  prior_.topLeftCorner<kRows, kRows>() = CorrectionBelief::OfCalibration(camera)
-                                             .covariance.bottomRightCorner<kRows, kRows>()
-                                             .inverse();
+  prior_.topLeftCorner<kRows, kRows>() = InvertDefinite(
+      CorrectionBelief::OfCalibration(camera).covariance.bottomRightCorner<kRows, kRows>());
   prior_(kRows, kRows) = 1 / (kSkewSigma_s * kSkewSigma_s);
   skew_.sigma_s = kSkewSigma_s;
 }
@@ -102,11 +100,12 @@ void StereoSkewEstimator::AddRow(const Eigen::Vector4d& pixels, double row_speed
 }
 
 void StereoSkewEstimator::Solve() {
-  const Matrix information = information_ + prior_;
-  const auto decomposed = information.ldlt();
-  solution_ = decomposed.solve(right_side_);
+  Eigen::Matrix<double, kSize, 2> right_sides;
+  right_sides << right_side_, Vector::Unit(kSize - 1);
+  const Eigen::MatrixXd solved = SolveSymmetric(information_ + prior_, right_sides);
+  solution_ = solved.col(0);
   // Rows of one frame err together, so that frames count, not points (the sandwich estimator).
-  const Vector by_score = decomposed.solve(Vector::Unit(kSize - 1));
+  const Vector by_score = solved.col(1);
   const double variance = by_score[kSize - 1] + by_score.dot(scatter_ * by_score);
   skew_ = {solution_[kSize - 1], std::sqrt(variance)};
 }

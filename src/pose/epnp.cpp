@@ -1,15 +1,12 @@
 #include "arfm_vo/pose/epnp.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <utility>
 
-#include "eigenvectors.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -29,29 +26,12 @@ struct PrincipalAxes {
       const Eigen::Vector3d d = x_in_world.col(i) - centroid;
       scatter += d * d.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter / x_in_world.cols());
-    axes = solver.eigenvectors().rowwise().reverse();
+    const SymmetricEigen principal(scatter / x_in_world.cols());
+    axes = principal.vectors.rowwise().reverse();
     axes.col(2) = axes.col(0).cross(axes.col(1));
-    lengths = solver.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+    lengths = principal.values.reverse().cwiseMax(0).cwiseSqrt();
   }
 };
-
-// Sizes known at run time, without a heap: one solver for all of them.
-using UpTo5x5 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 5, 5>;
-using UpTo5 = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 5, 1>;
-
-UpTo5 SolveSymmetric(const UpTo5x5& matrix, const UpTo5& right) {
-  return matrix.ldlt().solve(right);
-}
-
-/// The rotation nearest to a correlation of points (Horn 1988; Umeyama 1991).
-Eigen::Matrix3d FindRotation(const Eigen::Matrix3d& correlation) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
-  return u * svd.matrixV().transpose();
-}
 
 struct Candidate {
   std::optional<Rigid3> camera_from_world;
@@ -112,7 +92,7 @@ class Epnp {
       sum_y += y * product;
       sum_xx_yy += (x * x + y * y) * product;
     }
-    UpTo12x12 gram(3 * num_controls_, 3 * num_controls_);
+    Eigen::MatrixXd gram(3 * num_controls_, 3 * num_controls_);
     for (int j = 0; j < num_controls_; ++j) {
       for (int k = 0; k < num_controls_; ++k) {
         gram.block<3, 3>(3 * j, 3 * k) << sum_1(j, k), 0, -sum_x(j, k), 0, sum_1(j, k),
@@ -120,7 +100,8 @@ class Epnp {
       }
     }
     const int num_betas = num_controls_ == 4 ? 4 : 2;
-    null_space_.topLeftCorner(gram.rows(), num_betas) = FindEigenvectors(gram).leftCols(num_betas);
+    null_space_.topLeftCorner(gram.rows(), num_betas) =
+        SymmetricEigen(gram).vectors.leftCols(num_betas);
   }
 
   Eigen::Vector3d ControlPoint(int j) const {
@@ -152,16 +133,16 @@ class Epnp {
 
   /// Least squares for the named products beta_a beta_b, the others taken as zero.
   Betas StartOfProducts(std::initializer_list<std::pair<int, int>> pairs_of_betas) const {
-    UpTo5x5 normal = UpTo5x5::Zero(pairs_of_betas.size(), pairs_of_betas.size());
-    UpTo5 right = UpTo5::Zero(pairs_of_betas.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(pairs_of_betas.size(), pairs_of_betas.size());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(pairs_of_betas.size());
     for (int p = 0; p < num_pairs_; ++p) {
-      UpTo5 row(pairs_of_betas.size());
+      Eigen::VectorXd row(pairs_of_betas.size());
       Eigen::Index i = 0;
       for (const auto& [a, b] : pairs_of_betas) row(i++) = (a == b ? 1 : 2) * products_[p](a, b);
       normal += row * row.transpose();
       right += squared_distances_[p] * row;
     }
-    const UpTo5 solution = SolveSymmetric(normal, right);
+    const Eigen::VectorXd solution = SolveSymmetric(normal, right);
     Betas betas(std::sqrt(std::abs(solution(0))), 0, 0, 0);
     Eigen::Index i = 0;
     for (const auto& [a, b] : pairs_of_betas) {

@@ -1,12 +1,11 @@
 #include "arfm_vo/reconstruction/row_model.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/base/median.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 
 namespace arfm_vo {
 namespace {
@@ -27,7 +26,8 @@ constexpr double kConvergedPx = 1e-3;
 
 RowModel::RowModel(const StereoCamera& camera, const CorrectionBelief& prior)
     : camera_(camera),
-      prior_information_(prior.covariance.bottomRightCorner<kNumTerms, kNumTerms>().inverse()),
+      prior_information_(
+          InvertDefinite(prior.covariance.bottomRightCorner<kNumTerms, kNumTerms>())),
       prior_mean_(prior.mean.coefficients_px.tail<kNumTerms>()),
       information_(prior_information_),
       weighted_sum_(prior_information_ * prior_mean_),
@@ -36,11 +36,11 @@ RowModel::RowModel(const StereoCamera& camera, const CorrectionBelief& prior)
 }
 
 RowModel RowModel::AfterAKnock() const {
-  const auto by_turn = CorrectionBelief::ByTurn(camera_).bottomRows<kNumTerms>().eval();
-  const Information turned =
-      RightTurn::kKnockSigma_rad * RightTurn::kKnockSigma_rad * by_turn * by_turn.transpose();
+  const Eigen::MatrixXd by_knock =
+      RightTurn::kKnockSigma_rad * CorrectionBelief::ByTurn(camera_).bottomRows<kNumTerms>();
   RowModel after = *this;
-  after.information_ = (information_.inverse() + turned).inverse();
+  after.information_ =
+      InvertDefinite(InvertDefinite(information_) + by_knock * by_knock.transpose());
   after.weighted_sum_ = after.information_ * coefficients_;
   return after;
 }
@@ -95,7 +95,7 @@ void RowModel::Update(const std::vector<RowSample>& samples) {
       weighted_sum += weight * samples[i].residual_px * terms[i];
     }
     const Terms last = coefficients_;
-    coefficients_ = information.ldlt().solve(weighted_sum);
+    coefficients_ = SolveSymmetric(information, weighted_sum);
     if ((coefficients_ - last).lpNorm<1>() < kConvergedPx) break;  // terms are in [-1, 1]
   }
   const std::vector<double> deviations = Deviations(samples, terms);

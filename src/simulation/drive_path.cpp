@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "arfm_vo/geometry/linear_algebra.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -83,7 +85,7 @@ Rigid3 PlaceRover(const Terrain& terrain, const RoverPose& pose, const RoverShap
       right_side += row * terrain.Height(p.x(), p.y());
     }
   }
-  const Eigen::Vector3d plane = normal_matrix.ldlt().solve(right_side);
+  const Eigen::Vector3d plane = SolveSymmetric(normal_matrix, right_side);
   Eigen::Matrix3d world_from_base;
   world_from_base.col(0) = Eigen::Vector3d(ahead.x(), ahead.y(), plane.x()).normalized();
   world_from_base.col(2) = Eigen::Vector3d(ahead.x(), ahead.y(), plane.x())

@@ -1,10 +1,10 @@
 #include "arfm_vo/tracking/right_turn.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/geometry/right_shift.h"
 #include "arfm_vo/pose/reprojection.h"
 
@@ -74,7 +74,7 @@ class Solver {
   }
 
   void Step() {
-    const Vector9 step = information_.ldlt().solve(gradient_);
+    const Vector9 step = SolveSymmetric(information_, gradient_);
     camera_from_world_ = Rigid3(ExpSO3(step.head<3>()), step.segment<3>(3)) * camera_from_world_;
     turn_ += step.tail<3>();
     last_information_ = information_ / std::max(1., squared_ / std::max(1., num_coordinates_));
@@ -83,10 +83,12 @@ class Solver {
     gradient_.setZero();
   }
 
-  RightTurn Result() const {
-    const Eigen::Matrix3d common =
-        kCommonSigma_px * kCommonSigma_px * (by_turn_.transpose() * by_turn_).inverse();
-    return {turn_, last_information_.inverse().bottomRightCorner<3, 3>() + common};
+  std::optional<RightTurn> Result() const {
+    const auto covariance = SolveDefinite(last_information_, Matrix9::Identity());
+    if (!covariance) return std::nullopt;
+    const Eigen::Matrix3d common = Propagate(
+        CorrectionBelief::ToTurn(camera_), CorrectionBelief::Isotropic(kCommonSigma_px).covariance);
+    return RightTurn{turn_, covariance->bottomRightCorner<3, 3>() + common};
   }
 
  private:
@@ -120,9 +122,7 @@ std::optional<RightTurn> FindTurnAgainstMap(const StereoCamera& camera,
     }
     solver.Step();
   }
-  const RightTurn found = solver.Result();
-  if (!found.turn_rad.allFinite() || !found.covariance.allFinite()) return std::nullopt;
-  return found;
+  return solver.Result();
 }
 
 std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn& now) {
@@ -130,11 +130,10 @@ std::optional<RightTurn> FindTurnSince(const RightTurn& before, const RightTurn&
   const Eigen::Matrix3d if_turned =
       RightTurn::kKnockSigma_rad * RightTurn::kKnockSigma_rad * Eigen::Matrix3d::Identity() +
       since.covariance;
-  const auto squared = [&](const Eigen::Matrix3d& covariance) {
-    return since.turn_rad.dot(covariance.ldlt().solve(since.turn_rad));
-  };
   const double occam = std::log(if_turned.determinant() / since.covariance.determinant());
-  const double log_odds = kKnocked + (squared(since.covariance) - squared(if_turned) - occam) / 2;
+  const double log_odds = kKnocked + (SquaredMahalanobis(since.turn_rad, since.covariance) -
+                                      SquaredMahalanobis(since.turn_rad, if_turned) - occam) /
+                                         2;
   return log_odds > 0 ? std::optional(since) : std::nullopt;
 }
 
@@ -151,10 +150,8 @@ std::optional<RightTurn> RightTurns::Look(const std::optional<RightTurn>& agains
 }
 
 void RightTurns::Interrupt(const CorrectionBelief& correction, const StereoCamera& camera) {
-  const CorrectionBelief::Turns by_turn = CorrectionBelief::ByTurn(camera);
-  const Eigen::Matrix<double, 3, StereoCorrection::kSize> as_turn =
-      (by_turn.transpose() * by_turn).inverse() * by_turn.transpose();
-  against_map_ = {Eigen::Vector3d::Zero(), as_turn * correction.covariance * as_turn.transpose()};
+  against_map_ = {Eigen::Vector3d::Zero(),
+                  Propagate(CorrectionBelief::ToTurn(camera), correction.covariance)};
 }
 
 std::optional<RightTurn> RightTurns::Before(KeyframeId keyframe) const {

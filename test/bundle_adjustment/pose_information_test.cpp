@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "arfm_vo/base/chi_square.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
@@ -33,9 +31,9 @@ TEST(PoseInformation, ItsInverseIsTheCovarianceOfTheNewestPose) {
     const BundleResult result = AdjustBundle(scene.problem, options);
     const Eigen::MatrixXd information = FindPoseInformation(scene.problem, result, options).poses;
     const Eigen::MatrixXd covariance =
-        information.bottomRightCorner(6 * kNumMoving, 6 * kNumMoving).inverse();
+        InvertDefinite(information.bottomRightCorner(6 * kNumMoving, 6 * kNumMoving));
     const auto step = StepBetween(scene.camera_from_world.back(), result.camera_from_world.back());
-    sum += step.dot(covariance.bottomRightCorner<6, 6>().ldlt().solve(step));
+    sum += SquaredMahalanobis(step, covariance.bottomRightCorner<6, 6>());
   }
   EXPECT_GT(sum, ChiSquareQuantile(6 * kTrials, 0.025));
   EXPECT_LT(sum, ChiSquareQuantile(6 * kTrials, 0.975));
@@ -71,10 +69,9 @@ TEST(PoseInformation, TellsHowThePosesMoveWithTheCorrection) {
   scene.problem.correction.coefficients_px = step;
   const BundleResult moved = AdjustBundle(scene.problem, options);
   constexpr int kFirst = 2, kSize = 6 * 4;  // two poses are held
-  const Eigen::VectorXd expected = -information.poses.bottomRightCorner(kSize, kSize)
-                                        .ldlt()
-                                        .solve(information.by_correction.bottomRows(kSize) *
-                                               step.head<StereoCorrection::kNumPlacing>());
+  const Eigen::VectorXd expected = -SolveSymmetric(
+      information.poses.bottomRightCorner(kSize, kSize),
+      information.by_correction.bottomRows(kSize) * step.head<StereoCorrection::kNumPlacing>());
   for (int pose = kFirst; pose < 6; ++pose) {
     const Rigid3 motion = moved.camera_from_world[pose] * held.camera_from_world[pose].Inverse();
     const Eigen::Vector3d shift = moved.camera_from_world[pose].translation -

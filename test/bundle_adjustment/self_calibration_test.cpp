@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "arfm_vo/base/chi_square.h"
 #include "arfm_vo/bundle_adjustment/bundle_adjustment.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "bundle_adjustment/bundle_scene.h"
 
 namespace arfm_vo {
@@ -31,7 +29,7 @@ Coefficients MakeDisplacement() {
 /// The squared distance of an estimate from the truth in units of its stated covariance.
 double SquaredDistance(const BundleResult& result, const Coefficients& truth) {
   const Coefficients error = result.correction.coefficients_px - truth;
-  return error.dot(result.correction_covariance.ldlt().solve(error));
+  return SquaredMahalanobis(error, result.correction_covariance);
 }
 
 CorridorOptions MakeOptions(const Coefficients& displacement) {
@@ -75,20 +73,18 @@ TEST(SelfCalibration, FindsTheSameTurnWhereTheCorrectionMayNotMoveOtherwise) {
   const Eigen::Vector3d turn_rad(4e-4, 8e-4, -6e-4);
   BundleProblem problem = MakeCorridor(MakeOptions(turns * turn_rad)).problem;
   problem.correction_prior = CorrectionBelief::Isotropic(1e-3);
-  problem.correction_prior->covariance += 1e-6 * turns * turns.transpose();
+  problem.correction_prior->covariance += Propagate(turns, 1e-6 * Eigen::Matrix3d::Identity());
   BundleOptions options;
   options.function_tolerance = 1e-10;
   const BundleResult whole = AdjustBundle(problem, options);
   problem.correction_turns = turns;
   const BundleResult alone = AdjustBundle(problem, options);
-  const Eigen::Matrix3d px2_by_turn = turns.transpose() * turns;
-  const Eigen::Matrix<double, 3, StereoCorrection::kSize> turn_of =
-      px2_by_turn.ldlt().solve(turns.transpose());
+  const Eigen::MatrixXd to_turn = CorrectionBelief::ToTurn(problem.camera);
   const auto turn = [&](const BundleResult& result) -> Eigen::Vector3d {
-    return turn_of * result.correction.coefficients_px;
+    return to_turn * result.correction.coefficients_px;
   };
   const auto variance = [&](const BundleResult& result) {
-    return (turn_of * result.correction_covariance * turn_of.transpose()).trace();
+    return Propagate(to_turn, result.correction_covariance).trace();
   };
   EXPECT_LT((turn(alone) - turn(whole)).norm(), 1e-5);
   EXPECT_LT((turn(alone) - turn_rad).norm(), 1e-4);
@@ -170,7 +166,7 @@ TEST(SelfCalibration, EarlierInformationCountsAsMuchAsTheObservations) {
   const BundleResult alone = AdjustBundle(problem, options);
   const Coefficients shift = 0.01 * Coefficients::Ones();
   const auto distance = [&](const Coefficients& step) {  // in standard deviations
-    return std::sqrt(step.dot(alone.correction_covariance.ldlt().solve(step)));
+    return std::sqrt(SquaredMahalanobis(step, alone.correction_covariance));
   };
   problem.correction_prior->covariance = alone.correction_covariance;
   problem.correction_prior->mean.coefficients_px = alone.correction.coefficients_px + shift;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "arfm_vo/geometry/linear_algebra.h"
+
 namespace arfm_vo {
 namespace {
 
@@ -27,7 +29,7 @@ class Comparison {
     Vector6 error;
     error << live.translation - expected.translation,
         LogSO3(live.rotation * expected.rotation.conjugate());
-    return error.dot(covariance.ldlt().solve(error));
+    return SquaredMahalanobis(error, covariance);
   }
 
  private:

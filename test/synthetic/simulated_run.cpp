@@ -1,11 +1,11 @@
 #include "synthetic/simulated_run.h"
 
-#include <Eigen/Cholesky>
 #include <chrono>
 #include <thread>
 #include <utility>
 
 #include "arfm_vo/base/stopwatch.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "synthetic/simulated_front_end.h"
 
 namespace arfm_vo {
@@ -118,7 +118,7 @@ double ComputeNees(const SimulatedRun& run, size_t i) {
   const Rigid3 error = run.online[i].Inverse() * run.truth[i];  // estimated camera from true one
   Eigen::Matrix<double, 6, 1> step;
   step << LogSO3(error.rotation), error.translation;
-  return step.dot(run.covariances[i].ldlt().solve(step));
+  return SquaredMahalanobis(step, run.covariances[i]);
 }
 
 }  // namespace arfm_vo

@@ -53,6 +53,8 @@ struct CorrectionBelief {
   using Turns = Eigen::Matrix<double, StereoCorrection::kSize, 3>;
   /// Coefficients by a turn of the right camera about its axes, px/rad.
   static Turns ByTurn(const StereoCamera& camera);
+  /// [3 x kSize] the turn that comes nearest to coefficients, rad/px: least squares.
+  static Eigen::MatrixXd ToTurn(const StereoCamera& camera);
 
   /// This belief after a turn.
   CorrectionBelief After(const RightTurn& turn, const StereoCamera& camera) const;

@@ -6,8 +6,8 @@
 
 namespace arfm_vo {
 
-/// The motion that brings `points` onto `targets` with the least sum of squares (Umeyama, PAMI
-/// 1991, without scale). Throws std::invalid_argument where their numbers differ or are 0.
+/// The motion that brings `points` onto `targets` with the least sum of squares (FindRotation).
+/// Throws std::invalid_argument where their numbers differ or are 0.
 Rigid3 AlignPoints(const std::vector<Eigen::Vector3d>& points,
                    const std::vector<Eigen::Vector3d>& targets);
 

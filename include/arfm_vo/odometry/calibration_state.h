@@ -89,6 +89,7 @@ class CalibrationState {
   bool is_found_ = false;  ///< was known once
   bool is_turning_ = false;
   CorrectionBelief::Turns by_turn_;
+  Eigen::MatrixXd to_turn_;
   CorrectionBelief prior_;                      ///< without any keyframe
   std::optional<StereoCorrection> remembered_;  ///< of an earlier drive, and not refuted
   CorrectionBelief learnt_;                     ///< with them, as their residuals say

@@ -6,6 +6,7 @@
 
 #include "arfm_vo/bundle_adjustment/pose_information.h"
 #include "arfm_vo/geometry/correction_belief.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/geometry/rigid3.h"
 #include "arfm_vo/mapping/landmark.h"
 #include "arfm_vo/pose/carry_covariance.h"
@@ -51,7 +52,7 @@ class DriftEstimator {
   Matrix6 Covariance(KeyframeId keyframe) const { return Covariance(Drift(keyframe)); }
   /// Covariance of a pose, all told.
   Matrix6 Covariance(const PoseDrift& drift) const {
-    return drift.covariance + drift.by_correction * unknown_ * drift.by_correction.transpose();
+    return drift.covariance + Propagate(drift.by_correction, unknown_);
   }
   /// Of a pose beside a keyframe (no drift where that is unknown); `own` is its drift against it.
   PoseDrift Beside(KeyframeId keyframe, const Rigid3& pose_from_keyframe,
@@ -67,7 +68,8 @@ class DriftEstimator {
   /// [6N x kNumPlacing] steps by the coefficients that move points, px^-1
   Eigen::MatrixXd by_correction_ = Eigen::MatrixXd(0, StereoCorrection::kNumPlacing);
   /// Covariance of these coefficients, px^2.
-  CorrectionBelief::Placing unknown_ = CorrectionBelief::Placing::Zero();
+  Eigen::MatrixXd unknown_ =
+      Eigen::MatrixXd::Zero(StereoCorrection::kNumPlacing, StereoCorrection::kNumPlacing);
 };
 
 }  // namespace arfm_vo

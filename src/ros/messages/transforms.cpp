@@ -2,10 +2,10 @@
 
 #include <tf2/exceptions.h>
 
-#include <Eigen/Cholesky>
 
 #include "arfm_vo/base/check.h"
 #include "arfm_vo/driving/route.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/ros/messages/conversions.h"
 
 namespace arfm_vo {
@@ -74,8 +74,7 @@ Eigen::Matrix3d PlanarCovariance(const geometry_msgs::PoseWithCovarianceStamped&
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) covariance(i, k) = stated.pose.covariance[6 * kRows[i] + kRows[k]];
-  const bool is_one = covariance.allFinite() && covariance.llt().info() == Eigen::Success;
-  return is_one ? covariance : Eigen::Matrix3d::Zero();
+  return IsPositiveDefinite(covariance) ? covariance : Eigen::Matrix3d::Zero();
 }
 
 }  // namespace arfm_vo

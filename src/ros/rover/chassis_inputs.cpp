@@ -1,11 +1,11 @@
 #include "arfm_vo/ros/rover/chassis_inputs.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "arfm_vo/base/check.h"
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "arfm_vo/ros/messages/conversions.h"
 #include "arfm_vo/ros/messages/transforms.h"
 
@@ -83,9 +83,8 @@ PoseUncertainty ToUncertainty(const nav_msgs::Odometry& odometry, double taken_s
   Eigen::Matrix2d position;
   position << covariance[0], covariance[1], covariance[6], covariance[7];
   if (!position.allFinite()) return uncertainty;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(position, Eigen::EigenvaluesOnly);
-  if (solver.eigenvalues().x() >= 0)
-    uncertainty.position_sigma_m = std::sqrt(solver.eigenvalues().y());
+  const SymmetricEigen axes(position);
+  if (axes.values[0] >= 0) uncertainty.position_sigma_m = std::sqrt(axes.values[1]);
   return uncertainty;
 }
 

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "arfm_vo/geometry/linear_algebra.h"
 #include "odometry/senses/seeing_rover.h"
 
 namespace arfm_vo {
@@ -67,7 +68,7 @@ Blind DriveBlind(const SensesOptions& use) {
           motion->before_from_now.Inverse() * before.Inverse() * rover.drive().WorldFromBase();
       Eigen::Matrix<double, 6, 1> step;
       step << error.translation, LogSO3(error.rotation);
-      blind.nees += step.dot(motion->covariance.ldlt().solve(step)) / (kTimes * kNumSeeds);
+      blind.nees += SquaredMahalanobis(step, motion->covariance) / (kTimes * kNumSeeds);
       blind.mean_percent += 100 * error.translation.norm() / (rover.drive().driven_m() - driven_m) /
                             (kTimes * kNumSeeds);
       rover.See();
