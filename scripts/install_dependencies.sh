@@ -29,7 +29,7 @@ runtime=(python3-roslaunch python3-rostest python3-rosnode python3-rosservice py
          xvfb xauth imagemagick gnuplot-nox python3-matplotlib python3-numpy hostname procps)
 # A small virtual machine for real SocketCAN and V4L2 where the kernel has neither.
 hardware=(can-utils v4l-utils qemu-system-x86 busybox-static cpio kmod iproute2 nftables)
-checks=(shellcheck pyflakes3 cppcheck clang-tidy)
+checks=(shellcheck pyflakes3 cppcheck clang clang-tidy libclang-rt-dev)
 
 if [[ ${1-} == --list ]]; then
   for group in "${@:2}"; do

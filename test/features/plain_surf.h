@@ -162,7 +162,7 @@ inline void ComputeDescriptor(const IntegralImage& integral, const Keypoint& key
 
 /// What Surf(options).Extract(grey) must give.
 inline Features ExtractPlainly(const SurfOptions& options, const cv::Mat& grey) {
-  cv::Mat smooth = grey;
+  cv::Mat smooth = options.smooth ? grey.clone() : grey;
   if (options.smooth && !grey.empty())
     cv::GaussianBlur(grey, smooth, cv::Size(3, 3), 0, 0, cv::BORDER_DEFAULT | cv::BORDER_ISOLATED);
   const IntegralImage integral(smooth);

@@ -49,7 +49,7 @@ TEST(IntegralImageTest, IsRightWhenReusedForASmallerImage) {
 }
 
 TEST(IntegralImageTest, RefusesAnythingButGrey) {
-  EXPECT_THROW(IntegralImage(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(IntegralImage{cv::Mat()}, std::invalid_argument);
   EXPECT_THROW(IntegralImage(cv::Mat(4, 4, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(IntegralImage(cv::Mat(4, 4, CV_16UC1)), std::invalid_argument);
 }
