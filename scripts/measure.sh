@@ -21,7 +21,7 @@ mutants              test/mutation/mutation.py               3_h     -          
 recordings           test/recordings/recordings.sh           60_min  KITTI         recordings made by seeds, with faults
 results              test/experiments/results.sh             2_min   KITTI,_b      the tables of accuracy
 simulated_kitti      test/synthetic/simulated_kitti.sh       15_min  KITTI,quiet   KITTI sequences 00 to 10, simulated
-stress               test/synthetic/stress.sh                10_min  KITTI         disturbed pictures'
+stress               test/synthetic/stress.sh                20_min  KITTI         disturbed pictures'
 if [ $# -eq 0 ] || [[ $1 == @(-h|--help) ]]; then
   sed -n '1d; /^#/!q; s/^# \{0,1\}//p' "$0"
   printf '\n%-21s %-7s %-12s %s\n' NAME TAKES NEEDS ""

@@ -19,7 +19,7 @@ struct Disturbance {
   PairChange apply;
 };
 
-/// "none", and the sixteen that docs/stress.md shows.
+/// "none", and sixteen for a quick look.
 std::vector<Disturbance> MakeDisturbances();
 /// 45 others: the same in other strengths, and further kinds.
 std::vector<Disturbance> MakeMoreDisturbances();

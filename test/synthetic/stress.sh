@@ -1,13 +1,9 @@
 #!/usr/bin/env bash
 # Spoils the pictures of recordings and of a rendered drive (test/synthetic/disturbances.cpp) and writes what the odometry
 # makes of them to docs/stress.md.
-# Usage: scripts/measure.sh stress [--all] [KITTI_FOLDER ...]
+# Usage: scripts/measure.sh stress [KITTI_FOLDER ...]
 #        default folders: those of ../shared/data that are there, the hand-held walk too
-#        --all   61 disturbances instead of 16, to docs/stress_all.md, and how long it took
 set -euo pipefail
-all=()
-page=stress
-if [[ ${1-} == --all ]]; then all=(--all) page=stress_all; shift; fi
 . test/kitti_folders.sh stress "$@"
 walk=${ARFM_VO_SHARED:-../shared}/data/handheld/boofcv_backyard
 if [ $# -eq 0 ] && [ -d "$walk" ]; then folders+=("$walk"); fi
@@ -18,11 +14,12 @@ trap 'rm -rf "$work"' EXIT
 "$programs/render_sequence" "$work/rendered_curve" --path curve --pairs 60 > "$work/log" 2>&1 ||
   { cat "$work/log" >&2; exit 1; }
 folders+=("$work/rendered_curve")
+: > "$work/wrong"
 
 {
   for folder in "${folders[@]}"; do
     name=$(basename "$folder")
-    "$programs/stress_odometry" "$folder" "${all[@]}" > "$work/lines"
+    "$programs/stress_odometry" "$folder" --all > "$work/lines"
     echo "## $name"
     echo
     echo "| disturbance | live | after | tracked | degraded | lost | wrong | largest |"
@@ -33,26 +30,20 @@ folders+=("$work/rendered_curve")
     echo
   done
 } > "$work/stress"
-if [ $page = stress_all ]; then
-  last=wrong
-  {
-    echo "| sequence | disturbance | wrong | largest |"
-    echo "|---|---|---|---|"
-    cat "$work/wrong"
-    echo
-    echo "It took $SECONDS s."
-  } > "$work/last"
-else
-  last=relocalisation
-  "$programs/render_sequence" "$work/turn" --path wide_turn > "$work/log" 2>&1
-  {
-    echo "| shared view at least | tries | found by the first pair | wrong |"
-    echo "|---|---|---|---|"
-    for share in 0.5 0.25 0.1; do
-      "$programs/relocalise" "$work/turn" --min-share $share |
-        awk -F': ' -v share=$share '{v[$1] = $2} END {printf "| %s | %d | %d | %d |\n", share, v["tries"], v["found"], v["wrong"]}'
-    done
-  } > "$work/last"
-fi
-test/readme_section.py docs/$page.md stress < "$work/stress"
-test/readme_section.py docs/$page.md $last < "$work/last"
+{
+  echo "| sequence | disturbance | wrong | largest |"
+  echo "|---|---|---|---|"
+  cat "$work/wrong"
+} > "$work/all_wrong"
+"$programs/render_sequence" "$work/turn" --path wide_turn > "$work/log" 2>&1
+{
+  echo "| shared view at least | tries | found by the first pair | wrong |"
+  echo "|---|---|---|---|"
+  for share in 0.5 0.25 0.1; do
+    "$programs/relocalise" "$work/turn" --min-share $share |
+      awk -F': ' -v share=$share '{v[$1] = $2} END {printf "| %s | %d | %d | %d |\n", share, v["tries"], v["found"], v["wrong"]}'
+  done
+} > "$work/relocalisation"
+test/readme_section.py docs/stress.md stress < "$work/stress"
+test/readme_section.py docs/stress.md wrong < "$work/all_wrong"
+test/readme_section.py docs/stress.md relocalisation < "$work/relocalisation"
