@@ -11,7 +11,7 @@ import re
 import sys
 
 MAX_LINES = {".cpp": 250, ".inl": 250, ".py": 250, ".sh": 250, ".h": 120}
-MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 6096
+MAX_FUNCTION_LINES, MAX_FILES, MAX_BUILD_LINES, MAX_SCRIPT_LINES = 60, 25, 150, 6088
 FOLDERS = ("cmake", "config", "docs", "include", "launch", "msg", "nodes", "scripts", "src", "test", "urdf")
 LARGER = {
     "docs": 32, "include/arfm_vo/odometry": 30, "src/odometry": 35, "test/nodes": 33, "test/recordings": 26,
